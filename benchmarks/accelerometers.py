@@ -164,14 +164,14 @@ def moved(machine: Machine) -> Array:
 
 def recorded(machine: Machine, seed: int) -> tuple[Any, Array]:
     """Return the observation of a machine, and its true states (samples, 3)."""
-    from lostmotion.likelihood.observation import Observation, windowed
+    from lostmotion.likelihood.observation import Observation, window_force
 
     rng = np.random.default_rng([seed, machine.number, 1])
     states = moved(machine)
     t = np.arange(machine.samples) * machine.dt
     force = machine.force(t) + EXCITATION_NOISE * machine.peak * rng.standard_normal(len(t))
     shown = states[:, 2] + machine.noise * states[:, 2].std() * rng.standard_normal(len(t))
-    return Observation.of("recording", shown, windowed(force)[:, None], machine.dt, "acceleration"), states
+    return Observation.of("recording", shown, window_force(force)[:, None], machine.dt, "acceleration"), states
 
 
 def case_of(machine: Machine) -> Any:
@@ -185,7 +185,7 @@ def case_of(machine: Machine) -> Any:
 
 def one(seed: int, number: int) -> dict[str, Any]:
     """Return what a diagnosis says of a machine, beside the truth."""
-    from lostmotion.diagnosis.findings import draws_of, intervals
+    from lostmotion.diagnosis.findings import compute_intervals, draw_parameters
     from lostmotion.diagnosis.search import diagnose
     from lostmotion.likelihood.system import System
     from lostmotion.preparation.candidates import candidates_of
@@ -198,7 +198,7 @@ def one(seed: int, number: int) -> dict[str, Any]:
     system = System(model, candidates_of(model, [registry.load("term", n) for n in registry.names("term")]))
     begin = time.perf_counter()
     d = diagnose(case_of(machine), [observation], system, rng=np.random.default_rng(0), jobs=1)
-    known = intervals(d.after, draws_of(d.after, np.random.default_rng(1)))
+    known = compute_intervals(d.after, draw_parameters(d.after, np.random.default_rng(1)))
     seconds = time.perf_counter() - begin
     return {
         "number": machine.number,
@@ -221,11 +221,11 @@ def _stiffest(machine: Machine) -> float:
 
 def _more(d: Any, machine: Machine, states: Array, observation: Any) -> dict[str, Any]:
     """Return levels of noise over their truths, and how often the band of the position holds the true one."""
-    from lostmotion.inference.unseen import place_of_body
+    from lostmotion.inference.unseen import smooth_body_position
 
     problem, theta = d.after.problem, d.after.theta
     process, white = problem.noise(theta)
-    place = place_of_body(d.after, d.shown)
+    place = smooth_body_position(d.after, d.shown)
     true, highest = EXCITATION_NOISE * machine.peak, float(np.abs(states[:, 0]).max())
     return {
         "random_over_true": math.sqrt(process / machine.dt) / true,

@@ -21,10 +21,10 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from lostmotion.case import CaseFile, Prior
-from lostmotion.diagnosis.experiment import news, propose
-from lostmotion.inference.candidates import fit_with, screen, slopes_of
+from lostmotion.diagnosis.experiment import compute_bayes_factor, propose
+from lostmotion.inference.candidates import compute_slopes, fit_term, run_score_test
 from lostmotion.inference.fit import maximise
-from lostmotion.inference.setup import problem_of, search
+from lostmotion.inference.setup import make_problem, search_maximum
 from lostmotion.likelihood.drive import DriveHarmonic
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System, key_of
@@ -138,11 +138,12 @@ def fitted(machine, observation):
     registry = Registry.discover()
     terms = tuple(registry.make("term", name) for name in (machine.truth, machine.other))
     case = CaseFile(machine.name, Path(), (), machine.model, machine.known, machine.estimate, {}, (), "")
-    nominal = search(
-        problem_of(System(registry.make("model", machine.model), terms), case, (observation,)), np.random.default_rng(0)
+    nominal = search_maximum(
+        make_problem(System(registry.make("model", machine.model), terms), case, (observation,)),
+        np.random.default_rng(0),
     )
-    slopes = slopes_of(nominal)
-    fits = [fit_with(nominal, screen(nominal, slopes, key_of(term))) for term in terms]
+    slopes = compute_slopes(nominal)
+    fits = [fit_term(nominal, run_score_test(nominal, slopes, key_of(term))) for term in terms]
     # A fit with one term may show the other where to begin.
     return [maximise(f.problem, f.theta) for f in fits]
 
@@ -159,8 +160,8 @@ def studied(machine, draws=3, seed=0):
         return {"name": machine.name, "at_hand": truth.log_evidence - other.log_evidence, "seconds": taken}
     e = proposal.excitation
     asked = CubicSpline(np.arange(len(e.inputs)), e.inputs[:, 0])(np.arange(min(len(inputs), len(e.inputs))))
-    new = [news(truth, other, recorded(machine, asked, rng)) for _ in range(draws)]
-    again = [news(truth, other, recorded(machine, inputs, rng)) for _ in range(draws)]
+    new = [compute_bayes_factor(truth, other, recorded(machine, asked, rng)) for _ in range(draws)]
+    again = [compute_bayes_factor(truth, other, recorded(machine, inputs, rng)) for _ in range(draws)]
     band = " to ".join(f"{f:.3g}" for f in sorted(set(e.band)))
     return {
         "name": machine.name,

@@ -19,7 +19,7 @@ from lostmotion.analysis.source import WantedChannel, load_source
 from lostmotion.case import Channel, RecordingSpec, dump_case, load_case
 from lostmotion.errors import LostMotionError
 from lostmotion.identification import checkpoint as _keep
-from lostmotion.inference.setup import known_of
+from lostmotion.inference.setup import make_known
 from lostmotion.likelihood.system import System
 from lostmotion.maps import store
 from lostmotion.preparation.prepare import prepare
@@ -180,7 +180,7 @@ def case(seeds, rng, folder, write_only):
         return
     load_case(folder / "case.toml")
     ready = prepare(folder / "case.toml", default())
-    known_of(System(ready.model, ready.terms), ready.case)
+    make_known(System(ready.model, ready.terms), ready.case)
     load_source(folder / "case.toml", WantedChannel(), default())
 
 

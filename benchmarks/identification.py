@@ -23,7 +23,7 @@ import numpy as np
 
 from lostmotion.identification.sampling import SampledPosterior, SamplingPlan, identify, make_task
 from lostmotion.inference.fit import Fit, maximise
-from lostmotion.inference.setup import modes, polished, problem_of, stepped
+from lostmotion.inference.setup import choose_steps, find_modes, make_problem, polish_modes
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import RANDOM, Problem
 from lostmotion.likelihood.reference import Reference
@@ -52,7 +52,7 @@ def measured(machine: Machine, periods: int, seed: int, excitation: float) -> tu
 
 def posed(observation: Observation, jobs: int = 2) -> Problem:
     """Return the problem of c, x0 and both noise levels, started at the truth."""
-    problem = problem_of(System(system_of().model, ()), case_of(("c", "x0")), (observation,), jobs=jobs)
+    problem = make_problem(System(system_of().model, ()), case_of(("c", "x0")), (observation,), jobs=jobs)
     start = {"c": math.log(TRUE["c"]), "x0": math.log(TRUE["x0"])}
     frees = tuple(replace(f, start=start.get(f.key, f.start)) for f in problem.free)
     return replace(problem, free=frees)
@@ -60,7 +60,7 @@ def posed(observation: Observation, jobs: int = 2) -> Problem:
 
 def fitted(problem: Problem) -> Fit:
     """Return the maximum near the truth with steps finer than those of identify, so that these are not measured."""
-    return maximise(stepped(problem, maximise(problem).theta, accuracy=FINEST))
+    return maximise(choose_steps(problem, maximise(problem).theta, accuracy=FINEST))
 
 
 def sharpness(draws: float) -> None:
@@ -102,7 +102,7 @@ def speed(samples: int) -> None:
     problem = posed(observation)
     problem.innovations(problem.start)
     begin = time.perf_counter()
-    fits = polished(modes(problem, np.random.default_rng(0)))
+    fits = polish_modes(find_modes(problem, np.random.default_rng(0)))
     searched = time.perf_counter() - begin
     problem = fits[0].problem
     theta = fits[0].theta
@@ -180,7 +180,7 @@ class Counted:
 def peers(samples: int, only: str) -> None:
     """Print effective draws a run and a second of our sampler and of others, on one posterior about one maximum."""
     _, observation = measured(Machine(), round(samples / PER_PERIOD), 1, 1e-3)
-    fits = polished([fitted(posed(observation))])
+    fits = polish_modes([fitted(posed(observation))])
     truth: Any = None
     print(f"{'':<34}{'runs':>9}{'s':>9}{'effective':>11}{'a run':>9}{'a second':>10}   mean of log x0, deviation")
     for name, call in _samplers(fits):

@@ -21,7 +21,7 @@ from pathlib import Path
 
 import numpy as np
 
-from lostmotion_trials.blind.commitment import Blind, concealed, label
+from lostmotion_trials.blind.commitment import Blind, conceal_case, format_case_name
 
 EVERY, SEED = 20, 5
 BREAKS = ("truncated", "unit", "nan", "column")
@@ -58,10 +58,10 @@ def how_broken(number):
 
 def recorded(number, folder):
     """Return the path of a case, after writing it and its recording, broken if its number says so."""
-    place = folder / "cases" / label(number)
+    place = folder / "cases" / format_case_name(number)
     if not (place / "done").exists():
         only, clean = ((), True) if number % 3 == 0 else (HIDDEN, False)
-        concealed(Blind(SEED, 300 + 37 * number % 201, only, clean), folder, number)
+        conceal_case(Blind(SEED, 300 + 37 * number % 201, only, clean), folder, number)
         broken(place, how_broken(number))
         (place / "done").touch()
     return place / "case.toml"

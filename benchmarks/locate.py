@@ -35,12 +35,12 @@ from typing import Any
 import numpy as np
 from scipy.stats import beta
 
-from lostmotion.diagnosis.search import locate, plays_of
+from lostmotion.diagnosis.search import list_half_gaps, locate
 from lostmotion.errors import DataError
-from lostmotion.inference.candidates import screen, slopes_of
-from lostmotion.inference.odds import Ratio, likely, log_odds
-from lostmotion.inference.setup import problem_of, search, stepped
-from lostmotion.likelihood.latent import missing_force
+from lostmotion.inference.candidates import compute_slopes, run_score_test
+from lostmotion.inference.odds import LikelihoodRatio, compute_log_ratios, list_likely
+from lostmotion.inference.setup import choose_steps, make_problem, search_maximum
+from lostmotion.likelihood.latent import smooth_latent_force
 from lostmotion.likelihood.system import System, key_of
 from lostmotion.preparation.prepare import Prepared, prepare
 from lostmotion.registry import default
@@ -148,13 +148,13 @@ def one(kind: str, seed: int, number: int) -> Row:
     names = [key for key in names if effect and effect.at in ("", key.partition("@")[2] or "ground")]
     system = System(made.model, tuple(t for t in made.terms if key_of(t) in names))
     begin = time.perf_counter()
-    fit = search(problem_of(system, made.case, made.observations, jobs=1), np.random.default_rng(0))
+    fit = search_maximum(make_problem(system, made.case, made.observations, jobs=1), np.random.default_rng(0))
     fitted = time.perf_counter()
-    honest = stepped(fit.problem, fit.theta)
-    missing, plays = missing_force(honest, fit.theta), plays_of(honest, fit.theta)
+    honest = choose_steps(fit.problem, fit.theta)
+    missing, plays = smooth_latent_force(honest, fit.theta), list_half_gaps(honest, fit.theta)
     located = locate(made.model, made.observations[0], missing, plays=plays, rng=np.random.default_rng([seed, number]))
     shared = time.perf_counter()
-    odds = log_odds(fit)
+    odds = compute_log_ratios(fit)
     done = time.perf_counter()
     return {
         "kind": kind,
@@ -164,7 +164,7 @@ def one(kind: str, seed: int, number: int) -> Row:
         "samples": rig.samples,
         "hidden": (effect.what or effect.mechanism) if effect else None,
         "at": effect.at if effect else None,
-        "gain": screen(fit, slopes_of(fit), system.keys[0]).gain if system.keys else None,
+        "gain": run_score_test(fit, compute_slopes(fit), system.keys[0]).gain if system.keys else None,
         "status": fit.status,
         "shares": {k: [s.value, s.error, s.p, s.excess] for k, s in located.explained.items()},
         "odds": odds,
@@ -178,8 +178,8 @@ def ranked(row: Row, test: str) -> list[str]:
         told = {k: s for k, s in row["shares"].items() if s[2] <= DEFAULT.locate.level and s[0] > 0.0}
         return sorted(told, key=lambda k: -told[k][0])
     if test == "odds":
-        return likely({k: Ratio(*told) for k, told in row["odds"].items()})
-    return likely({k: Ratio(told[0], told[0]) for k, told in row["odds"].items()})
+        return list_likely({k: LikelihoodRatio(*told) for k, told in row["odds"].items()})
+    return list_likely({k: LikelihoodRatio(told[0], told[0]) for k, told in row["odds"].items()})
 
 
 def judged(row: Row, test: str) -> dict[str, bool]:

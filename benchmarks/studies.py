@@ -58,15 +58,15 @@ def run(study):
 def findings(d):
     """Return names, intervals, gains and statuses of a diagnosis."""
     from lostmotion.codec import to_plain
-    from lostmotion.diagnosis.findings import draws_of, intervals
+    from lostmotion.diagnosis.findings import compute_intervals, draw_parameters
 
     rng = np.random.default_rng(1)
     course = d.selection
     bottom = course.nominal
-    gains = {"+".join(sorted(k)): v.fit.log_likelihood - bottom.log_likelihood for k, v in course.visits.items()}
+    gains = {"+".join(sorted(k)): v.fit.log_likelihood - bottom.log_likelihood for k, v in course.fitted_sets.items()}
     friction = d.after if FRICTION in d.found else None
-    if frozenset({FRICTION}) in course.visits and friction is None:
-        friction = course.visits[frozenset({FRICTION})].fit
+    if frozenset({FRICTION}) in course.fitted_sets and friction is None:
+        friction = course.fitted_sets[frozenset({FRICTION})].fit
     wide = {"before": d.before, "after": d.after, **({"friction": friction} if friction else {})}
     return {
         "found": list(d.found),
@@ -74,27 +74,33 @@ def findings(d):
         "nothing": course.probabilities().get(frozenset(), 0.0),
         "gains": gains,
         "hints": {h.key: h.gain for h in sorted(course.hints, key=lambda h: h.gain)},
-        "evidence": {"+".join(sorted(k)): v.weight for k, v in course.visits.items()},
-        "status": {"+".join(sorted(k)): f"{v.fit.status} {v.fit.rounds}" for k, v in course.visits.items()},
+        "evidence": {"+".join(sorted(k)): v.weight for k, v in course.fitted_sets.items()},
+        "status": {"+".join(sorted(k)): f"{v.fit.status} {v.fit.rounds}" for k, v in course.fitted_sets.items()},
         "declined": sorted(course.declined),
         "random_gain": d.random_gain,
         "verdict": [*d.named, *["unknown"] * d.unknown] or ["random_force"] * d.unexplained,
         "levels": {n: dict(zip(f.problem.keys, map(float, f.theta), strict=True)) for n, f in wide.items()},
         "usual": {n: {k: float(s) for k, s in f.sd.items()} for n, f in wide.items()},
-        "intervals": {n: to_plain(intervals(f, draws_of(f, rng))) for n, f in wide.items()},
+        "intervals": {n: to_plain(compute_intervals(f, draw_parameters(f, rng))) for n, f in wide.items()},
         "nsub": [d.before.problem.nsub, d.after.problem.nsub],
     }
 
 
 def predictions(d, observation, hidden):
     """Return valid-prediction times on held-out starts, in Lyapunov times: before, after, and with the truth."""
-    from lostmotion.diagnosis.compare import exponent_of, horizon_for, pieces_of, predict, rates_of
+    from lostmotion.diagnosis.compare import (
+        average_exponent,
+        choose_heldout_horizon,
+        compute_rates,
+        cut_heldout,
+        predict,
+    )
 
-    pieces = pieces_of([observation], d.held)
+    pieces = cut_heldout([observation], d.held)
     fits = {"before": d.before, "after": d.after, "truth": truth_of(d, hidden)}
-    rates = {name: rates_of(fit, [observation]) for name, fit in fits.items()}
-    exponents = {name: exponent_of(found) for name, found in rates.items()}
-    horizon = horizon_for(d.after, pieces, exponents["after"])
+    rates = {name: compute_rates(fit, [observation]) for name, fit in fits.items()}
+    exponents = {name: average_exponent(found) for name, found in rates.items()}
+    horizon = choose_heldout_horizon(d.after, pieces, exponents["after"])
     seen = {name: predict(fit, pieces, horizon, rates[name]) for name, fit in fits.items()}
     return {
         "exponents": exponents,

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
-from lostmotion.flow import flow_of, stepped
+from lostmotion.flow import flow_of, make_stepped_flow
 from lostmotion.likelihood.system import System
 from lostmotion_plugins.models.lin import LinBacklash
 from lostmotion_plugins.quantifiers.flows import LyapunovMax
@@ -26,7 +26,7 @@ AFTER_8 = 0.0093999563898351222999
 """Position after 8 periods, in 40-digit arithmetic (see tests/science/test_exact.py)."""
 WHOLE = 10_000
 EXACT = flow_of(LinBacklash(), CASE_1, drive=DRIVE, start=START)
-GENERAL = stepped(System.of(LinBacklash()), CASE_1, drive=DRIVE, start=START)
+GENERAL = make_stepped_flow(System.of(LinBacklash()), CASE_1, drive=DRIVE, start=START)
 
 Followed = Callable[[int], NDArray[np.float64]]
 

@@ -1,4 +1,4 @@
-"""Directives that write what the registry and the command line say of themselves, so that no page is behind."""
+"""Directives that list plugins, commands and settings from the code, so that the pages are always up to date."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def setup(app: Sphinx) -> dict[str, bool]:
 
 
 class Plugins(SphinxDirective):
-    """Everything that `lostmotion plugins` lists of one kind, with what each says of itself."""
+    """All built-in plugins of one kind, with their documentation, attributes and parameters."""
 
     required_arguments = 1
     option_spec: ClassVar[Any] = {}
@@ -45,18 +45,18 @@ class Plugins(SphinxDirective):
         cls = default().load(entry.kind, entry.name)
         section = nodes.section(ids=[nodes.make_id(f"{entry.kind}-{entry.name}")], names=[entry.name])
         section += nodes.title("", "", nodes.literal("", entry.name))
-        section += nodes.paragraph("", "", *worded(" ".join((cls.__doc__ or "").split())))
-        section += nodes.field_list("", *(field(*pair) for pair in said(cls)))
+        section += nodes.paragraph("", "", *format_code(" ".join((cls.__doc__ or "").split())))
+        section += nodes.field_list("", *(make_field(*pair) for pair in list_attributes(cls)))
         if params := getattr(cls, "params", ()):
-            section += parameters(cls, params)
+            section += make_parameter_table(cls, params)
         if groups := getattr(cls, "groups", ()):
             rows = [(g.name, g.meaning, g.formula) for g in groups]
-            section += table(("number", "meaning", "formula"), rows)
+            section += make_table(("number", "meaning", "formula"), rows)
         return section
 
 
-def said(cls: Any) -> Iterator[tuple[str, str]]:
-    """Yield what a class says of itself, as pairs of word and text."""
+def list_attributes(cls: Any) -> Iterator[tuple[str, str]]:
+    """Yield the descriptive attributes of a class, as pairs of word and text."""
     for word in ("formula", "null", "unit", "reads", "paper"):
         if isinstance(text := getattr(cls, word, None), str):
             yield {"null": "null hypothesis", "reads": "reads a"}.get(word, word), text
@@ -69,31 +69,31 @@ def said(cls: Any) -> Iterator[tuple[str, str]]:
         yield "places", ", ".join(place.name for place in places)
 
 
-def field(word: str, text: str) -> nodes.field:
-    """Return a word with what is said of it; formulas and names in the type of code."""
+def make_field(word: str, text: str) -> nodes.field:
+    """Return a field of a list; formulas and names are set as code."""
     plain = word in ("paper", "null hypothesis")
     body = nodes.paragraph("", "", nodes.Text(text) if plain else nodes.literal("", text))
     return nodes.field("", nodes.field_name("", word), nodes.field_body("", body))
 
 
-def worded(text: str) -> Iterator[nodes.Node]:
-    """Yield the pieces of a text, what stands between backticks in the type of code."""
+def format_code(text: str) -> Iterator[nodes.Node]:
+    """Yield the pieces of a text; text between backticks is set as code."""
     for i, piece in enumerate(text.split("`")):
         yield nodes.literal("", piece) if i % 2 else nodes.Text(piece)
 
 
-def parameters(cls: Any, params: Any) -> nodes.table:
+def make_parameter_table(cls: Any, params: Any) -> nodes.table:
     """Return the table of the parameters of a model or a term; models have no null."""
     motion = getattr(cls, "motion", None) or getattr(cls, "motions", ("translation",))[0]
-    rows = [(q.name, q.meaning, q.dimension.unit(motion), bounds(q)) for q in params]
+    rows = [(q.name, q.meaning, q.dimension.unit(motion), format_bounds(q)) for q in params]
     heads = ("parameter", "meaning", "unit", "bounds")
     if all(q.null is None for q in params):
-        return table(heads, rows)
+        return make_table(heads, rows)
     nulls = ("" if q.null is None else f"{q.null:g}" for q in params)
-    return table((*heads, "null"), [(*row, null) for row, null in zip(rows, nulls, strict=True)])
+    return make_table((*heads, "null"), [(*row, null) for row, null in zip(rows, nulls, strict=True)])
 
 
-def bounds(q: Any) -> str:
+def format_bounds(q: Any) -> str:
     """Return the physical bounds of a parameter in words, none where there are none."""
     low, high = (f"{x:g}" if abs(x) < float("inf") else "" for x in (q.low, q.high))
     if low and high:
@@ -101,26 +101,29 @@ def bounds(q: Any) -> str:
     return f"from {low}" if low else f"to {high}" if high else ""
 
 
-def table(heads: tuple[str, ...], rows: list[tuple[str, ...]]) -> nodes.table:
-    """Return a table; its first column is in the type of code."""
+def make_table(heads: tuple[str, ...], rows: list[tuple[str, ...]]) -> nodes.table:
+    """Return a table; its first column is set as code."""
     group = nodes.tgroup(cols=len(heads))
     group += [nodes.colspec(colwidth=1) for _ in heads]
-    group += nodes.thead("", nodes.row("", *(cell(nodes.Text(head)) for head in heads)))
-    lines = [nodes.row("", cell(nodes.literal("", row[0])), *(cell(*worded(x)) for x in row[1:])) for row in rows]
+    group += nodes.thead("", nodes.row("", *(make_cell(nodes.Text(head)) for head in heads)))
+    lines = [
+        nodes.row("", make_cell(nodes.literal("", row[0])), *(make_cell(*format_code(x)) for x in row[1:]))
+        for row in rows
+    ]
     group += nodes.tbody("", *lines)
     return nodes.table("", group, classes=["narrow"])
 
 
-def cell(*content: nodes.Node) -> nodes.entry:
+def make_cell(*content: nodes.Node) -> nodes.entry:
     """Return one cell."""
     return nodes.entry("", nodes.paragraph("", "", *content))
 
 
-class Written(SphinxDirective):
-    """Lines of reStructuredText that `lines` yields, parsed where the directive stands."""
+class GeneratedLines(SphinxDirective):
+    """Lines of reStructuredText that `lines` yields, parsed at the place of the directive."""
 
     def run(self) -> list[nodes.Node]:
-        """Return what the lines become."""
+        """Return the nodes of the parsed lines."""
         holder = nodes.section()
         self.state.nested_parse(StringList(list(self.lines()), source=self.name), self.content_offset, holder, True)
         return list(holder.children)
@@ -130,8 +133,8 @@ class Written(SphinxDirective):
         raise NotImplementedError
 
 
-class Commands(Written):
-    """Every command of `lostmotion`, by sphinx-click: a command that is added shows up here by itself."""
+class Commands(GeneratedLines):
+    """Every command of `lostmotion`, by sphinx-click; a new command is listed automatically."""
 
     def lines(self) -> Iterator[str]:
         """Yield a directive for each command."""
@@ -141,8 +144,8 @@ class Commands(Written):
             yield from ("", f".. click:: {target}", f"   :prog: lostmotion {name}", f"   :nested: {nested}", "")
 
 
-class Doors(Written):
-    """The functions that `import lostmotion` offers by name, from its own list; its classes have sections."""
+class Doors(GeneratedLines):
+    """The functions in `lostmotion.__all__`; the classes have sections of their own."""
 
     def lines(self) -> Iterator[str]:
         """Yield a directive for each name."""
@@ -152,7 +155,7 @@ class Doors(Written):
 
 
 class Thresholds(SphinxDirective):
-    """The thresholds that decide, one table for each stage, from the settings themselves."""
+    """The thresholds of the settings, one table for each stage."""
 
     def run(self) -> list[nodes.Node]:
         """Return a section for each stage."""
@@ -161,36 +164,36 @@ class Thresholds(SphinxDirective):
             about = inspect.getdoc(type(getattr(DEFAULT, stage.name))) or ""
             section = nodes.section(ids=[f"settings-{stage.name}"], names=[stage.name])
             section += nodes.title("", "", nodes.literal("", stage.name))
-            section += nodes.paragraph("", "", *worded(about))
+            section += nodes.paragraph("", "", *format_code(about))
             own = [one for one in DEFAULT if one.key.startswith(f"{stage.name}.")]
             rows = [(one.key, f"{one.value:.4g}", " ".join(filter(None, (one.why, one.source)))) for one in own]
-            section += table(("setting", "value", "why"), rows)
+            section += make_table(("setting", "value", "why"), rows)
             made.append(section)
         return made
 
 
 class Statuses(SphinxDirective):
-    """What may be wrong with a number, by the vocabulary of `status`."""
+    """The values of `status` with their meanings."""
 
     def run(self) -> list[nodes.Node]:
         """Return a table."""
-        return [table(("status", "meaning"), list(STATUSES.items()))]
+        return [make_table(("status", "meaning"), list(STATUSES.items()))]
 
 
 class Mechanisms(SphinxDirective):
-    """The names of all terms, with the sentence of a diagnosis."""
+    """The names of all terms, with the sentences that a diagnosis uses."""
 
     def run(self) -> list[nodes.Node]:
         """Return a table."""
         names = [e.name for e in default().entries() if e.kind == "term" and e.owner == "lostmotion"]
-        return [table(("mechanism", "what is said"), [(n, default().load("term", n).physics) for n in names])]
+        return [make_table(("mechanism", "what is said"), [(n, default().load("term", n).physics) for n in names])]
 
 
 class Rules(SphinxDirective):
-    """The rules of the conformance kit, for each kind, with the advice that stands in their docstrings."""
+    """The rules of the conformance kit, for each kind, with the advice in their docstrings."""
 
     def run(self) -> list[nodes.Node]:
         """Return a table: rule, kinds, advice."""
         rules = {rule.name: rule for kind in KINDS for rule in rules_for(kind)}
         rows = [(r.name, "all" if len(r.kinds) == len(KINDS) else ", ".join(r.kinds), r.advice) for r in rules.values()]
-        return [table(("rule", "of", "what to do where it is broken"), rows)]
+        return [make_table(("rule", "of", "what to do where it is broken"), rows)]

@@ -1,6 +1,6 @@
-"""Pictures that the build draws: `{picture} NAME` runs `_pictures/NAME.py` and shows its figure within the page.
+"""Pictures that are drawn by the build: `{picture} NAME` runs `_pictures/NAME.py` and shows its figure in the page.
 
-What a script says with `print` becomes the last sentence of the caption: so numbers of a picture are those of the run.
+The printed output of a script is appended to the caption, so that the numbers are those of the run.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class Picture(SphinxDirective):
         """Return a figure as HTML, the picture within it."""
         name = self.arguments[0]
         self.env.note_dependency(str(FOLDER / f"{name}.py"))
-        data, said = drawn(name)
+        data, said = draw_picture(name)
         caption = " ".join([*self.content, *said.split("\n")]).strip()
         alt = html.escape(self.options.get("alt", caption), quote=True)
         image = f'<img alt="{alt}" src="data:image/png;base64,{data}">'
@@ -52,7 +52,7 @@ class Picture(SphinxDirective):
 
 
 @lru_cache
-def drawn(name: str) -> tuple[str, str]:
+def draw_picture(name: str) -> tuple[str, str]:
     """Return a picture (PNG, base64) and what its script printed."""
     told = io.StringIO()
     with contextlib.redirect_stdout(told), mpl.rc_context({"font.size": 9, "axes.spines.top": False,

@@ -1,4 +1,4 @@
-"""The directive `keys`: what each key of a file of results means, from the class that is written to it."""
+"""The directive `keys`: the meaning of each key of a result file, from the class that is written to it."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from itertools import groupby
 from typing import Any, ClassVar
 
 from docutils import nodes
-from listings import table, worded
+from listings import format_code, make_table
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
@@ -33,28 +33,31 @@ class Keys(SphinxDirective):
     def run(self) -> list[nodes.Node]:
         """Return a table of the keys that stand alone, and a section with a table for each that holds others."""
         module, _, name = self.arguments[0].rpartition(".")
-        groups = [list(group) for _, group in groupby(brief(schema(getattr(import_module(module), name))), first_part)]
+        groups = [
+            list(group)
+            for _, group in groupby(drop_repeated(schema(getattr(import_module(module), name))), get_first_part)
+        ]
         alone = [group[0] for group in groups if len(group) == 1]
-        return [table(HEADS, alone), *(section(name, *group) for group in groups if len(group) > 1)]
+        return [make_table(HEADS, alone), *(make_section(name, *group) for group in groups if len(group) > 1)]
 
 
-def first_part(entry: SchemaEntry) -> str:
+def get_first_part(entry: SchemaEntry) -> str:
     """Return the first part of a key: `found` of `found[].parameters.NAME.median`."""
     return re.split(r"[.\[]", entry.path)[0]
 
 
-def section(name: str, head: SchemaEntry, *entries: SchemaEntry) -> nodes.section:
+def make_section(name: str, head: SchemaEntry, *entries: SchemaEntry) -> nodes.section:
     """Return the section of a key that holds others."""
-    first = first_part(head)
+    first = get_first_part(head)
     made = nodes.section(ids=[nodes.make_id(f"{name}-{first}")], names=[nodes.fully_normalize_name(f"{name} {first}")])
     made += nodes.title("", "", nodes.literal("", first))
-    made += nodes.paragraph("", "", *worded(f"{head.doc[:1].upper()}{head.doc[1:]} ({head.type})."))
-    made += table(HEADS, entries)
+    made += nodes.paragraph("", "", *format_code(f"{head.doc[:1].upper()}{head.doc[1:]} ({head.type})."))
+    made += make_table(HEADS, entries)
     return made
 
 
-def brief(entries: Iterator[SchemaEntry]) -> Iterator[SchemaEntry]:
-    """Yield entries without the keys of an object that is like an earlier one, and say which one that is."""
+def drop_repeated(entries: Iterator[SchemaEntry]) -> Iterator[SchemaEntry]:
+    """Yield entries without the keys of an object that is equal to an earlier one, and refer to that one."""
     rows, told, hidden = list(entries), {}, None
     for row in rows:
         if hidden and row.path.startswith(hidden):

@@ -1,4 +1,4 @@
-"""Why a filter: errors of a free run over the gap, and the likelihood of one-step errors over the same gap."""
+"""Comparison of two measures of fit over the gap: the error of a free run, and the likelihood of one-step errors."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 
-from lostmotion.inference.setup import problem_of, stepped
-from lostmotion.likelihood.predict import filtered, free_run, observed
+from lostmotion.inference.setup import choose_steps, make_problem
+from lostmotion.likelihood.predict import filter_recording, observe_states, simulate_run
 from lostmotion.likelihood.problem import NOISE
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.prepare import prepare
@@ -37,7 +37,7 @@ GAPS = np.linspace(4.5e-3, 5.5e-3, 201)
 
 def draw():
     """Return the figure: the gap that is tried over both measures of fit."""
-    free, likelihood = measures()
+    free, likelihood = compute_measures()
     figure, axes = plt.subplots(1, 2, figsize=(7.2, 2.6))
     axes[0].plot(1e3 * GAPS, free, color="#d55e00", lw=0.9)
     axes[0].set(xlabel="gap tried, x0 (mm)", ylabel="error of a free run\n(share of the response)")
@@ -45,11 +45,11 @@ def draw():
     axes[1].set(xlabel="gap tried, x0 (mm)", ylabel="log-likelihood of\none-step errors")
     for axis in axes:
         axis.axvline(1e3 * TRUTH["x0"], color="0.6", lw=0.8, zorder=0)
-    print(f"Left: {hollows(free)} minima. Right: {hollows(-likelihood)}.")
+    print(f"Left: {count_minima(free)} minima. Right: {count_minima(-likelihood)}.")
     return figure
 
 
-def measures():
+def compute_measures():
     """Return the error of a free run, a share of the response, and the log-likelihood, each over `GAPS`."""
     registry = default()
     assembly, _ = assembly_of(registry, "lin_backlash", [])
@@ -59,8 +59,8 @@ def measures():
         simulate(plan).save(Path(folder) / "recording.csv")
         (Path(folder) / "case.toml").write_text(CASE, encoding="utf-8")
         prepared = prepare(Path(folder) / "case.toml", registry)
-    problem = problem_of(System(prepared.model, ()), prepared.case, prepared.observations)
-    problem = stepped(problem, problem.start)
+    problem = make_problem(System(prepared.model, ()), prepared.case, prepared.observations)
+    problem = choose_steps(problem, problem.start)
     observation = prepared.observations[0]
     theta = problem.start.copy()
     gap, noise = problem.keys.index("x0"), problem.keys.index(NOISE)
@@ -68,16 +68,16 @@ def measures():
     free, likelihood = [], []
     for value in np.log(GAPS):
         theta[gap] = value
-        begin = filtered(problem, theta).states[0]
-        states = free_run(problem, theta, begin, 0, observation.samples)
+        begin = filter_recording(problem, theta).states[0]
+        states = simulate_run(problem, theta, begin, 0, observation.samples)
         free.append(
-            np.sqrt(np.mean((observed(problem, theta, states) - observation.response) ** 2))
+            np.sqrt(np.mean((observe_states(problem, theta, states) - observation.response) ** 2))
             / np.std(observation.response)
         )
         likelihood.append(problem.innovations(theta).log_likelihood)
     return np.array(free), np.array(likelihood)
 
 
-def hollows(curve):
+def count_minima(curve):
     """Return the number of inner minima of a curve."""
     return int(np.sum((curve[1:-1] < curve[:-2]) & (curve[1:-1] < curve[2:])))

@@ -23,12 +23,12 @@ CYCLES = 50
 
 def draw():
     """Return the figure, one panel to each page that simulates."""
-    found = dict(sorted(commands().items()))
+    found = dict(sorted(find_commands().items()))
     rows = -(-len(found) // COLUMNS)
     figure, axes = plt.subplots(rows, COLUMNS, figsize=(7.2, 2.3 * rows), squeeze=False)
     for axis, (name, arguments) in zip(axes.flat, found.items(), strict=False):
-        table = simulated(arguments)
-        part = slice(last_cycles(table["velocity"]), None)
+        table = run_simulation(arguments)
+        part = slice(find_last_cycles(table["velocity"]), None)
         axis.plot(table["position"][part], table["velocity"][part], color="#0072b2", lw=0.4)
         axis.set_title(name, fontsize=9, family="monospace")
         axis.ticklabel_format(scilimits=(-3, 3))
@@ -39,13 +39,13 @@ def draw():
     return figure
 
 
-def commands():
+def find_commands():
     """Return the arguments of the first simulation on each page, by the name of the page."""
     pages = {path.stem: COMMAND.search(path.read_text(encoding="utf-8")) for path in GALLERY.glob("*.md")}
     return {name: shlex.split(found[1].replace("\\\n", " ")) for name, found in pages.items() if found}
 
 
-def simulated(arguments):
+def run_simulation(arguments):
     """Return the table (samples,) with named columns that a command line writes."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "run.csv"
@@ -57,7 +57,7 @@ def simulated(arguments):
         return np.genfromtxt(path, delimiter=",", names=True)
 
 
-def last_cycles(velocity):
+def find_last_cycles(velocity):
     """Return the index at which the last cycles begin, counted by the turns of the motion."""
     turns = np.flatnonzero((velocity[:-1] < 0) & (velocity[1:] >= 0))
     return turns[-CYCLES - 1] if len(turns) > CYCLES else 0

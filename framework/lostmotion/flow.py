@@ -1,16 +1,16 @@
 """A model with its terms under a periodic drive, as a stroboscopic map with tangent vectors.
 
-The state goes by RK4 in fixed steps, the tangent vectors by the same steps differentiated: the derivative of the
-vector field in the direction of a tangent vector is taken at each stage. So the growth of a tangent vector is that of
-the computed motion itself, to about 1e-9, and what is left is the error of RK4: of fourth order where the force is
-smooth, of second at a kink such as a contact. A step with a kink in it is taken again in `FINER` parts. A force that
-is continuous needs no correction of the tangent at a kink (no saltation). One that jumps does: it is not made, and
-the orbit says "jumps".
+The state is integrated by RK4 in fixed steps, the tangent vectors by the same steps differentiated: the directional
+derivative of the vector field along a tangent vector is computed at each stage. So the growth of a tangent vector is
+that of the computed motion itself, to about 1e-9. What remains is the error of RK4: of fourth order where the force is
+smooth, of second order at a kink such as a contact. A step with a kink is repeated in `FINER` parts. A continuous force
+needs no correction of the tangent at a kink (no saltation). A force that jumps does; this correction is not made, and
+the orbit has the status "jumps".
 
-Dry friction of ours is a steep line of width `force * mobility`. Here `LINE` steps resolve it, and finer ones its
-edges, wherefore its tangent is that of the law as it stands: through a reversal of motion it tends to the saltation of
-the jump, and while the body sticks it shrinks by a factor of e every `LINE` steps, where that of a true jump would
-vanish at once.
+Dry friction of the library is a steep line of width `force * mobility`. Here `LINE` steps resolve it, and finer ones
+its edges, so its tangent is that of the law as it is computed: through a reversal of motion it tends to the saltation
+of the jump; during sticking it shrinks by a factor of e every `LINE` steps, where that of an ideal jump would vanish at
+once.
 """
 
 from __future__ import annotations
@@ -24,23 +24,23 @@ import numpy as np
 
 from lostmotion.contracts import Array, Assembly, Flow, Model, Orbit
 from lostmotion.errors import ContractError
-from lostmotion.likelihood.drive import SILENT, DriveHarmonic, widened
-from lostmotion.likelihood.stroboscopic import stroboscopic_map
+from lostmotion.likelihood.drive import SILENT, DriveHarmonic, pad_inputs
+from lostmotion.likelihood.stroboscopic import build_map
 from lostmotion.likelihood.system import System
 
 ACCURACY = 0.04
-"""Step times fastest rate: 157 steps a cycle. Halving it moves the exponents of a smooth flow by less than 1e-5."""
+"""Step times fastest rate: 157 steps a cycle. Halving it changes the exponents of a smooth flow by less than 1e-5."""
 FEWEST, MOST = 64, 50_000
 """Steps in a period."""
 ROUGH = 5.0
-"""How many times too long steps may be, where `MOST` are too few; beyond, the motion is too stiff to be followed."""
+"""Steps may be this many times too long, where `MOST` are too few; beyond this the motion is too stiff."""
 LINE = 8
-"""Steps that a law needs to pass its steep line, in place of the single one of a filter or a simulation. As the steps
-are as many times finer where there is such a law, the line is as wide as an ordinary step lets it be."""
+"""Steps in which a law crosses its steep line, in place of the single one of a filter or a simulation. As the steps are
+as many times finer where there is such a law, the line is as wide as with ordinary steps."""
 FINER = 16
-"""Parts in which a step is taken again that has a kink in it."""
+"""Parts in which a step with a kink is repeated."""
 COARSE, PROBES = 40, 100
-"""Periods that are looked at, and states of them, before the step is chosen."""
+"""Periods that are simulated, and their states at which the fastest rate is computed, before the step is chosen."""
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,7 @@ class Harmonic:
         return 2.0 * math.pi / self.omega
 
     def column(self, name: str) -> Callable[[Array], Array]:
-        """Return the driven input called `name` as a function of time; a base velocity is the slope of the position."""
+        """Return the driven input called `name` as a function of time; a base velocity is that of the position."""
         if name == "base_velocity":
             return lambda t: -self.amplitude * self.omega * np.sin(self.omega * t + self.phase)
         return lambda t: self.amplitude * np.cos(self.omega * t + self.phase)
@@ -71,43 +71,43 @@ def flow_of(
     start: Array | None = None,
     steps: int = 0,
 ) -> Flow:
-    """Return the flow of a machine with all its terms: exact where the model knows its own, else by RK4.
+    """Return the flow of a machine with all its terms: exact where the model has a closed form, else by RK4.
 
     `drive` is amplitude and omega (rad/s) of a harmonic force or base motion, or, for a machine that nothing drives,
-    the time (s) between looks. `steps` in a period asks for RK4 with as many; otherwise 157 fall to the fastest cycle.
+    the time (s) between samples. `steps` is the number of RK4 steps in a period; by default 157 for the fastest cycle.
     """
     system = machine if isinstance(machine, System) else System.of(machine)
-    beat, period = _beat(drive)
-    if not steps and (exact := _exact(system, values, beat or Harmonic(0.0, 2.0 * math.pi / period), start)):
+    beat, period = _read_drive(drive)
+    if not steps and (exact := _make_exact(system, values, beat or Harmonic(0.0, 2.0 * math.pi / period), start)):
         return exact
-    return stepped(system, values, drive=drive, start=start, steps=steps)
+    return make_stepped_flow(system, values, drive=drive, start=start, steps=steps)
 
 
-def _exact(system: System, values: Mapping[str, float], beat: Harmonic, start: Array | None) -> Flow | None:
-    """Return the flow that the model knows in closed form, if it does; a term is more than the model knows."""
+def _make_exact(system: System, values: Mapping[str, float], beat: Harmonic, start: Array | None) -> Flow | None:
+    """Return the closed-form flow of the model, if it has one and no terms are added."""
     if system.terms:
         return None
-    full = dict(zip(system.index, _full(system, values).tolist(), strict=True))
-    return system.model.exact(full, (beat.amplitude, beat.omega, beat.phase), _begun(system, start))
+    full = dict(zip(system.index, _make_parameters(system, values).tolist(), strict=True))
+    return system.model.exact(full, (beat.amplitude, beat.omega, beat.phase), _make_start(system, start))
 
 
-def stepped(
+def make_stepped_flow(
     system: System,
     values: Mapping[str, float],
     *,
     drive: Harmonic | tuple[float, float] | float,
     start: Array | None = None,
     steps: int = 0,
-) -> Stepped:
+) -> SteppedFlow:
     """Return the flow by RK4, with arguments as in `flow_of`."""
-    beat, period = _beat(drive)
-    full, begin = _full(system, values), _begun(system, start)
-    raw = Stepped(system, full, beat, period, begin, steps or FEWEST, np.full(len(begin), 1e100))
-    return raw._measured(bool(steps))
+    beat, period = _read_drive(drive)
+    full, begin = _make_parameters(system, values), _make_start(system, start)
+    raw = SteppedFlow(system, full, beat, period, begin, steps or FEWEST, np.full(len(begin), 1e100))
+    return raw._choose_steps(bool(steps))
 
 
-def _full(system: System, values: Mapping[str, float]) -> Array:
-    """Return the parameter vector, or raise a `ContractError` that names what is not given or out of its bounds."""
+def _make_parameters(system: System, values: Mapping[str, float]) -> Array:
+    """Return the parameter vector, or raise a `ContractError` that names a missing parameter or one out of bounds."""
     given = {system.slot(name).key: float(value) for name, value in values.items()}
     inertias = {place.inertia for place in system.model.interfaces}
     for slot in system.slots:
@@ -121,8 +121,8 @@ def _full(system: System, values: Mapping[str, float]) -> Array:
     return system.vector(given)
 
 
-def _begun(system: System, start: Array | None) -> Array:
-    """Return the state to start from, zero where nothing is told."""
+def _make_start(system: System, start: Array | None) -> Array:
+    """Return the initial state, zero where none is given."""
     begin = np.zeros(system.states(system.everything))
     told = np.zeros(0) if start is None else np.asarray(start, dtype=float)
     if told.ndim != 1 or len(told) > len(begin) or not np.isfinite(told).all():
@@ -131,7 +131,7 @@ def _begun(system: System, start: Array | None) -> Array:
     return begin
 
 
-def _beat(drive: Harmonic | tuple[float, float] | float) -> tuple[Harmonic | None, float]:
+def _read_drive(drive: Harmonic | tuple[float, float] | float) -> tuple[Harmonic | None, float]:
     """Return the drive, if there is one, and the period (s)."""
     beat = None if isinstance(drive, float | int) else drive if isinstance(drive, Harmonic) else Harmonic(*drive)
     if beat and not 0.0 < beat.omega < math.inf:
@@ -143,7 +143,7 @@ def _beat(drive: Harmonic | tuple[float, float] | float) -> tuple[Harmonic | Non
 
 
 @dataclass(frozen=True, eq=False)
-class Stepped:
+class SteppedFlow:
     """The flow of a system by `steps` RK4 steps to a period; `scale` (n,) are natural sizes of the states."""
 
     system: System
@@ -154,7 +154,7 @@ class Stepped:
     steps: int
     scale: Array
     compiled: bool = True
-    lacking: float = 1.0
+    shortage: float = 1.0
 
     @property
     def states(self) -> tuple[str, ...]:
@@ -169,13 +169,13 @@ class Stepped:
 
     def strobe(self, start: Array, *, periods: int, tangents: int) -> Orbit:
         """Return the orbit from `start` (n,) at drive phase 0, with `tangents` tangent vectors kept orthogonal."""
-        if self.lacking > ROUGH:
+        if self.shortage > ROUGH:
             return Orbit(np.full((periods + 1, len(start)), np.nan), np.full((periods, tangents), np.nan), "too_stiff")
         states, growth, status = self._run(start, periods, tangents, 1)
         return Orbit(states, growth, status)
 
     def sample(self, start: Array, *, periods: int, looks: int) -> Array:
-        """Return states (periods * looks + 1, n) at `looks` evenly spaced times of each period; NaN behind the end."""
+        """Return states (periods * looks + 1, n) at `looks` even times of each period; NaN after a divergence."""
         return self._run(start, periods, 0, looks)[0]
 
     def _run(self, start: Array, periods: int, tangents: int, looks: int) -> tuple[Array, Array, str]:
@@ -185,11 +185,11 @@ class Stepped:
         if begin.shape != (n,) or not 0 <= tangents <= n:
             raise ContractError(f"a start of shape {begin.shape} and {tangents} tangents do not fit {n} states")
         states, growth = np.full((periods * looks + 1, n), np.nan), np.zeros((periods, tangents))
-        inputs, (base, own) = self._inputs(sub * looks, h), self._packed(h)
+        inputs, (base, own) = self._make_inputs(sub * looks, h), self._pack(h)
         broken = np.zeros(2, dtype=np.int64)
-        done = self._kernel(
-            begin, inputs, h, looks, self._every(sub * looks), FINER, base, own,
-            *self.system.wiring(self.system.everything), self.scale, _frame(tangents, n), states, growth, broken,
+        done = self._map(
+            begin, inputs, h, looks, self._count_between(sub * looks), FINER, base, own,
+            *self.system.wiring(self.system.everything), self.scale, _make_frame(tangents, n), states, growth, broken,
             np.zeros((3, inputs.shape[1])),
         )  # fmt: skip
         if done < len(states):
@@ -198,38 +198,38 @@ class Stepped:
         return states, growth, "jumps" if broken[0] else "ok"
 
     @cached_property
-    def _kernel(self) -> Callable[..., int]:
-        return stroboscopic_map(self.system.blueprint, len(self.start), self.compiled)
+    def _map(self) -> Callable[..., int]:
+        return build_map(self.system.blueprint, len(self.start), self.compiled)
 
-    def _every(self, steps: int) -> int:
-        """Return the steps between two orthonormalisations: about the time in which the fastest rate acts."""
+    def _count_between(self, steps: int) -> int:
+        """Return the steps between two orthonormalisations: about one over the fastest rate."""
         return max(1, min(steps, round(1.0 / ACCURACY)))
 
-    def _inputs(self, steps: int, h: float) -> Array:
+    def _make_inputs(self, steps: int, h: float) -> Array:
         """Return the inputs of one period (3 * steps, inputs): start, middle and end of each step."""
         names, count = self.system.model.driven, len(self.system.model.inputs)
         if self.beat is None:
             return np.zeros((3 * steps, count))
         t = (np.arange(steps)[:, None] * h + np.array([0.0, 0.5 * h, h])).ravel()
         columns = [self.beat.column(name) for name in names]
-        keys = self.system.shaping(self.system.everything)
-        acting = self.system.acting(columns, self.full, keys, self._tone)
+        keys = self.system.list_input_terms(self.system.everything)
+        acting = self.system.acting(columns, self.full, keys, self._harmonic)
         moved = [there or recorded for there, recorded in zip(acting, columns, strict=True)]
-        return np.ascontiguousarray(widened(np.stack([u(t) for u in moved], axis=1), count))
+        return np.ascontiguousarray(pad_inputs(np.stack([u(t) for u in moved], axis=1), count))
 
     @property
-    def _tone(self) -> DriveHarmonic:
+    def _harmonic(self) -> DriveHarmonic:
         return DriveHarmonic(self.beat.omega, self.beat.amplitude) if self.beat else SILENT
 
-    def _packed(self, h: float) -> tuple[Array, Array]:
-        """Return the parameters of model and terms, the mobility being that of `LINE` steps."""
-        packed = self.system.pack(self.full[None], h, self._tone, line=LINE)[0]
+    def _pack(self, h: float) -> tuple[Array, Array]:
+        """Return the parameters of model and terms, with the mobility for `LINE` steps."""
+        packed = self.system.pack(self.full[None], h, self._harmonic, line=LINE)[0]
         rows = self.system.blueprint.rows
         base, own = packed[: rows.pace - rows.params], packed[rows.own - rows.params : rows.onset - rows.params]
         return np.ascontiguousarray(base), np.ascontiguousarray(own)
 
-    def _measured(self, fixed: bool) -> Stepped:
-        """Return this flow with a step and with sizes of the states that suit a motion of some periods."""
+    def _choose_steps(self, fixed: bool) -> SteppedFlow:
+        """Return this flow with a step and with sizes of the states from a simulation of some periods."""
         flow = self
         for _ in range(2):
             looks = min(flow.steps, FEWEST)
@@ -238,22 +238,22 @@ class Stepped:
             size = np.abs(seen).max(axis=0)
             scale = np.maximum(0.5 * np.ptp(seen, axis=0), 1e-3 * size)
             scale = np.where(scale > 0.0, scale, max(float(scale.max()), 1e-9))
-            wanted = float(flow.steps) if fixed else flow._wanted(seen, looks)
+            wanted = float(flow.steps) if fixed else flow._count_steps(seen, looks)
             steps = flow.steps if fixed else math.ceil(min(max(wanted, FEWEST), MOST))
-            flow = replace(self, steps=steps, scale=scale, lacking=wanted / steps)
+            flow = replace(self, steps=steps, scale=scale, shortage=wanted / steps)
         return flow
 
-    def _wanted(self, seen: Array, looks: int) -> float:
-        """Return how many steps a period needs for the fastest rate met in the states `seen`."""
+    def _count_steps(self, seen: Array, looks: int) -> float:
+        """Return the number of steps in a period for the fastest rate at the states `seen`."""
         picked = np.unique(np.linspace(0, len(seen) - 1, PROBES).astype(int))
-        inputs = self._inputs(looks, self.period / looks)[3 * (picked % looks)]
+        inputs = self._make_inputs(looks, self.period / looks)[3 * (picked % looks)]
         n = len(self.system.model.states)
-        rate = self.system.stiffness(self.full, self.system.everything, seen[picked][:, :n], inputs)
+        rate = self.system.find_fastest_rate(self.full, self.system.everything, seen[picked][:, :n], inputs)
         finer = LINE if any("mobility" in term.needs for _, term in self.system.forces) else 1
         return finer * rate * self.period / ACCURACY
 
 
-def _frame(tangents: int, n: int) -> Array:
-    """Return orthonormal rows (tangents, n) that share no axis with the states, so that none is missed."""
+def _make_frame(tangents: int, n: int) -> Array:
+    """Return orthonormal rows (tangents, n) that are not aligned with any state."""
     wave = np.cos(np.arange(1, n + 1)[:, None] * (np.arange(n) + 0.5) * 0.9) + np.eye(n)
     return np.ascontiguousarray(np.linalg.qr(wave.T)[0].T[:tangents])

@@ -1,6 +1,6 @@
-"""Trials of lostmotion: a demonstration, a blind trial, a calibration of intervals, and the paper done again.
+"""Trials of lostmotion: a demonstration, a blind trial, a calibration of intervals, and a reproduction of the paper.
 
-They use the framework as any other package could: all that they add to the command line comes by a hook.
+They use the framework as any other package could: their commands are registered by a hook.
 """
 
 from lostmotion.hookspecs import hookimpl
@@ -12,8 +12,8 @@ _HERE = "lostmotion_trials"
 def lostmotion_commands() -> dict[str, tuple[str, str]]:
     """Return the commands of the trials."""
     return {
-        "calibrate": (f"{_HERE}.coverage.command:command", "See whether the intervals of identify hold the truth."),
-        "demo": (f"{_HERE}.demo.command:command", "See it work: a robot joint hides friction, and it is found."),
-        "prove": (f"{_HERE}.blind.command:command", "Hide effects from it in a blind trial, and score what it finds."),
-        "reproduce": (f"{_HERE}.paper.command:command", "Redo the paper of 2007: its figures and tables."),
+        "calibrate": (f"{_HERE}.coverage.command:command", "Test whether the intervals of identify cover the truth."),
+        "demo": (f"{_HERE}.demo.command:command", "Hide friction in a simulated robot joint, and find it."),
+        "prove": (f"{_HERE}.blind.command:command", "Run a blind trial of diagnose on machines with hidden effects."),
+        "reproduce": (f"{_HERE}.paper.command:command", "Reproduce the figures and tables of the paper of 2007."),
     }

@@ -17,7 +17,7 @@ import numpy as np
 import xarray as xr
 
 from lostmotion.codec import from_plain
-from lostmotion.diagnosis.report.evidence import Evidence, evidence_with
+from lostmotion.diagnosis.report.evidence import Evidence, make_evidence
 from lostmotion.results.diagnosis import Diagnosis
 
 OMEGA, DRIVE, MASS, STIFF, GAP = 40.0, 100.0, 1.0, 4e4, 5e-3
@@ -388,7 +388,7 @@ def unknown():
 
 def evidence(facts: dict[str, Any], data: xr.Dataset | None = None) -> Evidence:
     """Return what a page is drawn from, without a folder."""
-    return evidence_with(from_plain(Diagnosis, facts), xr.Dataset() if data is None else data)
+    return make_evidence(from_plain(Diagnosis, facts), xr.Dataset() if data is None else data)
 
 
 def write(folder: Path, facts: dict[str, Any], data: xr.Dataset | None = None) -> Path:
@@ -400,8 +400,8 @@ def write(folder: Path, facts: dict[str, Any], data: xr.Dataset | None = None) -
 
 
 if __name__ == "__main__":
-    from lostmotion.diagnosis.report.hero import figure_hero
+    from lostmotion.diagnosis.report.hero import save_hero
     from lostmotion.diagnosis.report.page import write_report
 
     home = write(Path(sys.argv[1]), mismatch(), arrays())
-    print(write_report(home), figure_hero(home))  # noqa: T201
+    print(write_report(home), save_hero(home))  # noqa: T201

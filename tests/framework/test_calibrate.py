@@ -18,12 +18,12 @@ from lostmotion.case import Prior
 from lostmotion.codec import to_plain
 from lostmotion.errors import DataError
 from lostmotion.storage import save_json
-from lostmotion_trials.coverage.design import Design, workshop
+from lostmotion_trials.coverage.design import Design, make_workshop
 from lostmotion_trials.coverage.machines import Stand
 from lostmotion_trials.coverage.page import write_calibration
-from lostmotion_trials.coverage.ranks import DRAWS, coverage_limits, ecdf, ecdf_band
+from lostmotion_trials.coverage.ranks import DRAWS, compute_coverage_limits, compute_ecdf_band, count_below
 from lostmotion_trials.coverage.results import CalibrationResult, Coverage, LostMachine, MachineTrial
-from lostmotion_trials.coverage.run import _save_csv, sound, summary
+from lostmotion_trials.coverage.run import _save_csv, is_sound, summarise
 
 PERFECT = 2000
 TOY = """
@@ -130,10 +130,10 @@ def test_what_is_none_of_ours_is_left_alone(tmp_path):
     (tmp_path / "trials").mkdir()
     (tmp_path / "trials" / "mine.txt").write_text("dear")
     for fresh in (False, True):
-        with pytest.raises(DataError, match="no campaign of ours"):
+        with pytest.raises(DataError, match="not a campaign"):
             campaign().run(tmp_path, 1, fresh=fresh)
     (tmp_path / "campaign.json").write_text("{}")
-    with pytest.raises(DataError, match="no campaign of ours"):
+    with pytest.raises(DataError, match="not a campaign"):
         campaign().run(tmp_path, 1, fresh=True)
     assert (tmp_path / "trials" / "mine.txt").read_text() == "dear"
 
@@ -168,7 +168,7 @@ def test_processes_are_renewed_so_that_memory_does_not_grow(tmp_path, monkeypatc
 
 
 def test_without_a_word_for_the_lost_a_killed_process_ends_the_campaign(tmp_path):
-    with pytest.raises(DataError, match="killed, perhaps for want of memory"):
+    with pytest.raises(DataError, match="killed, perhaps for lack of memory"):
         Campaign(deadly, Fate, 7, {}).run(tmp_path, 2)
 
 
@@ -180,11 +180,11 @@ def rows(machines, *, width=1.0, shift=0.0, seed=0):
 
 
 def test_a_right_posterior_passes():
-    content = summary(rows(200))
+    content = summarise(rows(200))
     assert content.passes is True
     assert content.parameters["a"].rms_z == pytest.approx(1.0, abs=0.15)
     assert content.says == (
-        "The intervals hold what they promise, over 200 machines: ranks are uniform, and intervals cover.",
+        "The intervals are calibrated, tested with 200 machines: ranks are uniform, and intervals cover.",
     )
 
 
@@ -193,9 +193,9 @@ def test_a_right_posterior_passes():
     [({"width": 0.6}, "too narrow"), ({"width": 1.8}, "too wide"), ({"shift": 0.6}, "biased.*below")],
 )
 def test_a_bad_posterior_does_not_pass(wrong, word):
-    content = summary(rows(200, **wrong))
+    content = summarise(rows(200, **wrong))
     assert content.passes is False
-    assert "do not hold" in content.says[0]
+    assert "not calibrated" in content.says[0]
     assert re.search(word, content.says[1])
 
 
@@ -203,11 +203,11 @@ def test_verdict_refuses_few_perfect_parameters():
     """The false alarms of the verdict on one parameter, at the level of one of two, are 3 % at the most."""
     rng = np.random.default_rng(8)
     below = rng.uniform(size=(PERFECT, 200))
-    band = ecdf_band(200, 0.005)
-    counts = np.stack([ecdf((b * (DRAWS + 1)).astype(int)) for b in below])
+    band = compute_ecdf_band(200, 0.005)
+    counts = np.stack([count_below((b * (DRAWS + 1)).astype(int)) for b in below])
     wrong = ((counts < band.low) | (counts > band.high)).any(axis=1)
     for share in (0.5, 0.9, 0.95):
-        low, high = coverage_limits(200, share)
+        low, high = compute_coverage_limits(200, share)
         inside = np.sum(np.abs(below - 0.5) <= 0.5 * share, axis=1)
         wrong |= (inside < low) | (inside > high)
     assert 0.005 < wrong.mean() < 0.03
@@ -215,21 +215,21 @@ def test_verdict_refuses_few_perfect_parameters():
 
 def test_lost_machines_are_told_and_not_counted():
     lost = [MachineTrial(200 + k, "failed", "no", {}) for k in range(3)]
-    content = summary([*rows(200), *lost])
+    content = summarise([*rows(200), *lost])
     assert content.passes is True
     assert content.failed == tuple(LostMachine(200 + k, "no") for k in range(3))
     assert "Of 203 machines 3 failed" in content.says[1]
     many = [MachineTrial(200 + k, "unconverged", "ESS", {}) for k in range(20)]
-    content = summary([*rows(200), *many])
+    content = summarise([*rows(200), *many])
     assert content.passes is False
-    assert "without a posterior" in content.says[0]
-    assert summary(many).says[0] == "Not one machine has a posterior."
-    assert summary(many).passes is False
+    assert "have no posterior" in content.says[0]
+    assert summarise(many).says[0] == "None of the machines has a posterior."
+    assert summarise(many).passes is False
 
 
 def test_page_shows_what_was_found(tmp_path):
     found = [*rows(60), MachineTrial(60, "failed", "the <motion> left", {})]
-    head = CalibrationResult("s", "T & co", "m", "trajectory", "hand", {}, summary(found), {})
+    head = CalibrationResult("s", "T & co", "m", "trajectory", "hand", {}, summarise(found), {})
     save_json(tmp_path / "calibration.json", to_plain(head))
     _save_csv(tmp_path / "machines.csv", found)
     page = write_calibration(tmp_path).read_text(encoding="utf-8")
@@ -243,7 +243,7 @@ def test_page_shows_what_was_found(tmp_path):
         assert words in page
     assert "<script" not in page
     assert len((tmp_path / "machines.csv").read_text().splitlines()) == 62
-    save_json(tmp_path / "calibration.json", to_plain(replace(head, summary=summary(found[-1:]))))
+    save_json(tmp_path / "calibration.json", to_plain(replace(head, summary=summarise(found[-1:]))))
     _save_csv(tmp_path / "machines.csv", found[-1:])
     assert "Not calibrated" in write_calibration(tmp_path).read_text(encoding="utf-8")
 
@@ -269,7 +269,7 @@ def design(tmp_path, text=CASE, **more):
 
 
 def test_machines_come_from_the_priors(tmp_path):
-    shop = workshop(design(tmp_path, hide=("coulomb_friction:force=1",)))
+    shop = make_workshop(design(tmp_path, hide=("coulomb_friction:force=1",)))
     drawn = [shop.draw(np.random.default_rng(k)) for k in range(400)]
     c = np.array([one.truth["c"] for one in drawn])
     assert np.mean(c < 8.0) == pytest.approx(0.5, abs=0.1)
@@ -287,7 +287,7 @@ def test_each_recording_may_have_its_own(tmp_path):
         CASE.replace('scale = "log" }', 'scale = "log", each = true }')
         + "[sensor]\noffset = { mean = 0.0, sd = 1e-3 }\n"
     )
-    one = workshop(design(tmp_path, text)).draw(np.random.default_rng(0))
+    one = make_workshop(design(tmp_path, text)).draw(np.random.default_rng(0))
     assert set(one.truth) == {"c[drive1]", "c[drive2]", "x0", "offset[drive1]", "offset[drive2]"}
     assert one.truth["c[drive1]"] != one.truth["c[drive2]"]
     assert one.offsets == (one.truth["offset[drive1]"], one.truth["offset[drive2]"])
@@ -307,14 +307,14 @@ def test_each_recording_may_have_its_own(tmp_path):
 )
 def test_what_cannot_be_meant_is_refused(tmp_path, text, more, sentence):
     with pytest.raises(Exception, match=sentence) as caught:
-        workshop(design(tmp_path, text, **more))
+        make_workshop(design(tmp_path, text, **more))
     assert caught.type.__module__ == "lostmotion.errors"
 
 
 def test_prior_and_verdict_are_what_they_say():
     assert Prior(low=2.0, high=32.0, scale="log").quantile(0.5) == pytest.approx(8.0)
-    (made,) = summary(rows(20)).parameters.values()
+    (made,) = summarise(rows(20)).parameters.values()
     row = replace(made, ecdf_p=0.5, coverage={"50": Coverage(inside=2, of=4, low=1, high=3)})
-    assert sound(row, 0.01)
-    assert not sound(replace(row, ecdf_p=0.001), 0.01)
-    assert not sound(replace(row, coverage={"50": Coverage(inside=2, of=4, low=3, high=4)}), 0.01)
+    assert is_sound(row, 0.01)
+    assert not is_sound(replace(row, ecdf_p=0.001), 0.01)
+    assert not is_sound(replace(row, coverage={"50": Coverage(inside=2, of=4, low=3, high=4)}), 0.01)

@@ -160,7 +160,7 @@ def test_check_for_machines(file):
 
 def test_a_plugin_file_that_is_not_there_is_one_sentence():
     text = run("--plugin", "nowhere.py", "plugins", status=2)
-    assert text.startswith("lostmotion: plugin file 'nowhere.py' is not there")
+    assert text.startswith("lostmotion: plugin file 'nowhere.py' does not exist")
     assert len(text.splitlines()) == 1
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from lostmotion.case import load_case
-from lostmotion_trials.demo.conceal import FREQUENCY, FRICTION, HIDDEN, JOINT, conceal_joint, joint_motion, write_case
+from lostmotion_trials.demo.conceal import FREQUENCY, FRICTION, HIDDEN, JOINT, conceal_joint, simulate_joint, write_case
 
 RATE = 200.0
 PERIOD = round(RATE / FREQUENCY)
@@ -58,7 +58,7 @@ def test_two_neighbours_part_exponentially(friction, low, high):
 
 def divergence(friction, start):
     """Return the mean growth rate (1/s) of the distance between two neighbours after they have settled."""
-    one, two = (joint_motion(0.0, start + d, friction, RATE, 50 * PERIOD)[1] for d in (0.0, 1e-7))
+    one, two = (simulate_joint(0.0, start + d, friction, RATE, 50 * PERIOD)[1] for d in (0.0, 1e-7))
     away = np.hypot(one[:, 0] - two[:, 0], (one[:, 1] - two[:, 1]) / 60.0)
     apart = np.flatnonzero(away > 1e-3)
     stop = apart[0] if len(apart) else len(away) - 1

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from lostmotion.diagnosis import decays
-from lostmotion.diagnosis.decays import note_anew, off, stretches_of
+from lostmotion.diagnosis.decays import compute_largest_error, find_stretches, note_restarts
 from lostmotion.likelihood.observation import Observation
 from lostmotion.signals.decay import Decay, decay_of
 
@@ -32,8 +32,8 @@ def noisy(response, rng, level=0.01):
 
 def test_a_free_recording_is_one_decay_from_its_start():
     one = observation(noisy(swing(6.0), np.random.default_rng(1)))
-    assert [tuple(stretch) for stretch in stretches_of(one)] == [(0, 6000)]
-    assert not list(note_anew(one))
+    assert [tuple(stretch) for stretch in find_stretches(one)] == [(0, 6000)]
+    assert not list(note_restarts(one))
 
 
 def test_clean_decays_are_not_said_to_begin_anew():
@@ -44,7 +44,7 @@ def test_clean_decays_are_not_said_to_begin_anew():
         response = swing(5.0, damping, frequency, rng.uniform(0.0, 6.0))
         if number >= 40:
             response = response + rng.uniform(0.1, 0.5) * swing(5.0, damping, rng.uniform(2.0, 3.0) * frequency)
-        notes += note_anew(observation(noisy(response, rng, 10.0 ** rng.uniform(-4.0, -1.5))))
+        notes += note_restarts(observation(noisy(response, rng, 10.0 ** rng.uniform(-4.0, -1.5))))
     assert notes == []
 
 
@@ -55,12 +55,12 @@ def test_an_input_that_nobody_recorded_is_said_with_its_time():
         response = swing(6.0, phase=rng.uniform(0.0, 6.0))
         response[3000:] += rng.choice([-1.0, 1.0]) * swing(3.0, phase=rng.uniform(1.2, 1.9))
         one = observation(noisy(response, rng))
-        (note,) = note_anew(one)
+        (note,) = note_restarts(one)
         assert "t_start and t_end" in note
         assert "give it as an input" in note
         at = float(note.partition("begins anew at ")[2].partition(" s")[0])
         assert at == pytest.approx(3.0, abs=0.125)
-        first, second = stretches_of(one)
+        first, second = find_stretches(one)
         assert first == (0, second.start)
         assert second.stop == 6000
 
@@ -72,24 +72,24 @@ def test_decays_of_a_hammer_test_lie_between_its_hits():
         force[start : start + 6] = pulse
     force += 0.01 * np.random.default_rng(4).standard_normal(6000)
     one = observation(np.concatenate([np.zeros(505), swing(5.495)]), force, driven=("force",))
-    (first, second) = stretches_of(one)
+    (first, second) = find_stretches(one)
     assert abs(first.start - 506) <= 1
     assert abs(first.stop - 3500) <= 1
     assert abs(second.start - 3506) <= 1
     assert second.stop == 6000
-    assert not list(note_anew(one))
+    assert not list(note_restarts(one))
 
 
 @pytest.mark.parametrize("driven", [("base_position",), ("force", "base_force"), None])
 def test_other_inputs_than_one_hammer_leave_no_decay(driven):
     force = np.zeros(6000)
     force[500:506] = 50.0
-    assert stretches_of(observation(swing(6.0), force, driven=driven)) == ()
+    assert find_stretches(observation(swing(6.0), force, driven=driven)) == ()
 
 
 def test_a_machine_that_is_driven_has_no_free_decay():
     t = np.arange(6000) * DT
-    assert stretches_of(observation(swing(6.0), np.sin(30.0 * t), driven=("force",))) == ()
+    assert find_stretches(observation(swing(6.0), np.sin(30.0 * t), driven=("force",))) == ()
 
 
 def decay(amplitude, decrement, frequency):
@@ -102,15 +102,15 @@ def decay(amplitude, decrement, frequency):
 def test_a_model_is_off_by_the_share_of_the_worst_part():
     size = np.geomspace(1.0, 0.1, 40)
     seen = decay(size, 0.1 * np.where(size < 0.2, 2.0, 1.0), 5.0)
-    assert off(seen, decay(size, 0.1, 5.05), "frequency") == pytest.approx(0.01)
-    assert off(seen, decay(size, 0.1, 5.05), "decrement") == pytest.approx(0.5, abs=0.01)
-    assert off(seen, seen, "decrement") == 0.0
+    assert compute_largest_error(seen, decay(size, 0.1, 5.05), "frequency") == pytest.approx(0.01)
+    assert compute_largest_error(seen, decay(size, 0.1, 5.05), "decrement") == pytest.approx(0.5, abs=0.01)
+    assert compute_largest_error(seen, seen, "decrement") == 0.0
 
 
 def test_only_amplitudes_that_both_have_are_compared():
     seen = decay(np.geomspace(1.0, 0.1, 40), 0.1, 5.0)
-    assert np.isnan(off(seen, decay(np.geomspace(10.0, 2.0, 40), 0.1, 5.0), "decrement"))
-    assert off(seen, decay(np.geomspace(1.0, 0.5, 10), 0.11, 5.0), "decrement") == pytest.approx(0.1)
+    assert np.isnan(compute_largest_error(seen, decay(np.geomspace(10.0, 2.0, 40), 0.1, 5.0), "decrement"))
+    assert compute_largest_error(seen, decay(np.geomspace(1.0, 0.5, 10), 0.11, 5.0), "decrement") == pytest.approx(0.1)
 
 
 class Known:
@@ -141,15 +141,15 @@ class Known:
     ],
 )
 def test_a_run_that_diverges_or_creeps_is_no_decay(monkeypatch, course, measured):
-    monkeypatch.setattr(decays, "free_run", lambda problem, theta, y0, start, steps: problem.run[start : start + steps])
-    monkeypatch.setattr(decays, "observed", lambda problem, theta, states, where: states[:, 0])
+    monkeypatch.setattr(decays, "simulate_run", lambda p, theta, y0, start, steps: p.run[start : start + steps])
+    monkeypatch.setattr(decays, "observe_states", lambda problem, theta, states, where: states[:, 0])
     one = observation(noisy(swing(6.0), np.random.default_rng(5)))
-    (stretch,) = stretches_of(one)
+    (stretch,) = find_stretches(one)
     seen = decay_of(one.response, DT)
-    ((_, made),) = decays._of_model(Known(np.stack([course, course], axis=1)), one, [(stretch, seen)])
+    ((_, made),) = decays._measure_model(Known(np.stack([course, course], axis=1)), one, [(stretch, seen)])
     assert (made is not None) == measured
     if measured:
-        assert off(seen, made, "decrement") < 0.03
+        assert compute_largest_error(seen, made, "decrement") < 0.03
 
 
 def test_ten_hits_and_a_long_ring_take_less_than_a_second():

@@ -7,15 +7,15 @@ import pytest
 from scipy.signal import lfilter
 from scipy.stats import binom
 
-from lostmotion.diagnosis.disagreements import by_recording, over_time
+from lostmotion.diagnosis.disagreements import compare_by_recording, compare_over_time
 from lostmotion.inference.disagreement import (
-    between,
-    beyond_chance,
-    even_windows,
-    hit_windows,
-    means_of,
-    memory_of,
-    trend,
+    average_windows,
+    compute_recording_p,
+    compute_trend,
+    compute_window_p,
+    find_memory,
+    make_even_windows,
+    make_hit_windows,
 )
 from lostmotion.likelihood.observation import Observation
 
@@ -35,21 +35,21 @@ def observed(samples=3000, excitation=None):
 
 
 def test_windows_hold_whole_periods_and_means_are_those_of_loops():
-    windows = even_windows(1000, period=120.0)
+    windows = make_even_windows(1000, period=120.0)
     assert len(windows) == 8
     assert np.diff(windows.edges).min() >= 120
     values = squares(np.random.default_rng(1), 1000)
     values[3] = np.nan
     slow = [np.mean([v for v in values[a:b] if np.isfinite(v)]) for a, b in pairwise(windows.edges)]
-    np.testing.assert_allclose(means_of(values, windows), slow)
+    np.testing.assert_allclose(average_windows(values, windows), slow)
 
 
 def test_a_memory_is_measured_and_a_louder_stretch_is_none():
-    rng, windows = np.random.default_rng(2), even_windows(6000)
+    rng, windows = np.random.default_rng(2), make_even_windows(6000)
     white = squares(rng, 6000)
     white[1000:1400] *= 5.0
-    assert memory_of(white, windows) <= 3
-    assert 5 <= memory_of(squares(rng, 6000, 0.9), windows) <= 40
+    assert find_memory(white, windows) <= 3
+    assert 5 <= find_memory(squares(rng, 6000, 0.9), windows) <= 40
 
 
 @pytest.mark.slow
@@ -62,7 +62,7 @@ def test_chance_is_seldom_taken_for_a_disagreement(memory):
     rng, wrong = np.random.default_rng(3), 0
     observation = observed()
     for _ in range(200):
-        wrong += over_time(observation, {"before": squares(rng, memory=memory)}, rng).worst.beyond_chance
+        wrong += compare_over_time(observation, {"before": squares(rng, memory=memory)}, rng).worst.beyond_chance
     assert wrong <= binom.ppf(0.999, 200, 0.05)
 
 
@@ -70,7 +70,7 @@ def test_the_stretch_that_disagrees_is_named_with_its_times():
     rng = np.random.default_rng(4)
     before, after = squares(rng), squares(rng)
     before[1500:1600] *= 4.0
-    told = over_time(observed(), {"before": before, "after": after}, rng)
+    told = compare_over_time(observed(), {"before": before, "after": after}, rng)
     worst = told.worst_before
     assert worst.beyond_chance
     assert (worst.begin, worst.end) == (1.5, 1.6)
@@ -78,7 +78,7 @@ def test_the_stretch_that_disagrees_is_named_with_its_times():
     assert told.says.startswith("The nominal model disagrees most between 1.5 and 1.6 s (")
     assert len(told.edges) == len(told.before) + 1 == len(told.after) + 1
     after[600:700] *= 4.0
-    told = over_time(observed(), {"before": before, "after": after}, rng)
+    told = compare_over_time(observed(), {"before": before, "after": after}, rng)
     assert told.says.startswith("The model disagrees most between 0.6 and 0.7 s (")
 
 
@@ -102,11 +102,11 @@ def test_hits_are_compared_at_equal_times_after_each():
     rng, wrong = np.random.default_rng(5), 0
     for _ in range(100):
         observation, values, starts = struck(rng)
-        p = beyond_chance(values, hit_windows(3000, starts), rng)
+        p = compute_window_p(values, make_hit_windows(3000, starts), rng)
         wrong += bool(np.min(p) <= 0.05)
     assert wrong <= binom.ppf(0.999, 100, 0.05)
     observation, values, starts = struck(rng, 4.0)
-    told = over_time(observation, {"before": values}, rng)
+    told = compare_over_time(observation, {"before": values}, rng)
     assert told.windows == "hits"
     assert told.worst.window == 2
     assert told.says.startswith(f"The model disagrees most after hit 3, at {starts[2] * DT:.4g} s (")
@@ -117,15 +117,15 @@ def test_the_level_that_disagrees_most_is_named_and_a_trend_is_told():
     rng, levels = np.random.default_rng(6), [1.0, 2.0, 4.0, 8.0]
     recordings = [observed(2000, level * rng.normal(size=2000)) for level in levels]
     parts = [squares(rng, 2000) * (1.0 + 0.1 * level) for level in levels]
-    told = by_recording(recordings, {"before": parts}, 3, "translation", rng)
+    told = compare_by_recording(recordings, {"before": parts}, 3, "translation", rng)
     assert [row.fitted for row in told.rows] == [True, True, True, False]
     assert told.rows[3].level == pytest.approx(8.0, rel=0.1)
     assert "the disagreement grows with the level" in told.says
     assert told.trend.after.p < 0.01
     alike = [squares(rng, 2000) for _ in levels]
-    told = by_recording(recordings, {"before": parts, "after": alike}, 3, "translation", rng)
+    told = compare_by_recording(recordings, {"before": parts, "after": alike}, 3, "translation", rng)
     assert told.says.startswith("Of 4 recordings the nominal model disagrees most in seen (level ")
-    assert by_recording(recordings, {"before": alike}, 3, "translation", rng).says == ""
+    assert compare_by_recording(recordings, {"before": alike}, 3, "translation", rng).says == ""
 
 
 @pytest.mark.slow
@@ -134,12 +134,12 @@ def test_recordings_that_agree_alike_are_seldom_told_apart():
     rng, wrong, tends = np.random.default_rng(7), 0, 0
     for _ in range(200):
         parts = [squares(rng, 800, 0.5) for _ in range(4)]
-        wrong += bool(np.min(between(parts, rng)) <= 0.05)
-        tends += trend(parts, np.array([1.0, 2.0, 4.0, 8.0]), rng)[1] <= 0.05
+        wrong += bool(np.min(compute_recording_p(parts, rng)) <= 0.05)
+        tends += compute_trend(parts, np.array([1.0, 2.0, 4.0, 8.0]), rng)[1] <= 0.05
     assert max(wrong, tends) <= binom.ppf(0.999, 200, 0.05)
 
 
 def test_too_little_is_not_tested():
     rng = np.random.default_rng(8)
-    assert beyond_chance(squares(rng, 60), even_windows(60), rng) is None
-    assert trend([squares(rng), squares(rng)], np.array([1.0, 2.0]), rng) is None
+    assert compute_window_p(squares(rng, 60), make_even_windows(60), rng) is None
+    assert compute_trend([squares(rng), squares(rng)], np.array([1.0, 2.0]), rng) is None

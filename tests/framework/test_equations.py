@@ -102,8 +102,8 @@ def test_a_model_goes_to_another_process():
 
 REFUSED = {
     "m*x'' + c*x' + k*x": "has the end where an operator or '=' is wanted, at character 19",
-    "m*x'' + c*x = force + c*x'": "differs in dimension, at character 23",
-    "m*x'' + $x = force": "has '$', which means nothing in an equation, at character 9",
+    "m*x'' + c*x = force + c*x'": "different dimensions, at character 23",
+    "m*x'' + $x = force": "has '$', which is not allowed in an equation, at character 9",
     "m*x'' + foo(x) = force": "unknown function 'foo'",
     "m*x'' + gap(x, k) = force": "gives 2 arguments to gap(x, k, x0)",
     "m*sin(x'') = force": "is not linear in x''",
@@ -111,12 +111,12 @@ REFUSED = {
     "(m1 + m2)*x'' = force": "has no single parameter as the mass of x",
     "m*x'' + k*x''' = force": "has the derivative x'''",
     "m*x'' + k' = force": "has the derivative k'",
-    "m*x'' + a*b*x = force": "do not tell the units of a, b",
+    "m*x'' + a*b*x = force": "do not determine the units of a, b",
     "m x'' = force": "where an operator or '=' is wanted, at character 3",
-    "__import__('os').system('true') = m*x''": "which means nothing in an equation",
-    "m*force'' = 1": "has a meaning of its own",
+    "__import__('os').system('true') = m*x''": "which is not allowed in an equation",
+    "m*force'' = 1": "has another meaning already",
     "": "is wanted, at character 1",
-    "m*x'' + 1e999*x = force": "has '1e999', which is no finite number, at character 9",
+    "m*x'' + 1e999*x = force": "has '1e999', which is not a finite number, at character 9",
     "(" * 60 + "m*x''" + ")" * 60 + " = force": "nests more than",
 }
 
@@ -130,7 +130,11 @@ def test_what_cannot_be_meant_is_refused_with_its_place(text, says):
 
 @pytest.mark.parametrize(
     ("units", "says"),
-    [({"m": "N"}, "differs in dimension"), ({"m": "g"}, "numbers of a case are in SI"), ({"q": "kg"}, "no parameter")],
+    [
+        ({"m": "N"}, "different dimensions"),
+        ({"m": "g"}, "numbers of a case are in SI"),
+        ({"q": "kg"}, "not a parameter"),
+    ],
 )
 def test_units_that_cannot_be_meant_are_refused(units, says):
     with pytest.raises(CaseError) as err:
@@ -201,7 +205,7 @@ def test_a_case_may_write_its_model_down(tmp_path):
     ("old", "new", "says"),
     [
         ("equations = [", 'name = "lin_backlash"\nequations = [', "both name and equations"),
-        ("x1'' +", "x1'' + ?", "has '?', which means nothing in an equation"),
+        ("x1'' +", "x1'' + ?", "has '?', which is not allowed in an equation"),
         ("equations", "equation", "unknown key 'equation'"),
     ],
 )

@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from lostmotion.inference.evidence import checked
-from lostmotion.inference.fit import Fit, Local
+from lostmotion.inference.evidence import sample_evidence
+from lostmotion.inference.fit import Expansion, Fit
 from lostmotion.likelihood.space import FreeParameter
 
 
@@ -36,7 +36,9 @@ def fit_of(middle, sd, low, high):
     toy = Toy(free, np.array(middle), np.array(sd))
     top = np.clip(middle, low, high)
     height = float(toy.log_likelihoods(top[None])[0])
-    local = Local(top, height, height + toy.log_prior(top), np.zeros(2), np.diag(1.0 / np.array(sd) ** 2), np.array(sd))
+    local = Expansion(
+        top, height, height + toy.log_prior(top), np.zeros(2), np.diag(1.0 / np.array(sd) ** 2), np.array(sd)
+    )
     return Fit(toy, local, "converged", 1)
 
 
@@ -44,7 +46,7 @@ def test_a_normal_posterior_gives_what_laplace_gives():
     """Seeded; the standard error that is stated covers the gap within three."""
     fit = fit_of([1.0, -2.0], [0.1, 3.0], [-10.0, -50.0], [10.0, 50.0])
     exact = math.log(2.0 * math.pi * 0.3) - math.log(20.0 * 100.0)
-    check = checked(fit, np.random.default_rng(0), 600)
+    check = sample_evidence(fit, np.random.default_rng(0), 600)
     assert check.laplace == pytest.approx(exact, abs=1e-9)
     assert abs(check.sampled - exact) < 3.0 * check.error
     assert check.effective > 300
@@ -53,13 +55,13 @@ def test_a_normal_posterior_gives_what_laplace_gives():
 def test_a_posterior_that_is_cut_in_half_has_half_the_evidence():
     """Laplace's method does not see the bound: log 2 too much. Seeded, within three standard errors."""
     fit = fit_of([0.0, 0.0], [1.0, 1.0], [0.0, -30.0], [30.0, 30.0])
-    check = checked(fit, np.random.default_rng(1), 600)
+    check = sample_evidence(fit, np.random.default_rng(1), 600)
     assert abs(check.laplace - check.sampled - math.log(2.0)) < 3.0 * check.error
 
 
 def test_where_all_diverges_nothing_is_claimed():
     fit = fit_of([0.0, 0.0], [1.0, 1.0], [-9.0, -9.0], [9.0, 9.0])
     broken = replace(fit, problem=replace(fit.problem, middle=np.array([np.inf, 0.0])))
-    check = checked(broken, np.random.default_rng(2), 50)
+    check = sample_evidence(broken, np.random.default_rng(2), 50)
     assert check.effective == 0.0
     assert math.isinf(check.error)

@@ -11,11 +11,23 @@ import pytest
 
 from lostmotion.case import Experiment, load_case
 from lostmotion.diagnosis import rivals
-from lostmotion.diagnosis.excitations import Limits, candidates_for, usual_limits
-from lostmotion.diagnosis.experiment import Proposal, _counted, natural_of, news, propose
-from lostmotion.diagnosis.rehearsal import Asked, RehearsedModel, _slow, evidence, simulated
+from lostmotion.diagnosis.excitations import Limits, choose_limits, list_candidates
+from lostmotion.diagnosis.experiment import (
+    Proposal,
+    _select_counted,
+    compute_bayes_factor,
+    compute_natural_frequency,
+    propose,
+)
+from lostmotion.diagnosis.rehearsal import (
+    EvidenceBudget,
+    RehearsedModel,
+    _draw_ar1_noise,
+    compute_evidence,
+    simulate_recording,
+)
 from lostmotion.errors import CaseError
-from lostmotion.inference.course import Selection, Visit
+from lostmotion.inference.term_sets import Selection, TermSet
 from lostmotion.likelihood.drive import DriveHarmonic
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.space import AR1_LEVEL, AR1_MEMORY, FreeParameter
@@ -57,7 +69,7 @@ def sine(base=False):
 def test_offers_stay_within_the_limits(base):
     observation = sine(base)
     limits = Limits(1.2 * LEVEL, 1.5 * FREQUENCY)
-    offered = candidates_for(observation, 800, limits, np.random.default_rng(0))
+    offered = list_candidates(observation, 800, limits, np.random.default_rng(0))
     assert max(e.level for e in offered) == pytest.approx(1.2 * LEVEL)
     assert max(e.band[1] for e in offered) == pytest.approx(1.5 * FREQUENCY)
     assert {e.waveform for e in offered} == {"harmonic", "two tones", "slow sweep", "random-phase multisine"}
@@ -66,22 +78,22 @@ def test_offers_stay_within_the_limits(base):
 
 def test_an_offer_has_the_level_that_it_states_and_is_no_repeat():
     observation = sine()
-    for e in candidates_for(observation, 2000, usual_limits(observation, FREQUENCY), np.random.default_rng(0)):
+    for e in list_candidates(observation, 2000, choose_limits(observation, FREQUENCY), np.random.default_rng(0)):
         assert math.sqrt(2) * np.std(e.inputs[:, 0]) == pytest.approx(e.level, rel=0.1)
         if e.waveform == "harmonic":
             assert abs(e.level / LEVEL - 1) > 0.05 or abs(e.band[0] / FREQUENCY - 1) > 0.05
 
 
 def test_the_velocity_of_a_base_is_the_slope_of_its_position():
-    for e in candidates_for(sine(base=True), 2000, Limits(2 * LEVEL, 2 * FREQUENCY), np.random.default_rng(0)):
+    for e in list_candidates(sine(base=True), 2000, Limits(2 * LEVEL, 2 * FREQUENCY), np.random.default_rng(0)):
         slope = np.gradient(e.inputs[:, 0], 1 / RATE)[5:-5]
         np.testing.assert_allclose(e.inputs[5:-5, 1], slope, atol=0.02 * np.abs(slope).max())
 
 
 def test_a_truth_counts_only_where_it_can_show_itself():
-    assert _counted([(2.0, 60.0), (6.0, 40.0)]) == (1,)
-    assert _counted([(30.0, 60.0), (6.0, 40.0)]) == (0, 1)
-    assert _counted([(1.0, 2.0)]) == (0, 1)
+    assert _select_counted([(2.0, 60.0), (6.0, 40.0)]) == (1,)
+    assert _select_counted([(30.0, 60.0), (6.0, 40.0)]) == (0, 1)
+    assert _select_counted([(1.0, 2.0)]) == (0, 1)
     proposal = Proposal(None, (5.0, 60.0), (-1.0, -2.0), (1,))
     assert (proposal.gain, proposal.repeat) == (60.0, 0.0)
 
@@ -91,11 +103,11 @@ def test_a_louder_drive_is_taken_to_be_noisier(springs):
     *_, (truth, _) = springs
     observation = truth.problem.observations[0]
     model = RehearsedModel.of(truth)
-    offered = candidates_for(observation, 400, usual_limits(observation, FREQUENCY), np.random.default_rng(0))
+    offered = list_candidates(observation, 400, choose_limits(observation, FREQUENCY), np.random.default_rng(0))
     loud = max(offered, key=lambda e: e.level)
     i = truth.problem.keys.index("log_random_force")
-    assert model.at(loud)[i] - truth.theta[i] == pytest.approx(2 * math.log(2), rel=0.01)
-    assert model.under(loud).free[i].low > truth.problem.free[i].low
+    assert model.get_coordinates(loud)[i] - truth.theta[i] == pytest.approx(2 * math.log(2), rel=0.01)
+    assert model.pose(loud).free[i].low > truth.problem.free[i].low
 
 
 @pytest.mark.slow
@@ -104,14 +116,14 @@ def test_a_model_believes_what_it_has_made(springs):
     *_, fits = springs
     observation = fits[0].problem.observations[0]
     models = [RehearsedModel.of(fit) for fit in fits]
-    offered = candidates_for(
-        observation, observation.samples, usual_limits(observation, FREQUENCY), np.random.default_rng(0)
+    offered = list_candidates(
+        observation, observation.samples, choose_limits(observation, FREQUENCY), np.random.default_rng(0)
     )
     loud = next(e for e in offered if e.level > 1.9 * observation.travel and e.waveform == "harmonic")
     for truth, other in (models, models[::-1]):
-        z = simulated(truth, loud, np.random.default_rng(1))
-        asked = Asked(1.0, 4)
-        assert evidence(truth, loud, z, asked) > evidence(other, loud, z, asked) + 10.0
+        z = simulate_recording(truth, loud, np.random.default_rng(1))
+        asked = EvidenceBudget(1.0, 4)
+        assert compute_evidence(truth, loud, z, asked) > compute_evidence(other, loud, z, asked) + 10.0
 
 
 @pytest.mark.slow
@@ -123,19 +135,19 @@ def test_simulated_noise_has_the_memory_that_was_found(springs):
     )
     observation = replace(sine(), readings=np.zeros((20000, 1)), inputs=np.zeros((20000, 1)))
     problem = replace(truth.problem, observations=(observation,), free=(*truth.problem.free, *slow))
-    noise = _slow(problem, problem.start, 0, np.random.default_rng(0))
+    noise = _draw_ar1_noise(problem, problem.start, 0, np.random.default_rng(0))
     assert noise.std() == pytest.approx(1.0, abs=0.05)
     assert np.corrcoef(noise[1:], noise[:-1])[0, 1] == pytest.approx(math.exp(-1 / RATE / 0.02), abs=0.02)
-    assert not _slow(truth.problem, truth.theta, 0, np.random.default_rng(0)).any()
+    assert not _draw_ar1_noise(truth.problem, truth.theta, 0, np.random.default_rng(0)).any()
 
 
 @pytest.mark.slow
 def test_a_machine_that_runs_away_is_not_proposed(springs):
     *_, (truth, _) = springs
     observation = truth.problem.observations[0]
-    offered = candidates_for(observation, 400, usual_limits(observation, FREQUENCY), np.random.default_rng(0))
+    offered = list_candidates(observation, 400, choose_limits(observation, FREQUENCY), np.random.default_rng(0))
     mad = replace(offered[0], inputs=1e12 * offered[0].inputs)
-    assert simulated(RehearsedModel.of(truth), mad, np.random.default_rng(0)) is None
+    assert simulate_recording(RehearsedModel.of(truth), mad, np.random.default_rng(0)) is None
 
 
 @pytest.mark.slow
@@ -148,11 +160,11 @@ def test_proposed_experiment_separates_springs_and_a_repeat_hardly(bench, spring
     assert proposal.excitation.level > 1.3 * machine.level
     assert proposal.gain > 3.0 * proposal.repeat
     rng = np.random.default_rng(3)
-    found = news(truth, other, bench.recorded(machine, proposal.excitation.inputs[:, 0], rng))
-    again = news(truth, other, bench.recorded(machine, inputs, rng))
+    found = compute_bayes_factor(truth, other, bench.recorded(machine, proposal.excitation.inputs[:, 0], rng))
+    again = compute_bayes_factor(truth, other, bench.recorded(machine, inputs, rng))
     assert found > 2.0 * max(again, 1.0)
     assert found == pytest.approx(proposal.ways[0], rel=0.5)
-    assert natural_of(truth) == pytest.approx(machine.frequency, rel=0.5)
+    assert compute_natural_frequency(truth) == pytest.approx(machine.frequency, rel=0.5)
 
 
 @pytest.mark.slow
@@ -201,9 +213,9 @@ def test_limits_that_cannot_be_meant_are_refused(tmp_path, line, says):
 class Outcome:
     """As much of a diagnosis as the words about rivals need."""
 
-    def __init__(self, fit, visits):
+    def __init__(self, fit, fitted_sets):
         self.found = tuple(fit.problem.active)
-        self.selection = Selection(fit, fit, visits)
+        self.selection = Selection(fit, fit, fitted_sets)
         self.shown = fit.problem.observations[0]
         self.settings = DEFAULT
 
@@ -212,17 +224,17 @@ class Outcome:
 def diagnosed(springs):
     *_, (truth, other) = springs
     fits = {f.problem.active: f for f in (truth, other)}
-    return Outcome(truth, {k: Visit(k, f, 0.0 if f is truth else -2.0) for k, f in fits.items()})
+    return Outcome(truth, {k: TermSet(k, f, 0.0 if f is truth else -2.0) for k, f in fits.items()})
 
 
 @pytest.mark.slow
 def test_a_rival_is_named_with_the_experiment_that_decides(diagnosed):
-    assert list(rivals.rivals_of(diagnosed)) == ["linear_stiffness"]
+    assert list(rivals.find_rivals(diagnosed)) == ["linear_stiffness"]
     observation = diagnosed.selection.chosen.problem.observations[0]
-    offered = candidates_for(observation, 100, usual_limits(observation, FREQUENCY), np.random.default_rng(0))
+    offered = list_candidates(observation, 100, choose_limits(observation, FREQUENCY), np.random.default_rng(0))
     proposals = {"linear_stiffness": Proposal(max(offered, key=lambda e: e.level), (40.0, 50.0), (4.0, 6.0), (0, 1))}
-    rows = [Confusion(mechanism=name, at=at, says="") for name, at in RIVALS]
-    first, second = rivals.confused_with(diagnosed, rows, proposals)
+    rows = [Confusion(mechanism=name, get_coordinates=at, says="") for name, at in RIVALS]
+    first, second = rivals.describe_confusions(diagnosed, rows, proposals)
     assert second.mechanism == "sensor_delay"
     assert first.excitation.expected_log_gain == 40.0
     assert first.excitation.unit == "N"
@@ -233,30 +245,30 @@ def test_a_rival_is_named_with_the_experiment_that_decides(diagnosed):
 @pytest.mark.slow
 def test_without_an_experiment_that_decides_it_says_so(diagnosed):
     observation = diagnosed.selection.chosen.problem.observations[0]
-    offered = candidates_for(observation, 100, usual_limits(observation, FREQUENCY), np.random.default_rng(0))
+    offered = list_candidates(observation, 100, choose_limits(observation, FREQUENCY), np.random.default_rng(0))
     proposals = {"linear_stiffness": Proposal(offered[0], (1.0, 0.5), (0.0, 0.0), (0, 1))}
-    (only,) = rivals.confused_with(diagnosed, [], proposals)
+    (only,) = rivals.describe_confusions(diagnosed, [], proposals)
     assert "No excitation within the limits" in only.says
 
 
 @pytest.mark.slow
 def test_a_relative_is_named_by_its_evidence_and_not_by_its_price(diagnosed, monkeypatch):
     """A set with a further parameter pays for it: what the recording cannot rule out is named all the same."""
-    monkeypatch.setattr(rivals, "related", lambda a, b: True)
-    visits = diagnosed.selection.visits
-    (other,) = [v for v in visits.values() if v.terms != diagnosed.selection.chosen.problem.active]
-    visits[other.terms] = replace(other, weight=-9.0)
+    monkeypatch.setattr(rivals, "are_related", lambda a, b: True)
+    fitted_sets = diagnosed.selection.fitted_sets
+    (other,) = [v for v in fitted_sets.values() if v.terms != diagnosed.selection.chosen.problem.active]
+    fitted_sets[other.terms] = replace(other, weight=-9.0)
     level = diagnosed.selection.chosen.log_evidence
     for short, named in ((2.0, True), (5.0, False)):
         local = replace(
             other.fit.local, log_posterior=other.fit.local.log_posterior + level - short - other.fit.log_evidence
         )
-        visits[other.terms] = replace(other, weight=-9.0, fit=replace(other.fit, local=local))
-        assert bool(rivals.rivals_of(diagnosed)) is named
+        fitted_sets[other.terms] = replace(other, weight=-9.0, fit=replace(other.fit, local=local))
+        assert bool(rivals.find_rivals(diagnosed)) is named
 
 
 @pytest.mark.slow
 def test_no_rival_no_experiment(springs):
     *_, (truth, _) = springs
-    alone = Outcome(truth, {truth.problem.active: Visit(truth.problem.active, truth, 0.0)})
-    assert rivals.proposed(alone, Experiment(), rng=np.random.default_rng(0)) == {}
+    alone = Outcome(truth, {truth.problem.active: TermSet(truth.problem.active, truth, 0.0)})
+    assert rivals.propose_experiments(alone, Experiment(), rng=np.random.default_rng(0)) == {}

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from lostmotion.errors import ContractError, DataError
-from lostmotion.flow import FEWEST, Harmonic, flow_of, stepped
+from lostmotion.flow import FEWEST, Harmonic, flow_of, make_stepped_flow
 from lostmotion.likelihood.system import System
 from lostmotion.rates import UNITS, exponent_in
 from lostmotion.results import Estimate
@@ -25,7 +25,7 @@ RNG = np.random.default_rng(0)
 
 
 def soft(**options):
-    return stepped(System.of(LinearOscillator()), SOFT, drive=(1.0, 1.3), **options)
+    return make_stepped_flow(System.of(LinearOscillator()), SOFT, drive=(1.0, 1.3), **options)
 
 
 def test_looks_of_a_linear_oscillator_are_its_closed_form():
@@ -55,7 +55,9 @@ def test_states_of_terms_are_states_of_the_flow():
 
 
 def test_the_step_follows_the_fastest_rate():
-    slow, fast = (stepped(System.of(LinearOscillator()), {**SOFT, "k": k}, drive=(1.0, 1.3)).steps for k in (1.0, 1e4))
+    slow, fast = (
+        make_stepped_flow(System.of(LinearOscillator()), {**SOFT, "k": k}, drive=(1.0, 1.3)).steps for k in (1.0, 1e4)
+    )
     assert slow == pytest.approx(2.0 * math.pi / 1.3 / 0.04, rel=0.01)
     assert fast == pytest.approx(100.0 * slow, rel=0.01)
     assert soft(steps=FEWEST).steps == FEWEST
@@ -124,7 +126,7 @@ def test_a_limit_cycle_has_the_dimension_one(period):
 
 
 def test_rest_and_nonsense_are_answered():
-    still = stepped(System.of(LinearOscillator()), SOFT, drive=2.0)
+    still = make_stepped_flow(System.of(LinearOscillator()), SOFT, drive=2.0)
     assert LyapunovMax(periods=200).estimate(still, rng=RNG).value == pytest.approx(-0.05, abs=1e-3)
     assert LyapunovMax(periods=10).estimate(still, rng=RNG).status == "too_short"
     for wrong in (-1.0, 0.0, math.inf, (1.0, 0.0)):

@@ -176,9 +176,9 @@ def test_a_clipped_converter_is_an_overload(bits):
 
 def test_an_overload_is_said_with_its_unit():
     high, low = note_overload(clipped(0.0), "the sensor 'a'", "m/s^2")
-    assert high.startswith("the sensor 'a' sits at its largest value 49.03 m/s^2 for ")
+    assert high.startswith("the sensor 'a' stays at its largest value 49.03 m/s^2 for ")
     assert "samples in 6 stretches" in high or "samples in 5 stretches" in high
-    assert low.startswith("the sensor 'a' sits at its smallest value -49.03 m/s^2")
+    assert low.startswith("the sensor 'a' stays at its smallest value -49.03 m/s^2")
     resting = np.concatenate([clipped(0.0)[:3000], np.full(2000, 49.03)])
     assert not [note for note in note_overload(resting, "a") if "largest" in note]
 

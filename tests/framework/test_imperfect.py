@@ -15,21 +15,21 @@ from lostmotion.contracts import Array
 from lostmotion.errors import DataError
 from lostmotion_trials.blind import judging
 from lostmotion_trials.blind import score as proof
-from lostmotion_trials.blind.commitment import Blind, concealed, label
+from lostmotion_trials.blind.commitment import Blind, conceal_case, format_case_name
 from lostmotion_trials.blind.imperfect import (
     CYCLE,
+    EFFECT_SIZES,
     FITTED,
     IMPACTS,
     KINDS,
-    SIZE,
-    SMOOTH,
+    SMOOTH_SIZES,
     STEPS,
     SWEEP,
-    _timed,
+    _compute_timed_force,
     draw_effect,
     draw_machine,
     draw_world,
-    recorded_roughly,
+    record_imperfect,
 )
 from lostmotion_trials.blind.mechanisms import NAMES, Pilot
 from lostmotion_trials.blind.page import render
@@ -45,11 +45,13 @@ ROUGH = Blind(most=SHORT, world="imperfect")
 
 
 def sealed(out, number=0):
-    return from_plain(SealedTruth, json.loads((out / "sealed" / f"{label(number)}.json").read_text(encoding="utf-8")))
+    return from_plain(
+        SealedTruth, json.loads((out / "sealed" / f"{format_case_name(number)}.json").read_text(encoding="utf-8"))
+    )
 
 
 def told(out, number=0):
-    return tomllib.loads((out / "cases" / label(number) / "case.toml").read_text(encoding="utf-8"))
+    return tomllib.loads((out / "cases" / format_case_name(number) / "case.toml").read_text(encoding="utf-8"))
 
 
 def machine(kind, seed, samples=SHORT):
@@ -67,7 +69,7 @@ def ten(tmp_path_factory):
     """Return the folder of ten cases: two of each kind of drive."""
     out = tmp_path_factory.mktemp("rough")
     for number in range(10):
-        concealed(ROUGH, out, number)
+        conceal_case(ROUGH, out, number)
     return out
 
 
@@ -81,7 +83,7 @@ def test_kinds_of_drives_take_turns(ten):
 def test_every_kind_makes_a_case_that_can_be_diagnosed(ten):
     for number in range(10):
         case, truth = told(ten, number), sealed(ten, number)
-        table = np.loadtxt(ten / "cases" / label(number) / "recording.csv", delimiter=",", skiprows=1)
+        table = np.loadtxt(ten / "cases" / format_case_name(number) / "recording.csv", delimiter=",", skiprows=1)
         assert np.isfinite(table).all()
         assert table.shape == (truth.machine.samples, 3)
         assert np.std(table[:, 1]) > 0.0
@@ -92,12 +94,12 @@ def test_every_kind_makes_a_case_that_can_be_diagnosed(ten):
 
 @pytest.mark.slow
 def test_seed_reproduces_and_another_does_not(ten, tmp_path):
-    first = {number: concealed(ROUGH, tmp_path / "again", number).digests for number in (3, 7)}
-    other = {number: concealed(replace(ROUGH, seed=1), tmp_path / "other", number).digests for number in (3, 7)}
+    first = {number: conceal_case(ROUGH, tmp_path / "again", number).digests for number in (3, 7)}
+    other = {number: conceal_case(replace(ROUGH, seed=1), tmp_path / "other", number).digests for number in (3, 7)}
     for number in (3, 7):
         for name in ("case.toml", "recording.csv"):
-            same = (tmp_path / "again" / "cases" / label(number) / name).read_bytes()
-            assert same == (ten / "cases" / label(number) / name).read_bytes()
+            same = (tmp_path / "again" / "cases" / format_case_name(number) / name).read_bytes()
+            assert same == (ten / "cases" / format_case_name(number) / name).read_bytes()
         assert first[number] != other[number]
 
 
@@ -120,7 +122,7 @@ def test_readings_lie_on_a_lattice(ten):
     for number in range(10):
         truth = sealed(ten, number)
         step = truth.world.step * truth.machine.measurement_noise
-        shown = np.loadtxt(ten / "cases" / label(number) / "recording.csv", delimiter=",", skiprows=1)[:, 2]
+        shown = np.loadtxt(ten / "cases" / format_case_name(number) / "recording.csv", delimiter=",", skiprows=1)[:, 2]
         assert np.abs(shown / step - np.round(shown / step)).max() < 1e-3
 
 
@@ -146,7 +148,7 @@ def test_smooth_forces_over_phase_have_their_size():
     for seed in range(8):
         pilot, world, _ = machine(CYCLE, seed)
         for blemish in (b for b in world.smooth if b.over == "phase"):
-            force = _timed(replace(world, smooth=(blemish,)), pilot.rig, pilot.rig.time)
+            force = _compute_timed_force(replace(world, smooth=(blemish,)), pilot.rig, pilot.rig.time)
             assert np.sqrt(np.mean(force**2)) == pytest.approx(blemish.rms, rel=0.15)
             found += 1
     assert found >= 2
@@ -158,7 +160,7 @@ def test_smooth_forces_over_time_have_their_size_and_no_mean_before_nor_in_what_
     for seed in range(20):
         pilot, world, _ = machine(SWEEP, seed, 500)
         for blemish in (b for b in world.smooth if b.over == "time"):
-            force = _timed(replace(world, smooth=(blemish,)), pilot.rig, pilot.rig.time)
+            force = _compute_timed_force(replace(world, smooth=(blemish,)), pilot.rig, pilot.rig.time)
             fitted = round(FITTED * len(force))
             assert np.std(force) == pytest.approx(blemish.rms, rel=0.02)
             assert abs(np.mean(force[:fitted])) < 0.02 * blemish.rms
@@ -174,8 +176,8 @@ def test_all_smooth_forces_together_are_a_small_share_of_the_drive():
             pilot, world, _ = machine(kind, seed)
             drive = np.inf if pilot.rig.based else pilot.rig.signal.amplitude
             share = np.linalg.norm([b.rms for b in world.smooth]) / min(drive, np.sqrt(2.0) * pilot.inertial)
-            assert SMOOTH[0] <= share * 1.0000001
-            assert share <= SMOOTH[1] * 1.0000001
+            assert SMOOTH_SIZES[0] <= share * 1.0000001
+            assert share <= SMOOTH_SIZES[1] * 1.0000001
             assert kind == CYCLE or "phase" not in {b.over for b in world.smooth}
 
 
@@ -183,10 +185,10 @@ def test_noise_has_its_deviation_and_the_sensor_is_bent_by_half_a_per_cent_at_mo
     for kind in (CYCLE, IMPACTS):
         pilot, world, rng = machine(kind, 2, 3000)
         still = replace(world, hum=0.0, step=1e-6, bend=(0.0, 0.0))
-        shown, noise = recorded_roughly(pilot.rig, pilot.q, still, rng)
+        shown, noise = record_imperfect(pilot.rig, pilot.q, still, rng)
         assert np.std(shown - pilot.q) == pytest.approx(noise, rel=0.1)
         silent = replace(pilot.rig, noise=1e-9)
-        shown, _ = recorded_roughly(silent, pilot.q, replace(world, step=1e-6, bend=(0.005, -0.005)), rng)
+        shown, _ = record_imperfect(silent, pilot.q, replace(world, step=1e-6, bend=(0.005, -0.005)), rng)
         z = (pilot.q - pilot.q.mean()) / (np.sqrt(2.0) * np.std(pilot.q))
         assert np.abs(shown - pilot.q).max() <= 0.0051 * np.sqrt(2.0) * np.std(pilot.q) * np.max(z**2 + np.abs(z) ** 3)
         assert np.abs(shown - pilot.q).max() > 0.001 * np.std(pilot.q)
@@ -196,23 +198,23 @@ def test_hidden_force_is_a_share_of_that_of_inertia():
     for kind in (CYCLE, STEPS):
         pilot, _, rng = machine(kind, 1)
         shares = [dict(draw_effect("offset_force", pilot, rng).parameters)["force"] / pilot.inertial for _ in range(50)]
-        assert SIZE[0] <= np.abs(shares).min()
-        assert np.abs(shares).max() <= SIZE[1]
+        assert EFFECT_SIZES[0] <= np.abs(shares).min()
+        assert np.abs(shares).max() <= EFFECT_SIZES[1]
         assert min(shares) < 0.0 < max(shares)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_every_mechanism_can_be_hidden_under_one_cycle(name, tmp_path):
-    concealed(replace(ROUGH, only=(name,), most=500), tmp_path, 0)
+    conceal_case(replace(ROUGH, only=(name,), most=500), tmp_path, 0)
     assert [one.mechanism for one in sealed(tmp_path).effects] == [name]
 
 
 def test_what_cannot_be_hidden_under_a_drive_is_refused(tmp_path):
     only = replace(ROUGH, only=("parametric_stiffness",))
-    concealed(only, tmp_path, 0)
+    conceal_case(only, tmp_path, 0)
     with pytest.raises(DataError, match="parametric_stiffness cannot be hidden in a machine under impacts: name more"):
-        concealed(only, tmp_path, KINDS.index(IMPACTS))
+        conceal_case(only, tmp_path, KINDS.index(IMPACTS))
 
 
 def test_world_that_does_not_exist_is_refused():
@@ -235,7 +237,7 @@ def judge(found, *effects, model="lin_backlash", errors=(0.2, 0.1)):
     return judging._score_imperfect(said, truth, CYCLE)
 
 
-@pytest.mark.parametrize("law", judging.RUB)
+@pytest.mark.parametrize("law", judging.FRICTION_TERMS)
 @pytest.mark.parametrize("said", ["coulomb_friction", "bouc_wen_hysteresis"])
 def test_any_law_of_friction_names_friction(law, said):
     case = judge([entry(said)], effect(law))
@@ -296,11 +298,11 @@ def rows():
         (SWEEP, judge([entry("unknown")])),
         (SWEEP, judge([entry("offset_force")])),
     ]
-    return [replace(case, kind=kind, case=label(k)) for k, (kind, case) in enumerate(told)]
+    return [replace(case, kind=kind, case=format_case_name(k)) for k, (kind, case) in enumerate(told)]
 
 
 def test_summary_rates_sure_names_by_kind():
-    found = proof.summary(rows(), [])
+    found = proof.summarise(rows(), [])
     every, cycle, sweep = found.sure
     assert [row.kind for row in found.sure] == ["all", CYCLE, SWEEP]
     assert (every.machines, every.rate.hits, every.rate.of) == (6, 3, 5)
@@ -308,7 +310,7 @@ def test_summary_rates_sure_names_by_kind():
     assert (sweep.machines, sweep.rate.hits, sweep.rate.of) == (4, 2, 3)
     assert (every.named.hits, every.named.of) == (2, 4)
     assert (every.worse.hits, every.worse.of) == (1, 6)
-    assert every.rate.low == proof.rate(3, 5).low
+    assert every.rate.low == proof.estimate_rate(3, 5).low
     assert {(row.truth, row.answer) for row in found.confusion} == {
         ("coulomb_friction", "dahl_friction"), ("cubic_stiffness", "gap_drift"), ("nothing", "unknown"),
         ("cubic_stiffness", "cubic_stiffness"), ("coulomb_friction", "unknown"), ("nothing", "offset_force"),
@@ -316,29 +318,29 @@ def test_summary_rates_sure_names_by_kind():
 
 
 def test_alarm_on_a_machine_that_hides_nothing_is_a_false_sure_name():
-    (alarms,) = proof.summary(rows(), []).alarms
+    (alarms,) = proof.summarise(rows(), []).alarms
     assert (alarms.noise, alarms.rate.hits, alarms.rate.of) == ("all", 1, 2)
 
 
 def test_targets_are_those_of_sure_names():
-    targets = proof.summary(rows(), []).targets
+    targets = proof.summarise(rows(), []).targets
     assert [row.what for row in targets] == [f"sure names that are there, {kind}" for kind in ("all", CYCLE, SWEEP)]
     assert {row.at_least for row in targets} == {0.95}
-    many = proof.summary([row for row in rows() for _ in range(20)], []).targets
+    many = proof.summarise([row for row in rows() for _ in range(20)], []).targets
     assert many[0].state == "missed"
 
 
 def test_sentences_count_sure_names():
-    says = proof.summary(rows(), []).says
-    assert says[0] == "Of 5 names that were stated with more than 0.95, 3 are there (60 %, 95 % band 15 to 95 %)."
-    assert says[1] == "The hidden effect was named so on 2 of 4 machines that hide one."
-    assert says[2] == "On 1 of 2 machines that hide nothing a name was stated so that is not there."
-    assert says[3] == "The held-out error rose by what was found on 1 of 6 machines."
-    assert proof.summary(rows()[3:5], []).says[0] == "No name was stated with more than 0.95."
+    says = proof.summarise(rows(), []).says
+    assert says[0] == "Of 5 names that were stated with more than 0.95, 3 are correct (60 %, 95 % band 15 to 95 %)."
+    assert says[1] == "The hidden effect was named with more than 0.95 on 2 of 4 machines that hide one."
+    assert says[2] == "An absent mechanism was named with more than 0.95 on 1 of 2 machines that hide nothing."
+    assert says[3] == "The named mechanisms increased the held-out error on 1 of 6 machines."
+    assert proof.summarise(rows()[3:5], []).says[0] == "No mechanism was named with more than 0.95."
 
 
 def page(cases):
-    told = Proof("lostmotion.proof/1", "Rough", proof.summary(cases, []), {})
+    told = Proof("lostmotion.proof/1", "Rough", proof.summarise(cases, []), {})
     return render(from_plain(Proof, json.loads(json.dumps(to_plain(told)))))
 
 
@@ -351,13 +353,13 @@ def test_page_shows_sure_names_by_drive_and_nothing_that_needs_a_true_model():
     for absent in ("section-detection", "section-heldout", "Median gain", "True model", "By size", "no true model"):
         assert absent not in text
     assert "cases/001: cubic stiffness at the ground, misnamed; named was gap drift." in text
-    assert "flaws that no term describes" in text
+    assert "imperfections that no term describes" in text
 
 
 def test_page_of_a_perfect_world_says_nothing_of_flaws():
     row = rows()[4]
     text = page([replace(row, answer=replace(row.answer, named=()), sure=None, kind=None, worse=None)])
-    assert "flaws that no term describes" not in text
+    assert "imperfections that no term describes" not in text
     assert "Names stated with more than 0.95" not in text
 
 

@@ -7,9 +7,9 @@ import pytest
 
 from lostmotion.contracts import Assembly
 from lostmotion.errors import ContractError, DataError
-from lostmotion.flow import Harmonic, stepped
+from lostmotion.flow import Harmonic, make_stepped_flow
 from lostmotion.likelihood.drive import Drive
-from lostmotion.likelihood.motion import derivatives
+from lostmotion.likelihood.motion import compute_derivatives
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import NOISE, RANDOM, FreeParameter, Problem, Scales
 from lostmotion.likelihood.reference import Reference
@@ -70,7 +70,7 @@ def test_motion_and_derivatives_take_fewer_inputs(model):
     free = [system.moved(full, start, c, Clock(DT, 4, SAMPLES)).states for c in (columns, more)]
     np.testing.assert_allclose(*free, rtol=1e-9, atol=1e-14)
     asked = (system, frozenset(system.keys), system.pack(full[None], DT), runs[0])
-    for few, all_of_them in zip(derivatives(*asked, inputs), derivatives(*asked, whole), strict=True):
+    for few, all_of_them in zip(compute_derivatives(*asked, inputs), compute_derivatives(*asked, whole), strict=True):
         np.testing.assert_array_equal(few, all_of_them)
 
 
@@ -78,8 +78,8 @@ def test_motion_and_derivatives_take_fewer_inputs(model):
 def test_a_harmonic_drive_moves_the_first_input_alone(model):
     problem = problem_of(model, moved(model))
     values = {slot.key: float(problem.known[i]) for i, slot in enumerate(problem.system.slots)}
-    flow = stepped(problem.system, values, drive=Harmonic(0.3, 6.0, 0.2), steps=100)
-    inputs = flow._inputs(4, flow.period / 4).reshape(4, 3, -1)[:, 0]
+    flow = make_stepped_flow(problem.system, values, drive=Harmonic(0.3, 6.0, 0.2), steps=100)
+    inputs = flow._make_inputs(4, flow.period / 4).reshape(4, 3, -1)[:, 0]
     angle = 2.0 * np.pi * np.arange(4) / 4 + 0.2
     np.testing.assert_allclose(inputs[:, 0], 0.3 * np.cos(angle), atol=1e-15)
     if model.inputs[0] == "base_position":

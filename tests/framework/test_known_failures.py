@@ -72,8 +72,8 @@ def test_it_is_told_to_machines_and_shown():
 def test_one_that_is_kept_after_all_is_a_failure():
     text = run("plugins", "check", "mended_drag", status=1)
     assert "FAIL  force_is_zero_at_null" in text
-    assert "Take it out" in text
-    with pytest.raises(AssertionError, match="Take it out"):
+    assert "Remove it there" in text
+    with pytest.raises(AssertionError, match="Remove it there"):
         testing.assert_conforms(Mended)
 
 
@@ -116,7 +116,7 @@ def test_an_unfinished_class_of_a_file_is_named(tmp_path):
     text = run("--plugin", str(path), "plugins", status=2)
     sys.modules.pop("half_terms", None)
     assert "term 'half' of" in text
-    assert "is not finished: write the method force of Half" in text
+    assert "is not complete: write the method force of Half" in text
 
 
 def test_what_others_bring_is_told_by_digest_or_version(tmp_path):

@@ -5,10 +5,17 @@ import pytest
 from scipy.signal import lfilter
 
 from lostmotion.diagnosis.search import locate
-from lostmotion.inference.locate import covariates, further, summary
-from lostmotion.inference.odds import Ratio, averaged, gained, inflation, likely, p_values
-from lostmotion.inference.shares import Covariate, adjusted, phase_randomised, shares_of, significant
-from lostmotion.likelihood.latent import Missing
+from lostmotion.inference.locate import describe_location, list_covariates, list_further_covariates
+from lostmotion.inference.odds import (
+    LikelihoodRatio,
+    compute_gain,
+    compute_inflation,
+    compute_log_mean,
+    compute_p_values,
+    list_likely,
+)
+from lostmotion.inference.shares import Covariate, adjust_p_values, compute_shares, list_significant, randomise_phases
+from lostmotion.likelihood.latent import LatentForce
 from lostmotion.likelihood.observation import Observation
 from lostmotion.registry import default
 
@@ -32,9 +39,9 @@ def asked(x, v):
     """Return what a diagnosis asks of a force along a motion in a gap of 5 mm."""
     model = default().make("model", "lin_backlash")
     observation = Observation.of("seen", x, np.cos(2.0 * np.pi * np.arange(SAMPLES) / PERIOD)[:, None], DT, "position")
-    missing = Missing(np.zeros(SAMPLES), np.zeros(SAMPLES), np.stack([x, v], axis=1), 0.0, 0.0, 0.0)
-    table = covariates(model, observation, missing)
-    return table, {k: Covariate((c,)) for k, c in table.items()} | further(
+    missing = LatentForce(np.zeros(SAMPLES), np.zeros(SAMPLES), np.stack([x, v], axis=1), 0.0, 0.0, 0.0)
+    table = list_covariates(model, observation, missing)
+    return table, {k: Covariate((c,)) for k, c in table.items()} | list_further_covariates(
         model, observation, missing, {"ground": 0.005}
     )
 
@@ -43,8 +50,8 @@ def located(force, rng):
     x, v = swing(rng)
     table, questions = asked(x, v)
     made = force(x, v) + 0.3 * smoothed_noise(rng)
-    found = shares_of(questions, made, rng)
-    return found, summary(table, made, found)
+    found = compute_shares(questions, made, rng)
+    return found, describe_location(table, made, found)
 
 
 def test_everything_that_is_asked_is_answered():
@@ -65,7 +72,7 @@ def test_everything_that_is_asked_is_answered():
 def test_a_force_is_found_where_it_lives(force, where):
     """Each force is about as large as the noise or larger; half of the variance goes with its covariate at least."""
     found, _ = located(force, np.random.default_rng(3))
-    assert where in significant(found)
+    assert where in list_significant(found)
     assert found[where].value > 0.5
 
 
@@ -73,7 +80,7 @@ def test_the_sentence_names_the_sign_and_leaves_out_what_noise_would_show():
     _, said = located(lambda x, v: -3.0 * np.sign(v), np.random.default_rng(4))
     assert said.startswith("a function of sign of velocity, which explains ")
     _, said = located(lambda x, v: 0.0 * x, np.random.default_rng(5))
-    assert said.startswith("no structure over position, velocity, phase or time")
+    assert said.startswith("no significant structure over position, velocity, phase or time")
 
 
 def test_history_counts_only_beyond_position_and_velocity():
@@ -85,13 +92,13 @@ def test_history_counts_only_beyond_position_and_velocity():
     x = np.convolve(rng.standard_normal(SAMPLES + 40), np.hanning(40), "same")[:SAMPLES]
     late = np.concatenate([np.zeros(lag), x[:-lag]])
     question = {"history": Covariate((x, np.gradient(x), late))}
-    assert shares_of(question, late**2, rng)["history"].value > 0.8
+    assert compute_shares(question, late**2, rng)["history"].value > 0.8
 
 
 def test_surrogates_keep_the_spectrum_and_lose_the_line():
     rng = np.random.default_rng(8)
     noise = smoothed_noise(rng)
-    made = phase_randomised(noise + 5.0 * np.sin(2.0 * np.pi * np.arange(SAMPLES) / PERIOD), 50, rng)
+    made = randomise_phases(noise + 5.0 * np.sin(2.0 * np.pi * np.arange(SAMPLES) / PERIOD), 50, rng)
     assert made.shape == (50, SAMPLES)
     assert np.mean(made.var(axis=1)) == pytest.approx(noise.var(), rel=0.15)
     memory = np.mean(made[:, 1:] * made[:, :-1]) / np.mean(made**2)
@@ -105,9 +112,9 @@ def test_the_same_seed_gives_the_same_answer():
 
 def test_without_chance_nothing_is_called_significant():
     x, v = swing(np.random.default_rng(10))
-    found = shares_of(asked(x, v)[1], 300.0 * x, None)
+    found = compute_shares(asked(x, v)[1], 300.0 * x, None)
     assert found["position"].value > 0.9
-    assert significant(found) == []
+    assert list_significant(found) == []
 
 
 def two_places(force, rng):
@@ -118,7 +125,7 @@ def two_places(force, rng):
     model = default().make("model", "robot_joint")
     observation = Observation.of("seen", x, inputs, DT, "position")
     made = force(x - base, v - inputs[:, 1]) + 0.3 * smoothed_noise(rng)
-    missing = Missing(made, np.zeros(SAMPLES), np.stack([x, v], axis=1), 0.0, 0.0, 0.0)
+    missing = LatentForce(made, np.zeros(SAMPLES), np.stack([x, v], axis=1), 0.0, 0.0, 0.0)
     return locate(model, observation, missing, plays={"base": 0.005}, rng=rng)
 
 
@@ -147,7 +154,7 @@ def test_adjusted_p_values_are_those_of_the_largest_excess():
     """Against loops, the slow twin."""
     values = np.random.default_rng(14).normal(size=(4, 50)) * np.array([[1.0], [5.0], [0.1], [2.0]])
     values[2, 0] = 0.35
-    excess, p = adjusted(values)
+    excess, p = adjust_p_values(values)
     scaled = [[(v - np.mean(row)) / np.std(row) for v in row] for row in values]
     largest = [max(row[k] for row in scaled) for k in range(1, 50)]
     np.testing.assert_allclose(excess, [row[0] for row in scaled])
@@ -159,7 +166,7 @@ def test_adjusted_p_values_hold_their_level_over_all_tests():
     rng, wrong = np.random.default_rng(15), 0
     for _ in range(400):
         values = rng.normal(size=(30, 200)) + 2.0 * rng.normal(size=(1, 200))
-        wrong += bool(np.min(adjusted(values**2)[1]) <= 0.05)
+        wrong += bool(np.min(adjust_p_values(values**2)[1]) <= 0.05)
     assert wrong <= 34
 
 
@@ -174,7 +181,7 @@ def test_likelihood_ratio_in_closed_form_is_that_of_two_normal_densities():
     root = np.diag(np.linspace(0.1, 0.5, 6))[:, :4]
     wide = np.eye(60) + design @ root @ root.T @ design.T
     slow = 0.5 * (data @ data - data @ np.linalg.inv(wide) @ data - np.linalg.slogdet(wide)[1])
-    assert gained(design.T @ data, design.T @ design, root) == pytest.approx(slow, abs=1e-9)
+    assert compute_gain(design.T @ data, design.T @ design, root) == pytest.approx(slow, abs=1e-9)
 
 
 def test_likelihood_ratio_of_noise_seldom_exceeds_its_inverse_level():
@@ -183,15 +190,17 @@ def test_likelihood_ratio_of_noise_seldom_exceeds_its_inverse_level():
 
     def asked(data, *designs):
         pairs = [(design.T @ data, design.T @ design) for design in designs]
-        told = [averaged([gained(*pair, root) for root in roots]) for pair in pairs]
-        return {str(i): Ratio(one, one) for i, one in enumerate(told)}
+        told = [compute_log_mean([compute_gain(*pair, root) for root in roots]) for pair in pairs]
+        return {str(i): LikelihoodRatio(one, one) for i, one in enumerate(told)}
 
     noise = [linear(rng, 0.0) for _ in range(1000)]
-    assert sum(bool(likely(asked(data, one, rng.normal(size=(60, 6))))) for data, one in noise) <= 50
+    assert sum(bool(list_likely(asked(data, one, rng.normal(size=(60, 6))))) for data, one in noise) <= 50
     data, one = linear(rng, 1.0)
     odds = asked(data, one, rng.normal(size=(60, 6)))
-    assert likely(odds)[0] == "0"
-    told = p_values({"a": Ratio(9.0, 5.0), "b": Ratio(60.0, 50.0), "c": Ratio(-3.0, -3.0)})
+    assert list_likely(odds)[0] == "0"
+    told = compute_p_values(
+        {"a": LikelihoodRatio(9.0, 5.0), "b": LikelihoodRatio(60.0, 50.0), "c": LikelihoodRatio(-3.0, -3.0)}
+    )
     assert told == {"a": pytest.approx(3.0 * np.exp(-5.0)), "b": 1e-6, "c": 1.0}
 
 
@@ -205,8 +214,8 @@ def test_scores_with_a_memory_count_for_less():
         sums = scores.reshape(3, 40, 100).sum(axis=2)
         return sums - sums.mean(axis=1, keepdims=True)
 
-    assert inflation(blocks(white), 4000.0 * np.eye(3), np.eye(3)) == pytest.approx(1.0, abs=0.3)
-    assert inflation(blocks(slow), 4000.0 * np.eye(3), np.eye(3)) == pytest.approx(9.0, rel=0.3)
+    assert compute_inflation(blocks(white), 4000.0 * np.eye(3), np.eye(3)) == pytest.approx(1.0, abs=0.3)
+    assert compute_inflation(blocks(slow), 4000.0 * np.eye(3), np.eye(3)) == pytest.approx(9.0, rel=0.3)
 
 
 @pytest.mark.slow
@@ -219,5 +228,7 @@ def test_pure_noise_is_seldom_called_structure():
     for seed in range(100):
         rng = np.random.default_rng([11, seed])
         x, v = swing(rng)
-        wrong += bool(significant(shares_of(asked(x, v)[1], smoothed_noise(rng, 0.7 + 0.25 * rng.random()), rng)))
+        wrong += bool(
+            list_significant(compute_shares(asked(x, v)[1], smoothed_noise(rng, 0.7 + 0.25 * rng.random()), rng))
+        )
     assert wrong <= 10

@@ -8,7 +8,7 @@ from lostmotion.likelihood.system import Clock, System
 from lostmotion.registry import default
 from lostmotion.simulation.drives import signal_of
 from lostmotion_trials.coverage import machines
-from lostmotion_trials.coverage.machines import Stand, recorded
+from lostmotion_trials.coverage.machines import Stand, record_machine
 
 LIN = {"m": 1.0, "c": 8.0, "k1": 0.0, "k0": 4e4, "x0": 0.005}
 JOINT = {"m": 0.05, "c": 0.15, "k0": 180.0, "x0": 0.0131, "mgl": 0.3}
@@ -32,8 +32,10 @@ def test_leapfrog_goes_with_the_model(name):
     forces = {f"{key}.force": f for key, f in zip(system.keys, friction.values(), strict=True)}
     full, samples = system.vector({**values, **forces}), 120
     drive = signal_of(text, duration=10.0, rng=np.random.default_rng(0))
-    moved = machines._mover(system)(system, full, machines._DrivenRun(drive, rate, samples), np.array([0.5, 0.3]))
-    assert machines.moved_by(system) == machines.INDEPENDENT
+    moved = machines._choose_mover(system)(
+        system, full, machines._DrivenRun(drive, rate, samples), np.array([0.5, 0.3])
+    )
+    assert machines.describe_motion(system) == machines.INDEPENDENT
     known = {"force": drive.value, "base_position": drive.value, "base_velocity": drive.slope}
     inputs = [known[name] for name in system.model.driven]
     begin = [float(f(np.zeros(1))[0]) for f in (drive.value, drive.slope)] if model == "robot_joint" else [0.0, 0.0]
@@ -47,7 +49,7 @@ def test_friction_sticks():
     system = System(registry.make("model", "lin_backlash"), (registry.make("term", "coulomb_friction"),))
     full = system.vector({**LIN, "coulomb_friction.force": 3.0})
     bench = Stand(("step:size=2.9,at=0.2",), 1.0, 500.0, 0.0)
-    seen = recorded(system, full, bench, bench.drives[0], np.random.default_rng(0))
+    seen = record_machine(system, full, bench, bench.drives[0], np.random.default_rng(0))
     # A push below the friction force moves nothing, not even slowly.
     assert np.ptp(seen.response[150:]) == 0.0
 
@@ -55,7 +57,9 @@ def test_friction_sticks():
 def test_noise_is_what_was_asked_for():
     system = System(default().make("model", "lin_backlash"))
     clean, noisy = (
-        recorded(system, system.vector(LIN), Stand((FORCE,), 5.0, 600.0, noise, loud), FORCE, np.random.default_rng(0))
+        record_machine(
+            system, system.vector(LIN), Stand((FORCE,), 5.0, 600.0, noise, loud), FORCE, np.random.default_rng(0)
+        )
         for noise, loud in ((0.0, 0.0), (0.05, 0.01))
     )
     assert noisy.noise == pytest.approx(0.05 * clean.response.std())
@@ -67,13 +71,13 @@ def test_noise_is_what_was_asked_for():
 def test_another_term_is_moved_by_the_model_itself():
     registry = default()
     system = System(registry.make("model", "lin_backlash"), (registry.make("term", "quadratic_damping"),))
-    assert machines.moved_by(system) == machines.OWN
+    assert machines.describe_motion(system) == machines.OWN
     drive = signal_of(FORCE, duration=10.0, rng=np.random.default_rng(0))
     bare = System(system.model)
     run = machines._DrivenRun(drive, 600.0, 100)
     start = np.array([0.5, 0.0])
-    own = machines._own(system, system.vector(LIN), run, start)
-    assert np.abs(own - machines._lin(bare, bare.vector(LIN), run, start)).max() < 3e-5 * own.std()
+    own = machines._move_by_model(system, system.vector(LIN), run, start)
+    assert np.abs(own - machines._move_oscillator(bare, bare.vector(LIN), run, start)).max() < 3e-5 * own.std()
 
 
 @pytest.mark.parametrize(

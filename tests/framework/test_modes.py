@@ -12,12 +12,13 @@ import pytest
 from scipy.linalg import expm
 
 from lostmotion.case import CaseFile, Prior, SensorSpec
-from lostmotion.inference.modes import Tried, distinct, one_hill
-from lostmotion.inference.setup import WITHIN, modes, polished, problem_of, search
+from lostmotion.inference.modes import StartingPoints, is_same_mode, select_modes
+from lostmotion.inference.setup import find_modes, make_problem, polish_modes, search_maximum
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import FreeParameter
 from lostmotion.likelihood.system import System
 from lostmotion.registry import default
+from lostmotion.settings import DEFAULT, Settings
 
 DT, TRUE, FOLDED = 0.05, 7.0, 13.0
 """A ring of 7 Hz that is sampled at 20 Hz looks like one of 13 Hz: all but the faint push that is recorded with it."""
@@ -40,7 +41,7 @@ def ring(*, push: float, seed: int, samples: int) -> Observation:
 def problem_for(*observations: Observation):
     priors = {"c": Prior(0.1, 10.0, "log"), "k": Prior(500.0, 1e4, "log")}
     case = CaseFile("ring", Path(), (), "linear_oscillator", {"m": 1.0}, priors, {}, (), "")
-    return problem_of(System(default().make("model", "linear_oscillator"), ()), case, observations)
+    return make_problem(System(default().make("model", "linear_oscillator"), ()), case, observations)
 
 
 def hertz(fit) -> float:
@@ -51,18 +52,18 @@ def hertz(fit) -> float:
 def test_both_modes_of_a_folded_ring_are_found(seed: int) -> None:
     """A single search settles for the wrong one; their evidences differ by less than 1, as the push is faint."""
     problem = problem_for(ring(push=0.02, seed=seed, samples=60))
-    assert hertz(search(problem, np.random.default_rng(0))) == pytest.approx(FOLDED, rel=0.01)
-    both = modes(problem, np.random.default_rng(0))
+    assert hertz(search_maximum(problem, np.random.default_rng(0))) == pytest.approx(FOLDED, rel=0.01)
+    both = find_modes(problem, np.random.default_rng(0))
     assert sorted(hertz(f) for f in both) == pytest.approx([TRUE, FOLDED], rel=0.01)
     assert both[0].log_evidence >= both[1].log_evidence > both[0].log_evidence - 1.0
     assert both[0].problem is both[1].problem
-    finer = polished(both)
+    finer = polish_modes(both)
     assert sorted(hertz(f) for f in finer) == pytest.approx([TRUE, FOLDED], rel=0.01)
     assert finer[0].problem is finer[1].problem
 
 
 def test_a_push_that_is_felt_leaves_one_mode() -> None:
-    only = modes(problem_for(ring(push=1.0, seed=0, samples=200)), np.random.default_rng(0))
+    only = find_modes(problem_for(ring(push=1.0, seed=0, samples=200)), np.random.default_rng(0))
     assert [hertz(f) for f in only] == pytest.approx([TRUE], rel=0.01)
 
 
@@ -73,6 +74,7 @@ class Hills:
     centres: tuple[float, ...]
     ripple: float = 0.0
     nsub: int = 1
+    settings: Settings = DEFAULT
 
     def clip(self, points):
         return points
@@ -108,8 +110,8 @@ class Hills:
 )
 def test_a_dip_makes_two_hills_and_roughness_does_not(hills: Hills, ends: tuple[float, float], one: bool) -> None:
     a, b = (hills.fit(x, sd=0.5) for x in ends)
-    assert one_hill(a, b) == one_hill(b, a) == one
-    assert len(distinct([a, b], WITHIN)) == 2 - one
+    assert is_same_mode(a, b) == is_same_mode(b, a) == one
+    assert len(select_modes([a, b], 20.0)) == 2 - one
 
 
 def test_low_hills_and_fits_that_came_to_nothing_are_left_out() -> None:
@@ -118,8 +120,8 @@ def test_low_hills_and_fits_that_came_to_nothing_are_left_out() -> None:
     low.local.log_posterior -= 25.0
     lost.local.log_posterior = -math.inf
     best = hills.fit(0.0)
-    assert distinct([low, lost, best], 20.0) == [best]
-    assert distinct([low, lost, best], 30.0) == [best, low]
+    assert select_modes([low, lost, best], 20.0) == [best]
+    assert select_modes([low, lost, best], 30.0) == [best, low]
 
 
 def test_a_low_narrow_hill_is_started_from_too() -> None:
@@ -127,7 +129,7 @@ def test_a_low_narrow_hill_is_started_from_too() -> None:
     x = np.linspace(0.0, 1.0, 41)
     scores = np.maximum(-((x - 0.3) ** 2), -100.0 * (x - 0.9) ** 2 - 0.2)
     scores[5] = -np.inf
-    tried = Tried(x[:, None], x[:, None], scores)
+    tried = StartingPoints(x[:, None], x[:, None], scores)
     assert all(abs(x[i] - 0.3) < 0.2 for i in tried.best(8))
     assert {round(x[i], 3) for i in tried.peaks(2)} == {0.3, 0.9}
     assert len(tried.peaks(50)) == 40
@@ -138,8 +140,8 @@ def test_a_rough_hill_is_one_mode() -> None:
     """The kink of a backlash makes the posterior rough; two seeds find the same single maximum. No chance."""
     priors = {"c": Prior(0.8, 80.0, "log"), "x0": Prior(5e-4, 5e-2, "log")}
     case = CaseFile("clatter", Path(), (), "lin_backlash", {"m": 1.0, "k0": 4e4, "k1": 0.0}, priors, {}, (), "")
-    problem = problem_of(System(default().make("model", "lin_backlash"), ()), case, (clatter(),))
-    found = [modes(problem, np.random.default_rng(seed)) for seed in range(2)]
+    problem = make_problem(System(default().make("model", "lin_backlash"), ()), case, (clatter(),))
+    found = [find_modes(problem, np.random.default_rng(seed)) for seed in range(2)]
     assert [len(f) for f in found] == [1, 1]
     assert all(f[0].values["c"] == pytest.approx(8.0, rel=0.05) for f in found)
 
@@ -164,7 +166,7 @@ def clatter() -> Observation:
 def test_the_walk_to_a_mode_stays_within_its_bounds() -> None:
     problem = problem_for(ring(push=0.02, seed=0, samples=60))
     narrow = replace(problem, free=tuple(replace(f, high=7.7) if f.key == "k" else f for f in problem.free))
-    only = modes(narrow, np.random.default_rng(0))
+    only = find_modes(narrow, np.random.default_rng(0))
     assert [hertz(f) for f in only] == pytest.approx([TRUE], rel=0.01)
     assert isinstance(only[0].problem.free[0], FreeParameter)
 
@@ -173,7 +175,7 @@ def test_hills_are_compared_with_the_noise_of_each_recording() -> None:
     """Both modes of a faint and of a loud ring, with levels of their own in one problem for both of them."""
     observations = tuple(replace(ring(push=0.02, seed=s, samples=60), name=n) for s, n in ((0, "faint"), (1, "loud")))
     loud = replace(observations[1], readings=30.0 * observations[1].readings, inputs=30.0 * observations[1].inputs)
-    both = modes(
+    both = find_modes(
         problem_for(observations[0], loud), np.random.default_rng(0), sensor=SensorSpec(offset=Prior(mean=0.0, sd=0.01))
     )
     assert sorted(hertz(f) for f in both) == pytest.approx([TRUE, FOLDED], rel=0.01)

@@ -80,7 +80,7 @@ def test_a_frame_a_dataset_and_a_file_are_the_same_recording(tmp_path):
         ({"sensors": {}}, "has no sensor"),
         ({"noise": {"position": "pink"}}, "wanted one of white, ar1, quantised"),
         ({"sensors": {"position": np.stack([X, X])}}, "one number for each sample"),
-        ({"sensors": {"position": ["a"] * N}}, "no numbers"),
+        ({"sensors": {"position": ["a"] * N}}, "instead of numbers"),
     ],
 )
 def test_what_cannot_be_used_is_refused(change, says):

@@ -12,13 +12,19 @@ from scipy.linalg import expm
 
 from lostmotion.case import CaseFile, Prior, SensorSpec
 from lostmotion.contracts import Param
-from lostmotion.inference.setup import beginnings, free_of, problem_of, search, separated
+from lostmotion.inference.setup import (
+    cut_beginnings,
+    make_free_parameter,
+    make_problem,
+    search_maximum,
+    separate_levels,
+)
 from lostmotion.likelihood.lanes import Lanes
-from lostmotion.likelihood.levels import LEAST, own_levels
+from lostmotion.likelihood.levels import LEAST, make_own_levels
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.predict import free_runs, observed
+from lostmotion.likelihood.predict import observe_states, predict_freely
 from lostmotion.likelihood.problem import NOISE, OFFSET, RANDOM, Problem, Scales
-from lostmotion.likelihood.space import FreeParameter, RecordingCoordinates, keys_of, parted
+from lostmotion.likelihood.space import FreeParameter, RecordingCoordinates, list_keys, split_key
 from lostmotion.likelihood.system import Slot, System
 from lostmotion.quantities import DAMPING
 from lostmotion.registry import default
@@ -55,7 +61,7 @@ def case_of(estimate: dict[str, Prior]) -> CaseFile:
 
 def problem_for(*observations: Observation, **estimate: Prior) -> Problem:
     system = System(default().make("model", "linear_oscillator"), ())
-    return problem_of(system, case_of(estimate or PRIORS), observations)
+    return make_problem(system, case_of(estimate or PRIORS), observations)
 
 
 TWO = (recorded("low", 1, **QUIET), recorded("run 2.5 [high]", 2, **LOUD))
@@ -65,14 +71,14 @@ LOW, HIGH = (t.name for t in TWO)
 @pytest.fixture(scope="module")
 def apart():
     """The fit of two levels with all of the sensor's parameters their own."""
-    fit = search(problem_for(*TWO), np.random.default_rng(0))
-    return separated(fit, SensorSpec(offset=Prior(mean=0.0, sd=0.1)))
+    fit = search_maximum(problem_for(*TWO), np.random.default_rng(0))
+    return separate_levels(fit, SensorSpec(offset=Prior(mean=0.0, sd=0.1)))
 
 
 def test_keys_say_the_recording() -> None:
-    assert keys_of("c", (LOW, HIGH)) == ("c[low]", "c[run 2.5 [high]]")
-    assert keys_of("c", (LOW,)) == ("c",)
-    assert [parted(k) for k in ("c", "friction.force", *keys_of("c", (LOW, HIGH)))] == [
+    assert list_keys("c", (LOW, HIGH)) == ("c[low]", "c[run 2.5 [high]]")
+    assert list_keys("c", (LOW,)) == ("c",)
+    assert [split_key(k) for k in ("c", "friction.force", *list_keys("c", (LOW, HIGH)))] == [
         ("c", None), ("friction.force", None), ("c", LOW), ("c", HIGH)]  # fmt: skip
 
 
@@ -98,7 +104,7 @@ def test_differences_filter_only_what_has_moved(apart, monkeypatch) -> None:
     runs = []
     plain = Lanes.filter
     monkeypatch.setattr(Lanes, "filter", lambda e, d, o, at: (runs.append(len(at)), plain(e, d, o, at))[1])
-    together = problem.many(points)
+    together = problem.filter_many(points)
     shared = sum(f.recording is None for f in problem.free)
     assert shared == 2
     assert sum(runs) == 2 + 2 * shared + (len(theta) - shared)
@@ -124,7 +130,7 @@ def test_levels_of_each_recording_are_found(apart) -> None:
     misses = {k: (c - truths[k]) / sd[k] for k, c in zip(apart.problem.keys, apart.theta, strict=True)}
     assert all(abs(miss) < 4.0 for miss in misses.values()), misses
     assert values[f"offset[{HIGH}]"] > 10.0 * sd[f"offset[{HIGH}]"]
-    assert apart.log_likelihood > search(problem_for(*TWO), np.random.default_rng(0)).log_likelihood + 1000.0
+    assert apart.log_likelihood > search_maximum(problem_for(*TWO), np.random.default_rng(0)).log_likelihood + 1000.0
 
 
 def test_usual_random_force_is_in_proportion_to_each_drive(apart) -> None:
@@ -136,8 +142,8 @@ def test_usual_random_force_is_in_proportion_to_each_drive(apart) -> None:
 
 def test_a_shift_of_the_response_is_a_shift_of_its_zero() -> None:
     observation = TWO[0]
-    problem = separated(
-        search(problem_for(observation), np.random.default_rng(0)), SensorSpec(offset=Prior(-1.0, 1.0))
+    problem = separate_levels(
+        search_maximum(problem_for(observation), np.random.default_rng(0)), SensorSpec(offset=Prior(-1.0, 1.0))
     ).problem
     assert problem.keys == ("c", "k", OFFSET, RANDOM, NOISE)
     theta = problem.start
@@ -148,16 +154,16 @@ def test_a_shift_of_the_response_is_a_shift_of_its_zero() -> None:
 
 
 def test_nothing_is_split_where_nothing_is_its_own() -> None:
-    one = search(problem_for(TWO[0]), np.random.default_rng(0))
-    assert separated(one, SensorSpec()) is one
-    two = search(problem_for(*TWO), np.random.default_rng(0))
-    assert separated(two, SensorSpec("shared")) is two
-    zeros = separated(two, SensorSpec("shared", Prior(mean=0.0, sd=1.0))).problem.keys
+    one = search_maximum(problem_for(TWO[0]), np.random.default_rng(0))
+    assert separate_levels(one, SensorSpec()) is one
+    two = search_maximum(problem_for(*TWO), np.random.default_rng(0))
+    assert separate_levels(two, SensorSpec("shared")) is two
+    zeros = separate_levels(two, SensorSpec("shared", Prior(mean=0.0, sd=1.0))).problem.keys
     assert zeros == ("c", "k", f"offset[{LOW}]", f"offset[{HIGH}]", RANDOM, NOISE)
 
 
 def test_what_is_split_stays_split(apart) -> None:
-    assert separated(apart, SensorSpec(offset=Prior(mean=0.0, sd=0.1))) is apart
+    assert separate_levels(apart, SensorSpec(offset=Prior(mean=0.0, sd=0.1))) is apart
 
 
 def test_a_base_motion_sets_what_is_usual_by_its_own_amplitude() -> None:
@@ -170,7 +176,7 @@ def test_a_base_motion_sets_what_is_usual_by_its_own_amplitude() -> None:
     )
     system = System(default().make("model", "robot_joint"), ())
     problem = Problem(system, observations, Scales(1.0, 1.0, 1.0, usual=-3.0), system.vector({}), ())
-    low, high = (f for f in own_levels(problem, -2.0) if f.parameter == RANDOM)
+    low, high = (f for f in make_own_levels(problem, -2.0) if f.parameter == RANDOM)
     assert (low.mean, low.start) == pytest.approx((-3.0, -2.0))
     assert (high.mean, high.start) == pytest.approx((-3.0 + math.log(2.0), -2.0 + math.log(2.0)))
 
@@ -180,7 +186,7 @@ def test_a_prior_with_each_gives_every_recording_its_own_value() -> None:
     observations = (recorded("a", 3), recorded("b", 4, c=2.0 * C))
     problem = problem_for(*observations, c=replace(PRIORS["c"], each=True), k=PRIORS["k"])
     assert problem.keys == ("c[a]", "c[b]", "k", RANDOM, NOISE)
-    fit = search(problem, np.random.default_rng(0))
+    fit = search_maximum(problem, np.random.default_rng(0))
     for i, (key, truth) in enumerate({"c[a]": C, "c[b]": 2.0 * C}.items()):
         assert abs(math.log(fit.values[key] / truth)) < 4.0 * fit.sd[key]
         assert problem.full(fit.theta, i)[problem.system.index["c"]] == fit.values[key]
@@ -203,15 +209,15 @@ def test_predictions_use_what_the_recording_has_for_itself(apart) -> None:
     problem, theta = apart.problem, apart.theta
     states = np.zeros((3, 2))
     zero = apart.values[f"offset[{HIGH}]"]
-    assert observed(problem, theta, states, (0, 1)) == pytest.approx(np.full(3, zero))
-    (runs,) = free_runs(problem, theta, np.zeros((1, 2)), np.array([0]), 20, index=1)
+    assert observe_states(problem, theta, states, (0, 1)) == pytest.approx(np.full(3, zero))
+    (runs,) = predict_freely(problem, theta, np.zeros((1, 2)), np.array([0]), 20, index=1)
     assert np.abs(runs.error).max() < 6.0 * LOUD["noise"]
 
 
 def test_the_beginnings_of_all_recordings_are_searched() -> None:
-    assert [t.samples for t in beginnings(problem_for(TWO[0])).observations] == [3000]
+    assert [t.samples for t in cut_beginnings(problem_for(TWO[0])).observations] == [3000]
     many = [recorded(str(i), i, samples=n) for i, n in enumerate((3000, 500, 3000, 3000))]
-    assert [t.samples for t in beginnings(problem_for(*many)).observations] == [1500, 500, 1500, 1500]
+    assert [t.samples for t in cut_beginnings(problem_for(*many)).observations] == [1500, 500, 1500, 1500]
 
 
 def test_log_likelihoods_are_those_of_single_points() -> None:
@@ -232,7 +238,7 @@ FREES = [
 @pytest.mark.parametrize("prior", FREES, ids=lambda p: p.kind)
 def test_the_prior_of_a_coordinate_is_a_density_and_its_quantile_inverts_it(prior: Prior) -> None:
     """Cut where the parameter has its bounds, here at zero and at 90; -4 +- 0.5 leaves the far tail of a bell only."""
-    free = free_of(Slot("c", Param("c", "damping", DAMPING, low=0.0, high=90.0), "N s/m", None), prior)
+    free = make_free_parameter(Slot("c", Param("c", "damping", DAMPING, low=0.0, high=90.0), "N s/m", None), prior)
     ends = free.quantile(0.0), free.quantile(1.0)
     assert ends == pytest.approx((free.low, free.high))
     for share in (0.1, 0.5, 0.99, 1.0):
@@ -245,7 +251,9 @@ def test_the_prior_of_a_coordinate_is_a_density_and_its_quantile_inverts_it(prio
 
 
 def test_the_coordinate_of_a_log_normal_prior_is_the_logarithm() -> None:
-    free = free_of(Slot("c", Param("c", "damping", DAMPING, low=0.0), "1", None), Prior(median=2.0, sd_log=0.5))
+    free = make_free_parameter(
+        Slot("c", Param("c", "damping", DAMPING, low=0.0), "1", None), Prior(median=2.0, sd_log=0.5)
+    )
     assert free == FreeParameter(
         "c", "1", math.log(2.0), math.log(2.0) - 6.0, math.log(2.0) + 6.0, True, math.log(2.0), 0.5
     )

@@ -18,7 +18,7 @@ from lostmotion.errors import DataError
 from lostmotion_trials.blind import judging
 from lostmotion_trials.blind import score as proof
 from lostmotion_trials.blind.bound import spelled
-from lostmotion_trials.blind.commitment import VARIANTS, Blind, concealed, label, publish, unsealed
+from lostmotion_trials.blind.commitment import VARIANTS, Blind, conceal_case, format_case_name, open_sealed, publish
 from lostmotion_trials.blind.hiding import hidden_in
 from lostmotion_trials.blind.mechanisms import NAMES, UNKNOWN, Pilot
 from lostmotion_trials.blind.page import render
@@ -55,12 +55,14 @@ AGREED = {
 
 
 def sealed(out, number=0):
-    return from_plain(SealedTruth, json.loads((out / "sealed" / f"{label(number)}.json").read_text(encoding="utf-8")))
+    return from_plain(
+        SealedTruth, json.loads((out / "sealed" / f"{format_case_name(number)}.json").read_text(encoding="utf-8"))
+    )
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_every_mechanism_can_be_hidden(name, tmp_path):
-    concealed(Blind(only=(name,), most=SHORT), tmp_path, 0)
+    conceal_case(Blind(only=(name,), most=SHORT), tmp_path, 0)
     (effect,) = sealed(tmp_path).effects
     assert effect.mechanism == name
     assert all(np.isfinite(value) for value in effect.parameters.values())
@@ -75,14 +77,14 @@ def test_every_mechanism_can_be_hidden(name, tmp_path):
 def test_every_unknown_is_somebodys(tmp_path):
     found = set()
     for number in range(16):
-        concealed(Blind(only=("unknown",), most=500), tmp_path, number)
+        conceal_case(Blind(only=("unknown",), most=500), tmp_path, number)
         found.add(sealed(tmp_path, number).effects[0].what)
     assert found == set(UNKNOWN)
 
 
 def test_same_seed_same_bytes(tmp_path):
     first, again, other = (
-        concealed(Blind(seed, SHORT), tmp_path / name, 3) for name, seed in (("a", 1), ("b", 1), ("c", 2))
+        conceal_case(Blind(seed, SHORT), tmp_path / name, 3) for name, seed in (("a", 1), ("b", 1), ("c", 2))
     )
     assert first == again
     assert first.digests["truth"] != other.digests["truth"]
@@ -90,7 +92,7 @@ def test_same_seed_same_bytes(tmp_path):
 
 
 def test_case_tells_nothing_of_its_truth(tmp_path):
-    concealed(Blind(only=("coulomb_friction",), most=SHORT), tmp_path, 0)
+    conceal_case(Blind(only=("coulomb_friction",), most=SHORT), tmp_path, 0)
     place = tmp_path / "cases" / "000"
     assert sorted(p.name for p in place.iterdir()) == ["case.toml", "recording.csv"]
     text = (place / "case.toml").read_text(encoding="utf-8")
@@ -99,35 +101,35 @@ def test_case_tells_nothing_of_its_truth(tmp_path):
 
 
 def test_truth_that_was_changed_is_refused(tmp_path):
-    publish(tmp_path, [concealed(Blind(most=SHORT), tmp_path, 0)])
-    assert unsealed(tmp_path, 0).case == "000"
+    publish(tmp_path, [conceal_case(Blind(most=SHORT), tmp_path, 0)])
+    assert open_sealed(tmp_path, 0).case == "000"
     path = tmp_path / "sealed" / "000.json"
     path.write_text(path.read_text(encoding="utf-8").replace('"plain"', '"outliers"'), encoding="utf-8")
-    with pytest.raises(DataError, match="truth of case 000 is not what"):
-        unsealed(tmp_path, 0)
+    with pytest.raises(DataError, match="truth of case 000 does not match its digest"):
+        open_sealed(tmp_path, 0)
 
 
 def test_recording_that_was_changed_is_refused(tmp_path):
-    publish(tmp_path, [concealed(Blind(most=SHORT), tmp_path, 0)])
+    publish(tmp_path, [conceal_case(Blind(most=SHORT), tmp_path, 0)])
     with (tmp_path / "cases" / "000" / "recording.csv").open("a", encoding="utf-8") as stream:
         stream.write("1.0,1.0,1.0\n")
     with pytest.raises(DataError, match=r"recording\.csv of case 000"):
-        unsealed(tmp_path, 0)
+        open_sealed(tmp_path, 0)
 
 
 def test_seal_is_enlarged_and_never_replaced(tmp_path):
-    publish(tmp_path, [concealed(Blind(most=SHORT), tmp_path, 0)])
-    content = publish(tmp_path, [concealed(Blind(most=SHORT), tmp_path, k) for k in (0, 1)])
+    publish(tmp_path, [conceal_case(Blind(most=SHORT), tmp_path, 0)])
+    content = publish(tmp_path, [conceal_case(Blind(most=SHORT), tmp_path, k) for k in (0, 1)])
     assert set(content.digests) == {"000", "001"}
     with pytest.raises(DataError, match="case 000 is not the one"):
-        publish(tmp_path, [concealed(Blind(9, SHORT), tmp_path, 0)])
+        publish(tmp_path, [conceal_case(Blind(9, SHORT), tmp_path, 0)])
 
 
 @pytest.mark.slow
 def test_clean_study_has_every_kind_of_noise(tmp_path):
     kinds = set()
     for number in range(12):
-        concealed(Blind(most=500, clean=True), tmp_path, number)
+        conceal_case(Blind(most=500, clean=True), tmp_path, number)
         assert sealed(tmp_path, number).effects == ()
         kinds.add(sealed(tmp_path, number).variant)
     assert kinds == set(VARIANTS)
@@ -186,17 +188,17 @@ COULOMB = effect("coulomb_friction", "base")
     ],
 )
 def test_answers_are_judged(truth, answer, several, outcome):
-    assert judging._with_outcome(truth, answer, several=several).outcome == outcome
+    assert judging._find_outcome(truth, answer, several=several).outcome == outcome
 
 
 def test_effect_beside_one_that_was_named_is_missed_and_not_misnamed():
     machine = BlindMachine("lin_backlash", {}, (), BlindDrive(((1.0, 1.0, 0.0),)), 1.0, 1, 0.0)
     effects = [effect("gap_drift", ""), effect("offset_force", "")]
-    against = judging._held_against(said(entry("gap_drift")), effects, machine, several=False)
+    against = judging._compare_answer(said(entry("gap_drift")), effects, machine, several=False)
     assert [row.outcome for row in against.effects] == [judging.HIT, judging.MISSED]
     assert against.false == ()
     both = said(entry("gap_drift"), entry("viscous_damping"))
-    against = judging._held_against(both, effects, machine, several=False)
+    against = judging._compare_answer(both, effects, machine, several=False)
     assert [row.outcome for row in against.effects] == [judging.HIT, judging.MISNAMED]
     assert against.false == ("viscous_damping",)
 
@@ -206,14 +208,14 @@ def test_phase_turns_with_the_sign_of_its_amplitude():
     angle = interval(0.4 + np.pi, 0.4 + np.pi - 0.1, 0.4 + np.pi + 0.1)
     truth = effect("parametric_stiffness", "", depth=0.1, phase=0.4 + 2.0 * np.pi, ratio=2.0)
     found = said(entry("parametric_stiffness", parameters={"depth": whole, "phase": angle})).found
-    rows = list(judging._of_effect(truth, found, several=False))
+    rows = list(judging._judge_effect_parameters(truth, found, several=False))
     assert [row.name for row in rows] == ["parametric_stiffness.depth", "parametric_stiffness.phase"]
     assert all(row.inside for row in rows)
 
 
 def test_interval_that_is_withheld_is_not_judged():
     found = said(entry("coulomb_friction", parameters={"force": interval(1.0)})).found
-    assert list(judging._of_effect(effect("coulomb_friction", force=1.0), found, several=False)) == []
+    assert list(judging._judge_effect_parameters(effect("coulomb_friction", force=1.0), found, several=False)) == []
 
 
 def test_wave_has_a_cosine_and_a_sine():
@@ -231,13 +233,13 @@ def test_probabilities_of_what_cannot_be_told_apart_are_added():
         {"mechanism": name, "at": "ground", "probability": p}
         for name, p in (("dahl_friction", 0.6), ("lugre_friction", 0.3), ("gap_drift", 0.05), ("unknown", 0.05))
     ]
-    found = list(judging._stated(said(ranking=ranking).ranking, [effect("bouc_wen_hysteresis")], several=False))
+    found = list(judging._list_stated(said(ranking=ranking).ranking, [effect("bouc_wen_hysteresis")], several=False))
     assert found == [(pytest.approx(0.9), 1.0), (0.05, 0.0)]
 
 
 def case(number, *effects, named=(), false=(), heldout=None, parameters=()):
     return JudgedCase(
-        case=label(number), model="lin_backlash", variant="plain", margin=1.5,
+        case=format_case_name(number), model="lin_backlash", variant="plain", margin=1.5,
         verdict="mismatch" if named else "adequate",
         answer=HeldAgainst(effects, named, false, parameters, ((0.95, 1.0), (0.001, 0.0))), heldout=heldout,
     )  # fmt: skip
@@ -267,7 +269,7 @@ def test_rows_are_read_back_as_they_were_written():
 
 
 def test_summary_counts():
-    found = proof.summary(rows(), [DiagnosedCase("006", "failed", "it failed")])
+    found = proof.summarise(rows(), [DiagnosedCase("006", "failed", "it failed")])
     assert (found.cases, found.clean, found.effects) == (7, 2, 4)
     assert [row.counts.rate.hits for row in found.detection] == [0, 0, 0, 1, 0, 0]
     assert [row.counts.rate.of for row in found.detection] == [0, 1, 1, 1, 0, 0]
@@ -283,13 +285,13 @@ def test_summary_counts():
 
 
 def test_bands_are_exact():
-    assert proof.rate(0, 10).high == pytest.approx(1.0 - 0.025**0.1)
-    assert proof.rate(10, 10).low == pytest.approx(0.025**0.1)
-    assert math.isnan(proof.rate(0, 0).share)
+    assert proof.estimate_rate(0, 10).high == pytest.approx(1.0 - 0.025**0.1)
+    assert proof.estimate_rate(10, 10).low == pytest.approx(0.025**0.1)
+    assert math.isnan(proof.estimate_rate(0, 0).share)
 
 
 def test_no_test_does_better_than_its_false_alarms_without_an_effect():
-    limit = proof._limit(rows())
+    limit = proof._compute_limit(rows())
     told, many = np.array(limit.informed), np.array(limit.one_of_many)
     assert np.all(np.diff(told) >= 0.0)
     assert np.all(many <= told)
@@ -298,15 +300,15 @@ def test_no_test_does_better_than_its_false_alarms_without_an_effect():
 
 
 def test_target_is_missed_only_beyond_chance():
-    few = proof._target("a", proof.rate(2, 3), 0.95, 1.0)
-    many = proof._target("a", proof.rate(10, 30), 0.95, 1.0)
-    good = proof._target("a", proof.rate(30, 30), 0.95, 1.0)
+    few = proof._judge_target("a", proof.estimate_rate(2, 3), 0.95, 1.0)
+    many = proof._judge_target("a", proof.estimate_rate(10, 30), 0.95, 1.0)
+    good = proof._judge_target("a", proof.estimate_rate(30, 30), 0.95, 1.0)
     assert [one.state for one in (few, many, good)] == ["open", "missed", "met"]
 
 
 def rendered(title, cases):
     """Return the page of a trial, read back from what its file holds."""
-    told = Proof("lostmotion.proof/1", title, proof.summary(cases, []), {"seed": 0})
+    told = Proof("lostmotion.proof/1", title, proof.summarise(cases, []), {"seed": 0})
     return render(from_plain(Proof, json.loads(json.dumps(to_plain(told)))))
 
 
@@ -330,7 +332,7 @@ def test_page_of_a_clean_study_has_no_curve():
 
 
 def test_case_that_cannot_be_diagnosed_is_kept_as_failed(tmp_path):
-    concealed(Blind(most=SHORT), tmp_path, 0)
+    conceal_case(Blind(most=SHORT), tmp_path, 0)
     (tmp_path / "cases" / "000" / "case.toml").write_text("title = 3\n", encoding="utf-8")
     outcome = Diagnoser(tmp_path / "cases")(0)
     assert outcome.status == "failed"

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from lostmotion.errors import CaseError, DataError
-from lostmotion.likelihood.observation import Observation, observation_of, static_equilibrium
+from lostmotion.likelihood.observation import Observation, find_static_equilibrium, make_observation
 from lostmotion.recording import Channel, RecordingSpec, load_recording
 from lostmotion_plugins.models.basic import RigidDrive
 from lostmotion_plugins.models.slider import BacklashSlider
@@ -55,13 +55,13 @@ def test_samples_of_a_measured_force_may_be_lost_and_those_of_a_drive_are_bridge
 @pytest.mark.parametrize(("quantity", "unit"), [("force", "N"), ("torque", "N m")])
 def test_force_and_torque_are_the_channel_force(tmp_path: Path, quantity: str, unit: str) -> None:
     spec = replace(SPEC, sensors=(Channel("F", quantity, unit),))
-    assert observation_of(load_recording(spec, write(tmp_path)), MODEL).channel == "force"
+    assert make_observation(load_recording(spec, write(tmp_path)), MODEL).channel == "force"
 
 
 def test_a_model_that_shows_no_force_is_refused(tmp_path: Path) -> None:
     spec = replace(SPEC, inputs=(Channel("x", "force", "N"),))
     with pytest.raises(CaseError, match="rigid_drive shows position, velocity, acceleration, but the response of a is"):
-        observation_of(load_recording(spec, write(tmp_path)), RigidDrive())
+        make_observation(load_recording(spec, write(tmp_path)), RigidDrive())
 
 
 def at_rest(force: float) -> Observation:
@@ -75,18 +75,18 @@ def at_rest(force: float) -> Observation:
 def test_in_contact_the_start_is_where_the_model_shows_the_force(force: float) -> None:
     """Contact: position = base - sign (force / k0 + x0), to within ten times the noise over k0."""
     observation = at_rest(force)
-    where, spread = static_equilibrium(observation, MODEL, VALUES)
+    where, spread = find_static_equilibrium(observation, MODEL, VALUES)
     assert where == pytest.approx(0.02 - np.sign(force) * (abs(force) / 1000.0 + 0.01), abs=2e-6)
     assert spread == pytest.approx(10.0 * observation.noise / 1000.0, rel=1e-6)
 
 
 def test_inside_the_gap_all_of_it_is_possible() -> None:
     observation = replace(at_rest(0.0), readings=np.append(0.0, at_rest(0.0).response[1:])[:, None])
-    where, spread = static_equilibrium(observation, MODEL, VALUES)
+    where, spread = find_static_equilibrium(observation, MODEL, VALUES)
     assert where == pytest.approx(0.02, abs=1e-6)
     assert spread == pytest.approx(0.01 + 10.0 * observation.noise / 1000.0, rel=1e-6)
 
 
 def test_a_force_that_the_model_cannot_show_leaves_the_start_open() -> None:
-    where, spread = static_equilibrium(at_rest(1e9), MODEL, VALUES)
+    where, spread = find_static_equilibrium(at_rest(1e9), MODEL, VALUES)
     assert (where, spread) == (0.02, pytest.approx(0.1))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from lostmotion.errors import DataError
-from lostmotion.recording.checks import bridged, check_sensor
+from lostmotion.recording.checks import check_sensor, fill_input
 
 N = 3000
 TIME = np.arange(N) / 1000
@@ -20,14 +20,14 @@ def without(*lost: int) -> np.ndarray:
 
 
 def test_an_input_without_losses_is_itself() -> None:
-    filled, notes = bridged(VALUES, "u", "a.csv", "smooth")
+    filled, notes = fill_input(VALUES, "u", "a.csv", "smooth")
     assert filled is VALUES
     assert notes == ()
 
 
 def test_a_smooth_input_is_interpolated() -> None:
     lost = (0, 50, 51, 52, 700, N - 1)
-    filled, (note,) = bridged(without(*lost), "u", "a.csv", "smooth")
+    filled, (note,) = fill_input(without(*lost), "u", "a.csv", "smooth")
     np.testing.assert_allclose(filled[1:-1], VALUES[1:-1], atol=2e-3)
     assert (filled[0], filled[-1]) == (VALUES[1], VALUES[-2])
     assert "6 of 3000 samples (0.002 of all) are NaN, at most 3 in a row; they are interpolated" in note
@@ -36,15 +36,15 @@ def test_a_smooth_input_is_interpolated() -> None:
 def test_a_held_input_keeps_its_value() -> None:
     held = np.repeat(np.arange(N // 10), 10).astype(float)
     held[[10, 55]] = np.nan
-    filled, (note,) = bridged(held, "u", "a.csv", "step")
+    filled, (note,) = fill_input(held, "u", "a.csv", "step")
     assert (filled[10], filled[55]) == (0.0, 5.0)
-    assert "the value before" in note
+    assert "the previous value" in note
 
 
 @pytest.mark.parametrize("lost", [range(70, 74), range(0, N, 100), range(N)])
 def test_more_is_refused(lost: range) -> None:
     with pytest.raises(DataError, match=r"a\.csv: u: .* are NaN, the first at sample .* fill them, or cut them out"):
-        bridged(without(*lost), "u", "a.csv", "smooth")
+        fill_input(without(*lost), "u", "a.csv", "smooth")
 
 
 def test_a_slower_sensor_is_called_so() -> None:
@@ -61,7 +61,7 @@ def test_a_slower_sensor_is_called_so() -> None:
 def test_losses_at_no_regular_distance_are_counted() -> None:
     rng = np.random.default_rng(1)
     (note,) = check_sensor(without(*np.flatnonzero(rng.random(N) < 0.6)), "x", "a.csv", dt=1e-3)
-    assert "at no regular distance" in note
+    assert "at irregular distances" in note
     (note,) = check_sensor(without(5, 6, 900), "x", "a.csv", dt=1e-3)
     assert "3 of 3000" in note
     assert "at most 2 in a row" in note

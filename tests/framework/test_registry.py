@@ -118,7 +118,7 @@ def test_a_good_package_is_ready(installed):
         (TERMS.replace("{}", "['drag']"), "broken", "hook 'lostmotion_terms' returned list: return {"),
         (TERMS.replace("{}", "{'drag': int}"), "broken", "returned {'drag': <class 'int'>}: return {"),
         (TERMS.replace("{}", "{'drag': 'my.mod.Drag'}"), "broken", "returned {'drag': 'my.mod.Drag'}: return {"),
-        (TERMS.replace("terms()", "terms(config)"), "broken", "takes arguments"),
+        (TERMS.replace("terms()", "terms(config)"), "broken", "has arguments"),
         (TERMS, "broken", "offers no name"),
     ],
 )
@@ -147,7 +147,7 @@ def test_a_second_entry_point_of_the_same_name_is_not_lost(installed):
 
 def test_an_unknown_name_tells_what_was_kept_aside(installed):
     installed("bad_two", "raise RuntimeError")
-    with pytest.raises(PluginError, match="broken, and kept aside: bad_two"):
+    with pytest.raises(PluginError, match="not usable: bad_two"):
         Registry.discover().load("term", "my_drag")
 
 
@@ -193,8 +193,8 @@ def test_a_name_that_cannot_be_used_is_told(kind, name, sentence):
         ("nowhere_at_all:X", "could not be imported from nowhere_at_all: ModuleNotFoundError"),
         ("lostmotion_plugins.terms.viscous:ViscousDampin", "there is no such class .*ViscousDamping"),
         ("lostmotion_plugins.models.lin:LinBacklash", "which is a model: subclass Term"),
-        ("lostmotion.contracts:Param", "which is no plugin of ours: subclass Term"),
-        ("lostmotion.contracts:Term", "is not finished: write the method force"),
+        ("lostmotion.contracts:Param", "which is no plugin class: subclass Term"),
+        ("lostmotion.contracts:Term", "is not complete: write the method force"),
         ("lostmotion_plugins.terms.viscous:ViscousDamping", "is called 'viscous_damping' in ViscousDamping: let both"),
     ],
 )
@@ -269,10 +269,10 @@ def test_a_file_may_have_hooks_of_its_own(file):
 @pytest.mark.parametrize(
     ("name", "source", "sentence"),
     [
-        ("empty_terms.py", "x = 1", "holds no plugin: write a subclass"),
+        ("empty_terms.py", "x = 1", "contains no plugin: write a subclass"),
         ("wrong_terms.py", "x = ", "could not be loaded: SyntaxError"),
         ("my terms.py", "1 / 0", "could not be loaded: ZeroDivisionError"),
-        ("my_terms.txt", "", "is not there or is no .py file"),
+        ("my_terms.txt", "", "does not exist or is no .py file"),
     ],
 )
 def test_a_file_that_cannot_be_used_is_refused(file, name, source, sentence):
@@ -281,7 +281,7 @@ def test_a_file_that_cannot_be_used_is_refused(file, name, source, sentence):
 
 
 def test_a_file_that_is_not_there_is_refused(tmp_path):
-    with pytest.raises(PluginError, match="is not there"):
+    with pytest.raises(PluginError, match="does not exist"):
         Registry().add_file(tmp_path / "no.py")
 
 

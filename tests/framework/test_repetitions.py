@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from lostmotion.diagnosis.repetitions import looks_of, repetition_notes, share_repeated
-from lostmotion.likelihood.observation import Observation, harmonic_of
+from lostmotion.diagnosis.repetitions import compute_repeated_share, count_cycles, note_repetitions
+from lostmotion.likelihood.observation import Observation, find_harmonic
 
 SAMPLES, TRAIN, DT, PERIOD = 2000, 1400, 0.01, 37.7
 
@@ -15,7 +15,7 @@ def observed(name="run 1", level=1.0, seed=0, noise=0.01, waveform=None):
     x = level * (np.sin(angle) + 0.3 * np.cos(3.0 * angle)) if waveform is None else np.cumsum(u) / 30.0
     noisy = x + noise * np.std(x) * rng.standard_normal(SAMPLES)
     bare = Observation.of(name, noisy, u[:, None], DT, "position")
-    return Observation.of(name, noisy, u[:, None], DT, "position", harmonic=harmonic_of(bare))
+    return Observation.of(name, noisy, u[:, None], DT, "position", harmonic=find_harmonic(bare))
 
 
 def slow_noise(rng):
@@ -28,7 +28,7 @@ def parts(whole):
 
 def test_held_out_part_that_repeats_the_fitted_one_is_told():
     whole = observed()
-    notes = repetition_notes((whole,), *parts(whole))
+    notes = note_repetitions((whole,), *parts(whole))
     assert len(notes) == 2
     assert notes[0].startswith("The held-out part repeats the motion of the part that was fitted (")
     assert notes[0].endswith(" % of it): that predictions hold there convinces nobody of more than that cycle.")
@@ -38,16 +38,16 @@ def test_held_out_part_that_repeats_the_fitted_one_is_told():
 
 def test_motion_that_does_not_repeat_has_no_note():
     whole = observed(waveform=slow_noise)
-    assert repetition_notes((whole,), *parts(whole)) == []
-    assert looks_of(whole) is None
+    assert note_repetitions((whole,), *parts(whole)) == []
+    assert count_cycles(whole) is None
 
 
 def test_another_recording_at_the_same_level_is_the_same_motion_and_another_level_is_not():
     train = (observed("run 1"), observed("run 2", seed=1))
     same, louder = observed("run 3", seed=2), observed("run 4", level=1.5, seed=3)
-    assert share_repeated(train, same) > 0.995
-    assert share_repeated(train, louder) < 0.95
-    (note,) = [n for n in repetition_notes((), train, (same, louder)) if "convinces" in n]
+    assert compute_repeated_share(train, same) > 0.995
+    assert compute_repeated_share(train, louder) < 0.95
+    (note,) = [n for n in note_repetitions((), train, (same, louder)) if "convinces" in n]
     assert note.startswith("What is held out of run 3 repeats")
 
 
@@ -56,10 +56,10 @@ def test_readings_that_were_not_taken_are_bridged():
     holes = whole.readings.copy()
     holes[::50] = np.nan
     bridged = Observation(whole.name, holes, whole.inputs, DT, whole.sensors, harmonic=whole.harmonic)
-    assert looks_of(bridged).distinct == pytest.approx(1.0, abs=0.1)
+    assert count_cycles(bridged).distinct == pytest.approx(1.0, abs=0.1)
     holes[::2] = np.nan
-    assert looks_of(bridged) is None
-    assert repetition_notes((bridged,), *parts(bridged)) == []
+    assert count_cycles(bridged) is None
+    assert note_repetitions((bridged,), *parts(bridged)) == []
 
 
 def test_nothing_is_compared_with_another_channel_or_another_rate():
@@ -67,8 +67,8 @@ def test_nothing_is_compared_with_another_channel_or_another_rate():
     (train,), (held,) = parts(whole)
     faster = Observation.of("fast", held.response, held.inputs, 0.5 * DT, "position")
     other = Observation.of("other", held.response, held.inputs, DT, "velocity")
-    assert share_repeated((train,), faster) is None
-    assert share_repeated((train,), other) is None
+    assert compute_repeated_share((train,), faster) is None
+    assert compute_repeated_share((train,), other) is None
 
 
 def test_two_equal_blows_are_one_motion_and_no_cycle():
@@ -77,6 +77,6 @@ def test_two_equal_blows_are_one_motion_and_no_cycle():
     x = x + 1e-3 * np.random.default_rng(0).standard_normal(SAMPLES)
     blows = np.isin(np.arange(SAMPLES), (50, 1050)).astype(float)
     whole = Observation.of("blows", x, blows[:, None], DT, "position")
-    notes = repetition_notes((whole,), (whole.part(0, 1000),), (whole.part(1000, SAMPLES),))
+    notes = note_repetitions((whole,), (whole.part(0, 1000),), (whole.part(1000, SAMPLES),))
     assert len(notes) == 1
     assert notes[0].endswith("convinces nobody of more than that motion.")

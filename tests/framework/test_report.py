@@ -11,7 +11,7 @@ import xarray as xr
 
 from lostmotion.diagnosis.report import prediction
 from lostmotion.diagnosis.report.evidence import Evidence, read_evidence
-from lostmotion.diagnosis.report.hero import figure_hero
+from lostmotion.diagnosis.report.hero import save_hero
 from lostmotion.diagnosis.report.page import SECTIONS as PLAN
 from lostmotion.diagnosis.report.page import write_report
 from lostmotion.errors import DataError
@@ -155,7 +155,7 @@ def test_what_was_learned_is_drawn_with_its_band_and_its_proposal(tmp_path):
     }
     page = _page(tmp_path, facts)
     assert "section-learned" in page
-    assert "A proposal, not a finding. It reads 1·10⁶ N/m³ x³." in page
+    assert "A proposal, not a finding. The formula is 1·10⁶ N/m³ x³." in page
 
 
 @pytest.mark.usefixtures("unsaved")
@@ -163,7 +163,7 @@ def test_what_noise_would_show_as_well_is_told_from_what_it_would_not(data, tmp_
     facts = made.mismatch()
     facts["where"] |= {"significant": ["velocity"], "against": "the likelihood ratio of a curve"}
     page = _page(tmp_path, facts, data)
-    assert "A star marks what is beyond chance by the likelihood ratio of a curve." in page
+    assert "A star marks a significant covariate by the likelihood ratio of a curve." in page
 
 
 @pytest.mark.usefixtures("unsaved")
@@ -245,7 +245,7 @@ def test_several_recordings_show_the_one_that_was_held_out(data, tmp_path):
     two["record"][half:] = 1
     two = two.assign_coords(time=("time", list(data["time"].values[:half]) * 2, {"units": "s"}))
     evidence = read_evidence(made.write(tmp_path, made.mismatch(), two))
-    window = prediction.window_of(evidence)
+    window = prediction.choose_window(evidence)
     assert window.record[0] == half
     assert window.shown.size > made.PER_PERIOD
     assert prediction.draw(evidence)
@@ -264,6 +264,6 @@ def test_a_broken_diagnosis_is_refused_in_words(tmp_path, text):
 
 
 def test_the_hero_is_one_wide_picture(data, tmp_path):
-    picture = figure_hero(made.write(tmp_path, made.mismatch(), data))
+    picture = save_hero(made.write(tmp_path, made.mismatch(), data))
     assert picture.name == "hero.png"
     assert picture.read_bytes().startswith(b"\x89PNG")

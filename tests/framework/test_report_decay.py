@@ -24,7 +24,7 @@ def curve(bend=0.0, scatter=0.0):
 
 
 def test_recording_and_models_are_drawn_with_units():
-    with style.applied():
+    with style.use_style():
         figure = decay.draw_cycles(
             [curve(-50.0, 0.01)], [curve()], [curve(-50.0)], quantity="position amplitude", unit="m"
         )
@@ -39,7 +39,7 @@ def test_recording_and_models_are_drawn_with_units():
 
 
 def test_one_model_is_no_model_before():
-    with style.applied():
+    with style.use_style():
         figure = decay.draw_cycles([curve(), curve(1.0)], [curve()], unit="m/s^2")
     assert [line.get_label() for line in figure.axes[0].lines if not line.get_label().startswith("_")] == [
         "recording",
@@ -50,16 +50,16 @@ def test_one_model_is_no_model_before():
 def test_wild_cycles_and_models_do_not_set_the_scale():
     tame = curve(-50.0, 0.01)
     wild = replace(tame, frequency=(*tame.frequency[:-1], 100.0))
-    with style.applied():
+    with style.use_style():
         figure = decay.draw_cycles([wild], [curve(1e5)], unit="m")
     assert figure.axes[1].get_ylim()[1] < 25.0
 
 
 def test_without_a_decay_there_is_no_figure():
     assert decay.draw_cycles([], unit="m") is None
-    assert "3 decays, one after each hit" in decay.caption_of(3)
-    assert "after the hit" in decay.caption_of()
-    assert "hit" not in decay.caption_of(struck=False)
+    assert "3 decays, one after each hit" in decay.caption_cycles(3)
+    assert "after the hit" in decay.caption_cycles()
+    assert "hit" not in decay.caption_cycles(struck=False)
 
 
 DECAY = {
@@ -115,5 +115,5 @@ def test_where_nothing_drives_the_page_speaks_of_no_drive(tmp_path):
     assert "<h2>Phase portrait</h2>" in page
     assert "Its share of the inertial force" in page
     assert "Poincar" not in words
-    assert "winds inwards" in words
+    assert "follows the same spiral" in words
     assert "hit" not in words.partition("Free decay")[2].partition("</section>")[0].replace("white", "")

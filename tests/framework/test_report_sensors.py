@@ -45,7 +45,7 @@ def data():
 def test_each_sensor_has_its_panels_and_its_row(data, tmp_path):
     home = made.write(tmp_path, facts(), two_sensors(data))
     evidence = read_evidence(home)
-    with style.applied():
+    with style.use_style():
         figure = sensors.draw(evidence)
     assert [axes.get_title(loc="left") for axes in figure.axes] == ["motor <b>", "", "load", ""]
     assert [axes.get_ylabel().rpartition(" (")[0] for axes in figure.axes] == [
@@ -57,9 +57,9 @@ def test_each_sensor_has_its_panels_and_its_row(data, tmp_path):
     units = [axes.get_ylabel().rpartition("(")[2] for axes in figure.axes]
     assert [unit.removesuffix(")").removeprefix("m") for unit in units[:2]] == ["m", "m"]
     assert all(unit.endswith("m/s)") for unit in units[2:])
-    assert sensors.table(evidence).rows == [
+    assert sensors.make_table(evidence).rows == [
         ["motor <b>", "position", "40 µm", "white", "19 %", "1.2 %"],
-        ["load", "second velocity", "2 mm/s", "with a memory", "23 %", "1.3 %"],
+        ["load", "second velocity", "2 mm/s", "autocorrelated", "23 %", "1.3 %"],
     ]
     page = write_report(home).read_text(encoding="utf-8")
     assert page.index("section-prediction") < page.index("section-sensors") < page.index("section-missing")
@@ -69,7 +69,7 @@ def test_each_sensor_has_its_panels_and_its_row(data, tmp_path):
 @pytest.mark.usefixtures("unsaved")
 def test_one_model_has_one_column_of_errors(data, tmp_path):
     evidence = read_evidence(made.write(tmp_path, facts(made.adequate), two_sensors(made.alone(data))))
-    table = sensors.table(evidence)
+    table = sensors.make_table(evidence)
     assert table.head[-1] == "Error"
     assert [row[-1] for row in table.rows] == ["19 %", "23 %"]
 
@@ -77,7 +77,7 @@ def test_one_model_has_one_column_of_errors(data, tmp_path):
 @pytest.mark.usefixtures("unsaved")
 def test_a_sensor_that_is_read_more_rarely_is_drawn_as_a_line(data, tmp_path):
     evidence = read_evidence(made.write(tmp_path, facts(), two_sensors(data, every=4)))
-    with style.applied():
+    with style.use_style():
         figure = sensors.draw(evidence)
     recorded = figure.axes[2].lines[0].get_ydata()
     assert recorded.size > 20

@@ -43,20 +43,20 @@ def evidence(**facts):
 
 
 def test_there_is_a_row_for_each_parameter_and_a_column_for_each_recording():
-    table = sharing.table(evidence(sharing=TOLD))
+    table = sharing.make_table(evidence(sharing=TOLD))
     assert table.head == ["Parameter", "low (4 N)", "<b>high (16 N)", "One value?"]
     assert table.rows[0] == ["k (N/m)", "800 [720, 880]", "801 [721, 881]", "yes (p = 0.4)"]
-    assert table.rows[1][-1] == "goes with level to the power 1"
+    assert table.rows[1][-1] == "proportional to level to the power 1"
     assert table.rows[2][0] == "Coulomb friction: force (mN)"
     assert table.rows[2][1:] == ["1.00 [0.90, 1.10]", "2.0 [1.8, 2.2]", "no, differs in <b>high"]
     assert table.rows[3][-1] == "no (p = 1·10⁻⁹)"
 
 
 def test_words_say_how_the_table_is_to_be_read():
-    assert sharing.words(evidence(sharing=TOLD)).startswith("c differs. Medians with 95 % intervals")
-    assert sharing.words(evidence(sharing={"parameters": {}, "says": ["Nothing."]})) == "Nothing."
-    assert sharing.words(evidence()) == ""
-    assert sharing.table(evidence()) is None
+    assert sharing.write_words(evidence(sharing=TOLD)).startswith("c differs. Medians with 95 % intervals")
+    assert sharing.write_words(evidence(sharing={"parameters": {}, "says": ["Nothing."]})) == "Nothing."
+    assert sharing.write_words(evidence()) == ""
+    assert sharing.make_table(evidence()) is None
 
 
 def test_the_page_has_the_section_and_escapes_names(tmp_path):

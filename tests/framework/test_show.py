@@ -7,9 +7,9 @@ import pytest
 import report_fixture as made
 
 from lostmotion.codec import from_plain, to_plain
-from lostmotion.diagnosis.attractors import MOST, distances_between, section
+from lostmotion.diagnosis.attractors import MOST, measure_distances, take_section
 from lostmotion.diagnosis.report import show
-from lostmotion.diagnosis.show_words import behaviour_sentences
+from lostmotion.diagnosis.show_words import describe_behaviour
 from lostmotion.likelihood.observation import Observation
 from lostmotion.results.behaviour import Behaviour
 from lostmotion.signals.distances import distances, energy_distance, same_chance
@@ -62,7 +62,7 @@ def test_chance_is_even_for_equal_clouds_and_small_for_others():
 
 def test_model_with_the_right_orbit_is_at_the_floor_and_another_is_not():
     motions = {"recorded": wandering(1), "before": wandering(2, middle=0.3), "after": wandering(3)}
-    apart, strobed = distances_between(motions, recorded(8000), np.random.default_rng(0))
+    apart, strobed = measure_distances(motions, recorded(8000), np.random.default_rng(0))
     assert strobed
     assert apart["before"].chance < 0.01 < apart["after"].chance
     assert apart["before"].value > 3.0 * apart["noise_floor"].value
@@ -71,7 +71,7 @@ def test_model_with_the_right_orbit_is_at_the_floor_and_another_is_not():
 
 def test_without_a_drive_looks_at_the_whole_orbit_are_compared():
     motions = {"recorded": wandering(1), "before": wandering(2, middle=0.5)}
-    apart, strobed = distances_between(motions, recorded(8000, driven=False), np.random.default_rng(0))
+    apart, strobed = measure_distances(motions, recorded(8000, driven=False), np.random.default_rng(0))
     assert not strobed
     assert apart["before"].status == "ok"
     assert apart["before"].chance < 0.01
@@ -80,18 +80,18 @@ def test_without_a_drive_looks_at_the_whole_orbit_are_compared():
 def test_short_recordings_and_runaways_have_a_status():
     runaway = wandering(2)
     runaway[500:] = np.nan
-    apart, _ = distances_between(
+    apart, _ = measure_distances(
         {"recorded": wandering(1), "before": runaway}, recorded(8000), np.random.default_rng(0)
     )
     assert apart["before"].status == "diverged"
-    apart, _ = distances_between(
+    apart, _ = measure_distances(
         {"recorded": wandering(1, 400), "before": wandering(2, 400)}, recorded(400), np.random.default_rng(0)
     )
     assert apart["before"].status == apart["noise_floor"].status == "too_short"
 
 
 def test_sections_are_taken_at_the_phase_asked_for():
-    points = section(wandering(1), PERIOD, 0.25)
+    points = take_section(wandering(1), PERIOD, 0.25)
     assert len(points) == 200
     np.testing.assert_allclose(points[:, 1], 0.0, atol=1e-9)
     assert MOST >= 200
@@ -108,7 +108,7 @@ def facts_with(augmented=True, d2=None):
 
 def sentences(measured, strobed=True, **options):
     """Return a sentence on each measure of the last model."""
-    return behaviour_sentences(
+    return describe_behaviour(
         measured.after or measured.before, measured.noise_floor, measured.horizon, strobed, **options
     )
 
@@ -126,14 +126,14 @@ def test_an_exponent_says_what_drove_the_model(free, how):
 def test_what_could_not_be_measured_keeps_its_sentence():
     refused = {"value": None, "low": None, "high": None, "status": "too_short", "says": "Too few periods."}
     facts = facts_with(d2=refused)
-    row = next(r for r in show.table(made.evidence(facts)).rows if r[0] == "Correlation dimension")
+    row = next(r for r in show.make_table(made.evidence(facts)).rows if r[0] == "Correlation dimension")
     assert row[1:4] == ["–"] * 3
     assert "Too few periods." in row[4]
 
 
 def test_table_of_the_report_has_every_measure_with_a_sentence():
-    table = show.table(made.evidence(facts_with()))
-    assert [row[0].partition(" (")[0] for row in table.rows] == list(astuple(show.NAMES))
+    table = show.make_table(made.evidence(facts_with()))
+    assert [row[0].partition(" (")[0] for row in table.rows] == list(astuple(show.MEASURE_NAMES))
     assert all(row[-1].endswith(".") for row in table.rows)
     distance = next(row for row in table.rows if row[0] == "Distance between attractors")
     assert [plain(cell) for cell in distance[1:4]] == ["0.3 (p = 0.005)", "0.02 (p = 0.4)", "0.01 (p = 0.5)"]
@@ -142,14 +142,14 @@ def test_table_of_the_report_has_every_measure_with_a_sentence():
 
 
 def test_table_of_an_adequate_model_has_one_model():
-    table = show.table(made.evidence(facts_with(augmented=False)))
-    assert table.head[1] == "Model as it stands"
+    table = show.make_table(made.evidence(facts_with(augmented=False)))
+    assert table.head[1] == "Nominal model"
     assert all(len(row) == len(table.head) for row in table.rows)
 
 
 def test_a_model_whose_motion_was_not_measured_has_dashes():
     facts = facts_with()
     del facts["show"]["after"]
-    table = show.table(made.evidence(facts))
+    table = show.make_table(made.evidence(facts))
     assert table.head[1:4] == ["Before", "After", "Noise floor or recording"]
     assert {row[2] for row in table.rows} == {"–"}

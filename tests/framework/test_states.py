@@ -9,21 +9,21 @@ from lostmotion.codec import to_plain
 from lostmotion.diagnosis import confirming
 from lostmotion.diagnosis import run as ways
 from lostmotion.diagnosis import search as searching
-from lostmotion.diagnosis.compare import PARTS, confirmed, worsened
-from lostmotion.diagnosis.confirming import usual
-from lostmotion.diagnosis.findings import shown
+from lostmotion.diagnosis.compare import PARTS, is_better, is_worse
+from lostmotion.diagnosis.confirming import describe_usual_delay
+from lostmotion.diagnosis.findings import withhold_intervals
 from lostmotion.diagnosis.states import (
     LIKELY,
     NAMED,
     OPEN,
-    doubted,
-    doubts_of,
-    holds,
-    in_order,
-    open_of,
-    unsteady,
+    is_valid,
+    limit_confidence,
+    list_open_terms,
+    list_warnings,
+    sort_findings,
+    warn_of_moved_amplitudes,
 )
-from lostmotion.inference.course import Selection, Simplest, Visit
+from lostmotion.inference.term_sets import Selection, SimplestTerms, TermSet
 from lostmotion.likelihood.problem import RANDOM
 from lostmotion.results import Interval
 from lostmotion.results.diagnosis import Mechanism
@@ -56,17 +56,18 @@ def missing(size):
     return SimpleNamespace(missing=SimpleNamespace(force=np.array([size, -size])))
 
 
-def diagnosis(after, probabilities, visits=None, **course):
+def diagnosis(after, probabilities, fitted_sets=None, **course):
     sets = {frozenset(k): p for k, p in probabilities.items()}
     selection = SimpleNamespace(
         chosen=after,
-        visits={frozenset(k): SimpleNamespace(fit=f) for k, f in (visits or {}).items()} | course.get("weights", {}),
+        fitted_sets={frozenset(k): SimpleNamespace(fit=f) for k, f in (fitted_sets or {}).items()}
+        | course.get("weights", {}),
         gain=lambda key: 10.0,
         probabilities=lambda: sets,
         inclusion=lambda key: sum(p for terms, p in sets.items() if key in terms),
-        unbeaten=course.get("unbeaten", set()),
+        tied=course.get("tied", set()),
         declined=course.get("declined", set()),
-        scored=course.get("scored", {}),
+        heldout_gains=course.get("heldout_gains", {}),
         simplest=course.get("simplest"),
         withdrawn=frozenset(),
     )
@@ -92,8 +93,8 @@ def _slots(monkeypatch):
         system = problem.system
         return system.terms[system.keys.index(key)], system.own[key]
 
-    monkeypatch.setattr("lostmotion.diagnosis.states.term_of", term_of)
-    monkeypatch.setattr("lostmotion.diagnosis.confirming.term_of", term_of)
+    monkeypatch.setattr("lostmotion.diagnosis.states.find_term", term_of)
+    monkeypatch.setattr("lostmotion.diagnosis.confirming.find_term", term_of)
 
 
 @pytest.mark.parametrize(("gain", "sure"), [(29.0, False), (31.0, True)])
@@ -101,36 +102,38 @@ def test_a_name_has_to_win_three_times_what_has_no_name_beside_it(gain, sure):
     after = fit_of({f"{FRICTION}.force": 1.0}, [FRICTION])
     weights = {frozenset({FRICTION}): SimpleNamespace(weight=gain), frozenset(): SimpleNamespace(weight=0.0)}
     d = diagnosis(after, {(FRICTION,): 1.0}, weights=weights, learned=SimpleNamespace(gain=10.0))
-    doubts = doubts_of(d, FRICTION)
+    doubts = list_warnings(d, FRICTION)
     assert doubts == [] if sure else ["29 in log evidence" in doubt for doubt in doubts] == [True]
 
 
 @pytest.mark.parametrize(("time", "sure"), [(3.0, False), (50.0, True)])
 def test_a_change_at_the_very_beginning_may_be_a_wrong_known_value(time, sure):
     after = fit_of({f"{CHANGE}.change": 1.0, f"{CHANGE}.time": time}, [CHANGE])
-    doubts = doubts_of(diagnosis(after, {(CHANGE,): 1.0}), CHANGE)
-    assert doubts == [] if sure else ["first 3 % of the recording" in doubt for doubt in doubts] == [True]
+    doubts = list_warnings(diagnosis(after, {(CHANGE,): 1.0}), CHANGE)
+    assert doubts == [] if sure else ["first 3.0% of the recording" in doubt for doubt in doubts] == [True]
 
 
 @pytest.mark.parametrize(("left", "sure"), [(0.6, False), (0.4, True)])
 def test_a_name_that_leaves_most_of_the_force_missing_is_likely(left, sure):
     after = fit_of({f"{FRICTION}.force": 1.0}, [FRICTION])
-    doubts = doubts_of(diagnosis(after, {(FRICTION,): 1.0}, left=missing(left)), FRICTION)
-    assert doubts == [] if sure else ["60 % is still missing" in doubt for doubt in doubts] == [True]
+    doubts = list_warnings(diagnosis(after, {(FRICTION,): 1.0}, left=missing(left)), FRICTION)
+    assert doubts == [] if sure else ["60% is still missing" in doubt for doubt in doubts] == [True]
 
 
 def test_a_sure_term_is_named_and_one_with_rivals_is_not():
     after = fit_of({f"{FRICTION}.force": 1.0}, [FRICTION])
-    assert doubts_of(diagnosis(after, {(FRICTION,): 0.99, (): 0.01}), FRICTION) == []
-    (doubt,) = doubts_of(diagnosis(after, {(FRICTION,): 0.8, (DELAY,): 0.2}), FRICTION)
+    assert list_warnings(diagnosis(after, {(FRICTION,): 0.99, (): 0.01}), FRICTION) == []
+    (doubt,) = list_warnings(diagnosis(after, {(FRICTION,): 0.8, (DELAY,): 0.2}), FRICTION)
     assert doubt == "Its probability is 0.8; its rivals are excitation delay."
-    (doubt,) = doubts_of(diagnosis(after, {(FRICTION,): 0.8, (): 0.2}), FRICTION)
+    (doubt,) = list_warnings(diagnosis(after, {(FRICTION,): 0.8, (): 0.2}), FRICTION)
     assert doubt.endswith("its rival is a smooth force without a name.")
 
 
 def test_a_term_for_which_held_out_data_decide_is_told_so():
     after, sets = fit_of({f"{FRICTION}.force": 1.0}, [FRICTION]), {(FRICTION,): 0.99, (): 0.01}
-    (doubt,) = doubts_of(diagnosis(after, sets, unbeaten={FRICTION}, scored={frozenset({FRICTION}): 12.34}), FRICTION)
+    (doubt,) = list_warnings(
+        diagnosis(after, sets, tied={FRICTION}, heldout_gains={frozenset({FRICTION}): 12.34}), FRICTION
+    )
     assert doubt.endswith("held-out data decide, by 12 in log score.")
 
 
@@ -139,19 +142,21 @@ def test_another_cause_that_explains_the_fitted_data_as_well_is_a_doubt(behind, 
     """A delay and a friction are no relatives: which of them it is was decided by prior odds alone."""
     after, other = fit_of({f"{FRICTION}.force": 1.0}, [FRICTION]), fit_of({f"{DELAY}.delay": 1.0}, [DELAY])
     other.log_evidence = -behind
-    doubts = doubts_of(diagnosis(after, {(FRICTION,): 0.99, (DELAY,): 0.01}, {(DELAY,): other}), FRICTION)
+    doubts = list_warnings(diagnosis(after, {(FRICTION,): 0.99, (DELAY,): 0.01}, {(DELAY,): other}), FRICTION)
     assert doubts == [] if sure else ["Excitation delay explains the fitted data as well" in doubts[0]] == [True]
 
 
 def test_a_set_without_the_term_that_is_a_part_of_what_was_found_is_no_other_cause():
     after = fit_of({f"{FRICTION}.force": 1.0, f"{CHANGE}.time": 50.0}, [FRICTION, CHANGE])
     part = fit_of({f"{CHANGE}.time": 50.0}, [CHANGE])
-    assert doubts_of(diagnosis(after, {(FRICTION, CHANGE): 0.99}, {(CHANGE,): part}), FRICTION) == []
+    assert list_warnings(diagnosis(after, {(FRICTION, CHANGE): 0.99}, {(CHANGE,): part}), FRICTION) == []
 
 
 def test_the_simplest_explanation_is_likely_and_says_why():
     after = fit_of({f"{FRICTION}.force": 1.0}, [FRICTION])
-    (doubt,) = doubts_of(diagnosis(after, {(FRICTION,): 0.45}, simplest=Simplest({FRICTION: 0.45}, 30.0)), FRICTION)
+    (doubt,) = list_warnings(
+        diagnosis(after, {(FRICTION,): 0.45}, simplest=SimplestTerms({FRICTION: 0.45}, 30.0)), FRICTION
+    )
     assert "better than any learned curve" in doubt
     assert doubt.endswith("its probability is 0.45.")
 
@@ -178,16 +183,16 @@ def test_a_law_better_than_any_curve_is_the_simplest_explanation(monkeypatch, we
     """
     fits = {k: SimpleNamespace(status="converged", key=k, problem=NOTHING) for k in scores}
     nominal = SimpleNamespace(problem=SimpleNamespace(active=frozenset(), settings=DEFAULT))
-    visits = {frozenset(k): Visit(frozenset(k), fits[k], weights.get(k, 0.0)) for k in ("", *weights)}
-    expansion = SimpleNamespace(worse=1.0, bare=lambda worse: 9.0)
-    selection = Selection(nominal, nominal, visits)
-    monkeypatch.setattr(Selection, "won", lambda self, visit: SimpleNamespace(fit=fits["smooth"]))
-    monkeypatch.setattr(Selection, "expansion", lambda self, visit: expansion)
-    monkeypatch.setattr(confirming, "quiet", lambda fit: fit.key != "l")
+    fitted_sets = {frozenset(k): TermSet(frozenset(k), fits[k], weights.get(k, 0.0)) for k in ("", *weights)}
+    expansion = SimpleNamespace(inflation=1.0, compute_fixed_gain=lambda worse: 9.0)
+    selection = Selection(nominal, nominal, fitted_sets)
+    monkeypatch.setattr(Selection, "discrepancy_fit", lambda self, term_set: SimpleNamespace(fit=fits["smooth"]))
+    monkeypatch.setattr(Selection, "expansion", lambda self, term_set: expansion)
+    monkeypatch.setattr(confirming, "has_usual_random_force", lambda fit: fit.key != "l")
     monkeypatch.setattr(confirming, "_delay_in_samples", lambda fit, key: 0.1 if key == "u" else np.inf)
-    monkeypatch.setattr(confirming, "_scored", lambda fit, pieces: scores[fit.key])
-    monkeypatch.setattr(confirming, "run_errors", lambda fit, pieces, horizon: np.ones(PARTS))
-    monkeypatch.setattr(confirming, "pieces_of", lambda observations, held: ())
+    monkeypatch.setattr(confirming, "_score_heldout", lambda fit, pieces: scores[fit.key])
+    monkeypatch.setattr(confirming, "compute_run_errors", lambda fit, pieces, horizon: np.ones(PARTS))
+    monkeypatch.setattr(confirming, "cut_heldout", lambda observations, held: ())
     learned = SimpleNamespace(gain=curve, fit=fits["smooth"])
     d = SimpleNamespace(
         selection=selection, learned=learned, unexplained=False, held=(), settings=DEFAULT, after=fits["smooth"]
@@ -204,39 +209,41 @@ def test_a_refuted_term_gives_way_to_a_simpler_set_that_was_visited(monkeypatch)
     fits = {k: SimpleNamespace(status="converged", key=k, problem=free) for k in ("", "wave", "plain", "weak")}
     fits["wave"].problem = SimpleNamespace(settings=DEFAULT, active=frozenset({"wave"}))
     weights = {"": 0.0, "wave": 90.0, "plain": 50.0, "weak": 60.0}
-    visits = {frozenset([k] if k else []): Visit(frozenset([k] if k else []), fits[k], w) for k, w in weights.items()}
+    fitted_sets = {
+        frozenset([k] if k else []): TermSet(frozenset([k] if k else []), fits[k], w) for k, w in weights.items()
+    }
     leads = {"plain": 20.0, "weak": 1.0}
-    monkeypatch.setattr(Selection, "contest", lambda self, visit, over, needed: None)
-    monkeypatch.setattr(Selection, "lead", lambda self, visit, over: leads["".join(visit.terms)])
-    selection = Selection(fits[""], fits["wave"], visits)
-    assert searching._shrunk(selection, "wave").chosen.key == "plain"
+    monkeypatch.setattr(Selection, "settle_comparison", lambda self, term_set, over, needed: None)
+    monkeypatch.setattr(Selection, "compute_log_odds", lambda self, term_set, over: leads["".join(term_set.terms)])
+    selection = Selection(fits[""], fits["wave"], fitted_sets)
+    assert searching._drop_term(selection, "wave").chosen.key == "plain"
     leads["plain"] = 2.0
-    assert searching._shrunk(selection, "wave").chosen.key == ""
+    assert searching._drop_term(selection, "wave").chosen.key == ""
 
 
 def test_a_long_delay_is_no_more_than_likely():
     period = 2.0 * np.pi
     for share, doubts in ((0.5 * DEFAULT.name.late, 0), (2.0 * DEFAULT.name.late, 1)):
         after = fit_of({f"{DELAY}.delay": share * period}, [DELAY])
-        assert len(doubts_of(diagnosis(after, {(DELAY,): 1.0}), DELAY)) == doubts
+        assert len(list_warnings(diagnosis(after, {(DELAY,): 1.0}), DELAY)) == doubts
 
 
 def test_a_level_that_moves_when_a_delay_comes_in_is_told_and_the_delay_doubted():
     after = fit_of({f"{FRICTION}.force": 0.27, f"{DELAY}.delay": 0.01}, [FRICTION, DELAY])
     before = fit_of({f"{FRICTION}.force": 0.68}, [FRICTION])
     d = diagnosis(after, {(FRICTION, DELAY): 1.0}, {(FRICTION,): before})
-    (told,) = unsteady(d, DELAY)
+    (told,) = warn_of_moved_amplitudes(d, DELAY)
     assert "0.68 N without excitation delay and of 0.27 N with it" in told
-    assert doubts_of(d, DELAY) == [told]
-    assert doubts_of(d, FRICTION) == []
+    assert list_warnings(d, DELAY) == [told]
+    assert list_warnings(d, FRICTION) == []
     still = fit_of({f"{FRICTION}.force": 0.28}, [FRICTION])
-    assert not list(unsteady(diagnosis(after, {(FRICTION, DELAY): 1.0}, {(FRICTION,): still}), DELAY))
+    assert not list(warn_of_moved_amplitudes(diagnosis(after, {(FRICTION, DELAY): 1.0}, {(FRICTION,): still}), DELAY))
 
 
 def test_what_stays_open_is_told_with_the_reason_once():
     after = fit_of({}, [])
-    d = diagnosis(after, {(): 1.0}, unbeaten={FRICTION}, declined={FRICTION, DELAY}, withdrawn=("unknown",))
-    rows = open_of(d)
+    d = diagnosis(after, {(): 1.0}, tied={FRICTION}, declined={FRICTION, DELAY}, withdrawn=("unknown",))
+    rows = list_open_terms(d)
     assert [row.mechanism for row in rows] == ["coulomb_friction", "excitation_delay"]
     assert "smooth force that nobody has named" in rows[0].says
     assert "has a memory" in rows[1].says
@@ -245,13 +252,13 @@ def test_what_stays_open_is_told_with_the_reason_once():
 @pytest.mark.parametrize(("error", "floor", "good"), [(0.2, 0.01, True), (0.35, 0.1, True), (5.92, 0.01, False),
                                                      (float("nan"), 0.1, False)])  # fmt: skip
 def test_a_model_holds_that_predicts(error, floor, good):
-    assert holds(SimpleNamespace(nrmse=error), floor) is good
+    assert is_valid(SimpleNamespace(nrmse=error), floor) is good
 
 
 def test_intervals_are_withheld_with_the_reason():
     told = {"c": Interval(1.0, 0.9, 1.1, "N s/m")}
-    assert shown(told, "") == told
-    kept = to_plain(shown(told, "because")["c"])
+    assert withhold_intervals(told, "") == told
+    kept = to_plain(withhold_intervals(told, "because")["c"])
     assert kept == {"median": 1.0, "low": None, "high": None, "unit": "N s/m", "withheld": "because"}
 
 
@@ -261,19 +268,19 @@ def prediction(nrmse, scores):
 
 def test_held_out_data_speak_against_what_predicts_worse():
     flat, rng = np.zeros(20), np.random.default_rng(0)
-    assert worsened(prediction(0.286, flat), prediction(0.315, flat))
-    assert not worsened(prediction(0.30, flat), prediction(0.302, flat))
-    assert worsened(prediction(0.30, flat), prediction(0.2, flat - 0.11 + 0.01 * rng.standard_normal(20)))
-    assert not worsened(prediction(0.30, flat), prediction(0.2, flat + 0.1))
-    assert worsened(prediction(0.30, flat), prediction(float("nan"), flat))
+    assert is_worse(prediction(0.286, flat), prediction(0.315, flat))
+    assert not is_worse(prediction(0.30, flat), prediction(0.302, flat))
+    assert is_worse(prediction(0.30, flat), prediction(0.2, flat - 0.11 + 0.01 * rng.standard_normal(20)))
+    assert not is_worse(prediction(0.30, flat), prediction(0.2, flat + 0.1))
+    assert is_worse(prediction(0.30, flat), prediction(float("nan"), flat))
 
 
 def test_a_score_that_falls_within_a_wide_scatter_speaks_against_a_model_that_predicts_hardly_better():
     flat = np.zeros(20)
     outlier = np.where(np.arange(20) == 7, -50.0, 0.5)
-    assert not worsened(prediction(1.0, flat), prediction(0.4, outlier))
-    assert worsened(prediction(1.0, flat), prediction(0.9, outlier))
-    assert not worsened(prediction(1.0, flat), prediction(0.9, flat - 0.005 * np.cos(np.arange(20) * np.pi) - 0.0005))
+    assert not is_worse(prediction(1.0, flat), prediction(0.4, outlier))
+    assert is_worse(prediction(1.0, flat), prediction(0.9, outlier))
+    assert not is_worse(prediction(1.0, flat), prediction(0.9, flat - 0.005 * np.cos(np.arange(20) * np.pi) - 0.0005))
 
 
 def test_what_makes_predictions_worse_is_taken_back_until_they_are_not(monkeypatch):
@@ -288,12 +295,12 @@ def test_what_makes_predictions_worse_is_taken_back_until_they_are_not(monkeypat
         )
 
     monkeypatch.setattr(ways, "compare_heldout", compare_heldout)
-    monkeypatch.setattr(ways, "simpler", simpler)
-    monkeypatch.setattr(ways, "predicted_better", lambda outcome, observations: None)
-    monkeypatch.setattr(ways, "decided", lambda outcome, observations: None)
+    monkeypatch.setattr(ways, "drop_least_probable", simpler)
+    monkeypatch.setattr(ways, "find_better_set", lambda outcome, observations: None)
+    monkeypatch.setattr(ways, "decide_by_heldout", lambda outcome, observations: None)
     monkeypatch.setattr(ways, "find_simplest", lambda outcome, observations: None)
     start = SimpleNamespace(found=("a", "b", "curve"), withdrawn=(), explains=True, settings=DEFAULT)
-    outcome = ways.upheld(start, SimpleNamespace(observations=()), np.random.default_rng(0))
+    outcome = ways.check_heldout(start, SimpleNamespace(observations=()), np.random.default_rng(0))
     assert outcome.diagnosis.found == ("a",)
     assert outcome.diagnosis.withdrawn == ("curve", "b")
 
@@ -315,21 +322,21 @@ NOTHING = SimpleNamespace(active=frozenset())
 def test_held_out_data_decide_between_a_term_and_a_smooth_force(monkeypatch, scores, leads, chosen):
     """Log odds of the fitted data and log scores of held-out data add; odds of 20, times those asked, are wanted."""
     fits = {k: SimpleNamespace(status="converged", key=k, problem=NOTHING) for k in scores}
-    visits = {frozenset(k): Visit(frozenset(k), fits[k], 50.0 if k else 0.0) for k in ("", *leads)}
+    fitted_sets = {frozenset(k): TermSet(frozenset(k), fits[k], 50.0 if k else 0.0) for k in ("", *leads)}
     selection = SimpleNamespace(
         chosen=SimpleNamespace(problem=SimpleNamespace(active=frozenset())),
-        visits=visits,
-        unbeaten=set(leads),
-        lead=lambda visit, here: leads["".join(visit.terms)],
-        check=lambda visit: None,
-        won=lambda visit: SimpleNamespace(fit=fits["smooth"], right=None),
-        expansion=lambda visit: SimpleNamespace(worse=1.0),
+        fitted_sets=fitted_sets,
+        tied=set(leads),
+        compute_log_odds=lambda term_set, here: leads["".join(term_set.terms)],
+        fit_discrepancy=lambda term_set: None,
+        discrepancy_fit=lambda term_set: SimpleNamespace(fit=fits["smooth"], corrected=None),
+        expansion=lambda term_set: SimpleNamespace(inflation=1.0),
     )
-    monkeypatch.setattr(confirming, "term_of", lambda problem, key: (SimpleNamespace(acts="motion"), ()))
-    monkeypatch.setattr(confirming, "_scored", lambda fit, pieces: scores[fit.key])
-    monkeypatch.setattr(confirming, "pieces_of", lambda observations, held: ())
+    monkeypatch.setattr(confirming, "find_term", lambda problem, key: (SimpleNamespace(acts="motion"), ()))
+    monkeypatch.setattr(confirming, "_score_heldout", lambda fit, pieces: scores[fit.key])
+    monkeypatch.setattr(confirming, "cut_heldout", lambda observations, held: ())
     d = SimpleNamespace(selection=selection, learned=None, held=(), settings=DEFAULT)
-    found = confirming.decided(SimpleNamespace(diagnosis=d), ())
+    found = confirming.decide_by_heldout(SimpleNamespace(diagnosis=d), ())
     assert (found and found[0].key) == chosen
 
 
@@ -339,45 +346,45 @@ def test_of_sets_that_explain_what_was_fitted_the_one_that_predicts_better_is_ta
     factors = {"ab": 1.0, "a": 0.9, "b": 1.1, "c": 1.0}
     problem = SimpleNamespace(keys=(RANDOM,))
     fits = {k: SimpleNamespace(status="converged", key=k, problem=problem, theta=np.zeros(1)) for k in ("", *factors)}
-    visits = {frozenset(k): Visit(frozenset(k), fit, 50.0 if k else 0.0) for k, fit in fits.items()}
+    fitted_sets = {frozenset(k): TermSet(frozenset(k), fit, 50.0 if k else 0.0) for k, fit in fits.items()}
     chosen = SimpleNamespace(problem=SimpleNamespace(active=frozenset("ab")))
-    expansion = SimpleNamespace(promise=lambda worse: SimpleNamespace(gain=1e3))
+    expansion = SimpleNamespace(find_best=lambda worse: SimpleNamespace(gain=1e3))
     selection = SimpleNamespace(
-        chosen=chosen, nominal=fits[""], visits=visits, declined=set(), expansion=lambda visit: expansion
+        chosen=chosen, nominal=fits[""], fitted_sets=fitted_sets, declined=set(), expansion=lambda term_set: expansion
     )
     d = SimpleNamespace(selection=selection, learned=None, unexplained=True, held=(), settings=DEFAULT)
     scatter = np.exp(0.05 * rng.standard_normal((len(factors), PARTS)))
     told = {k: factors[k] * row for k, row in zip(factors, scatter, strict=True)}
-    monkeypatch.setattr(confirming, "pieces_of", lambda observations, held: ())
-    monkeypatch.setattr(confirming, "run_errors", lambda fit, pieces, horizon: told[fit.key])
+    monkeypatch.setattr(confirming, "cut_heldout", lambda observations, held: ())
+    monkeypatch.setattr(confirming, "compute_run_errors", lambda fit, pieces, horizon: told[fit.key])
     outcome = SimpleNamespace(diagnosis=d, horizon=None)
-    assert confirming.predicted_better(outcome, ()).key == "a"
+    assert confirming.find_better_set(outcome, ()).key == "a"
     fits["a"].theta = np.ones(1)
-    assert confirming.predicted_better(outcome, ()) is None, "it leaves more of a random force than the nominal model"
-    fits["a"].theta, visits[frozenset("a")] = np.zeros(1), Visit(frozenset("a"), fits["a"], 20.0)
-    assert confirming.predicted_better(outcome, ()) is None, "it explains less than half of what the chosen set does"
-    visits[frozenset("a")] = Visit(frozenset("a"), fits["a"], 50.0)
+    assert confirming.find_better_set(outcome, ()) is None, "it leaves more of a random force than the nominal model"
+    fits["a"].theta, fitted_sets[frozenset("a")] = np.zeros(1), TermSet(frozenset("a"), fits["a"], 20.0)
+    assert confirming.find_better_set(outcome, ()) is None, "it explains less than half of what the chosen set does"
+    fitted_sets[frozenset("a")] = TermSet(frozenset("a"), fits["a"], 50.0)
     told["a"] = told["c"]
-    assert confirming.predicted_better(outcome, ()) is None
+    assert confirming.find_better_set(outcome, ()) is None
     told["a"], d.unexplained = 0.5 * told["c"], False
-    expansion.promise = lambda worse: SimpleNamespace(gain=0.0)
-    assert confirming.predicted_better(outcome, ()) is None, "where the model is right else, likelihood decides"
+    expansion.find_best = lambda worse: SimpleNamespace(gain=0.0)
+    assert confirming.find_better_set(outcome, ()) is None, "where the model is right else, likelihood decides"
 
 
 def test_equal_models_are_confirmed_as_seldom_as_the_test_says():
     """One-sided, so half of the chance: 2.5 % of 4000 pairs of equal errors, within four standard errors. Seeded."""
     rng = np.random.default_rng(5)
-    told = [confirmed(*np.exp(0.3 * rng.standard_normal((2, PARTS)))) for _ in range(4000)]
+    told = [is_better(*np.exp(0.3 * rng.standard_normal((2, PARTS)))) for _ in range(4000)]
     assert np.mean(told) == pytest.approx(0.5 * DEFAULT.heldout.chance, abs=4.0 * np.sqrt(0.025 * 0.975 / 4000))
 
 
 def test_errors_that_fall_in_each_part_are_confirmed_and_the_same_errors_are_not():
     errors = np.linspace(0.01, 0.5, PARTS)
     without = errors * np.linspace(1.1, 1.3, PARTS)
-    assert confirmed(errors, without)
-    assert not confirmed(without, errors)
-    assert not confirmed(errors, errors)
-    assert not confirmed(np.full(PARTS, np.nan), errors)
+    assert is_better(errors, without)
+    assert not is_better(without, errors)
+    assert not is_better(errors, errors)
+    assert not is_better(np.full(PARTS, np.nan), errors)
 
 
 @pytest.mark.parametrize(("delay", "told"), [(0.004, True), (0.006, False)])
@@ -385,7 +392,7 @@ def test_a_delay_of_less_than_half_a_sample_is_usual(delay, told):
     fit = fit_of({f"{DELAY}.delay": delay}, {DELAY})
     fit.problem.observations = (SimpleNamespace(dt=0.01),)
     d = SimpleNamespace(after=fit, values=fit.values, settings=DEFAULT)
-    assert bool(usual(d, DELAY)) == told
+    assert bool(describe_usual_delay(d, DELAY)) == told
 
 
 def entry(**told):
@@ -398,7 +405,7 @@ def test_what_is_doubted_is_likely_and_comes_behind_what_is_named():
         entry(mechanism="offset_force", state=NAMED, probability=0.999, doubts=("why",)),
         entry(mechanism="coulomb_friction", state=NAMED, probability=0.97),
     ]
-    told = in_order([doubted(one) for one in entries])
+    told = sort_findings([limit_confidence(one) for one in entries])
     assert [one.mechanism for one in told] == ["coulomb_friction", "offset_force", "unknown"]
     assert [one.state for one in told] == [NAMED, LIKELY, OPEN]
     assert [one.probability for one in told] == [0.97, DEFAULT.name.sure, 1.0]

@@ -40,7 +40,7 @@ def evidence(facts=None, **where):
 
 @pytest.mark.parametrize("facts", [made.mismatch(), made.adequate()], ids=["mismatch", "adequate"])
 def test_there_is_a_row_of_colours_for_each_model_over_one_step_plot(facts):
-    with style.applied():
+    with style.use_style():
         figure = strip.draw(evidence(facts, over_time=TOLD))
     models = 2 if facts["found"] else 1
     assert len(figure.axes) == models + 2
@@ -57,13 +57,13 @@ def test_the_caption_says_what_stands_out_and_what_chance_is():
     assert told.endswith("Of 2 recordings one disagrees.")
     quiet = TOLD | {"says": "", "windows": "hits", "worst": WORST | {"beyond_chance": False}}
     told = strip.caption(evidence(over_time=quiet))
-    assert told.startswith("No stretch stands out beyond chance. For each hit, up to the next one: ")
+    assert told.startswith("No section has a significant disagreement. For each hit, up to the next one: ")
 
 
 def test_nothing_is_drawn_without_windows_and_a_table_has_a_row_for_each_recording():
     assert strip.draw(evidence()) is None
-    assert strip.table(evidence()) is None
-    table = strip.table(evidence(by_recording=RECORDINGS))
+    assert strip.make_table(evidence()) is None
+    table = strip.make_table(evidence(by_recording=RECORDINGS))
     assert table.head[1] == "Drive level (rms)"
     assert table.rows[0] == ["low", "1 N", "fitted", "1.1", "1", "0.6"]
     assert table.rows[1][2:] == ["held out", "3", "2", "–"]

@@ -20,7 +20,7 @@ def test_declaration_comes_before_behaviour():
 
 def test_a_broken_rule_is_told_with_advice():
     with pytest.raises(
-        AssertionError, match=r"drag, force_is_zero_at_null: the force is .* Let the force be exactly 0"
+        AssertionError, match=r"drag, force_is_zero_at_null: the force is .* Return a force of exactly 0"
     ):
         testing.assert_conforms(spoiled(Drag, {"force": staticmethod(pushes_always)}))
 

@@ -10,8 +10,8 @@ import pytest
 
 from lostmotion.contracts import Param, Term
 from lostmotion.errors import ContractError
-from lostmotion.likelihood.motion import derivatives
-from lostmotion.likelihood.plan import law_of
+from lostmotion.likelihood.motion import compute_derivatives
+from lostmotion.likelihood.plan import make_law
 from lostmotion.likelihood.system import System
 from lostmotion.quantities import FORCE
 from lostmotion.testing import check
@@ -161,7 +161,7 @@ def pushed(term, x):
     """Return the force of a term of size 3 N at `x`, by its compiled kernel."""
     system = System(RigidDrive(), (term,))
     full = system.vector({"m": 1.0, "c": 0.0, f"{term.name}.force": 3.0})
-    rates, _ = derivatives(
+    rates, _ = compute_derivatives(
         system, system.everything, system.pack(full[None], 1e-3), np.array([[x, 0.0]]), np.zeros((1, 1))
     )
     return rates[0, 1]
@@ -180,7 +180,7 @@ def test_terms_that_read_their_fields_pass_the_kit(term):
 
 def test_a_method_without_fields_and_a_prepared_law_with_a_step_are_refused():
     with pytest.raises(ContractError, match="none that are numbers"):
-        law_of(Empty(), 0)
+        make_law(Empty(), 0)
     stepped = type("Stepped", (Prepared,), {"needs": ("step",)})
     with pytest.raises(ContractError, match="prepares its numbers"):
-        law_of(stepped(), 0)
+        make_law(stepped(), 0)

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from lostmotion.diagnosis import unknowns
-from lostmotion.inference.curves import _independent_part
-from lostmotion.inference.learned import OverPhase, OverPosition, names_of, spread
-from lostmotion.inference.proposal import Axis, proposed
-from lostmotion.inference.surfaces import KINDS, OverHistory, Surface, curves_for
+from lostmotion.inference.curves import _keep_independent
+from lostmotion.inference.learned import OverPhase, OverPosition, compute_spread, list_covariates
+from lostmotion.inference.proposal import Axis, propose_formula
+from lostmotion.inference.surfaces import KINDS, OverHistory, Surface, list_all_curves
 from lostmotion.likelihood.system import System
 from lostmotion.quantities import DAMPING, FORCE, LENGTH, SPEED
 from lostmotion.registry import default
@@ -28,15 +28,15 @@ def force(term, weights, at, velocity=1.0, needs=()):
 
 
 def curves():
-    return curves_for(default().make("model", "robot_joint"), driven=True)
+    return list_all_curves(default().make("model", "robot_joint"), driven=True)
 
 
 def test_there_is_a_curve_of_each_kind_at_each_place():
     assert len(curves()) == 2 * (len(KINDS) + 2) + 3
-    assert not any("omega" in t.needs for t in curves_for(default().make("model", "lin_backlash"), driven=False))
+    assert not any("omega" in t.needs for t in list_all_curves(default().make("model", "lin_backlash"), driven=False))
 
 
-ALL = curves_for(default().make("model", "lin_backlash"), driven=True)
+ALL = list_all_curves(default().make("model", "lin_backlash"), driven=True)
 
 
 @pytest.mark.parametrize("term", [t for t in ALL if not isinstance(t, Surface | OverHistory)], ids=lambda t: t.name)
@@ -93,20 +93,20 @@ def test_prior_widths_are_those_of_a_force_of_unit_size():
     for term in (OverPosition(), OverPhase()):
         z = np.linspace(-0.6, 0.6, 50)
         for length in (0.12, 0.5):
-            variance = term.basis(z) ** 2 @ spread(term, length) ** 2
+            variance = term.basis(z) ** 2 @ compute_spread(term, length) ** 2
             assert np.mean(variance) == pytest.approx(1.0, rel=0.35)
 
 
 def test_a_longer_correlation_makes_a_smoother_curve():
-    short, long_ = (spread(OverPosition(), length) for length in (0.06, 1.0))
+    short, long_ = (compute_spread(OverPosition(), length) for length in (0.06, 1.0))
     assert long_[-1] / long_[0] < 1e-2 * short[-1] / short[0]
 
 
 def test_what_a_sum_depends_on_is_named_once():
     over = {t.name + t.at: t for t in curves()}
     both = [over["unknown_over_positionground"], over["unknown_drag_over_positionground"]]
-    assert names_of(both) == ["position", "velocity"]
-    assert names_of([over["unknown_over_positionbase"]]) == ["position at base"]
+    assert list_covariates(both) == ["position", "velocity"]
+    assert list_covariates([over["unknown_over_positionbase"]]) == ["position at base"]
 
 
 def curve(law, sd=0.02, seed=0):
@@ -128,20 +128,20 @@ def curve(law, sd=0.02, seed=0):
     ],
 )
 def test_a_formula_is_proposed_for_a_curve_that_has_one(law, text):
-    found = proposed(*curve(law), X)
+    found = propose_formula(*curve(law), X)
     assert found.share > 0.9
     assert re.search(text, found.text), found.text
 
 
 def test_no_formula_is_proposed_for_noise():
     at, mean, covariance = curve(lambda x: 0.0 * x, seed=3)
-    found = proposed(at, mean, covariance, X)
+    found = propose_formula(at, mean, covariance, X)
     assert found is None or len(found.text.split(" + ")) <= 3
 
 
 def test_a_formula_carries_the_units_of_its_curve():
     axis = Axis("v", SPEED, DAMPING, "translation")
-    found = proposed(*curve(lambda x: 2e4 * x**2), axis)
+    found = propose_formula(*curve(lambda x: 2e4 * x**2), axis)
     assert "N s^3/m^3 v^2" in found.text
 
 
@@ -149,7 +149,7 @@ def test_what_free_parameters_cover_promises_nothing():
     """Of the first direction a millionth of its information is left: a gradient there would promise a gain of 5e5."""
     own = np.diag([1.0, 4.0])
     left = np.diag([1e-6, 3.0])
-    gradient, information = _independent_part(np.array([1.0, 6.0]), left, own)
+    gradient, information = _keep_independent(np.array([1.0, 6.0]), left, own)
     assert gradient == pytest.approx([0.0, 6.0], abs=1e-9)
     assert information == pytest.approx(np.diag([0.0, 3.0]), abs=1e-9)
 
@@ -164,8 +164,8 @@ def test_what_free_parameters_cover_promises_nothing():
 def test_an_unknown_says_where_a_law_explains_it_as_well(gain, says):
     """No report says that no term explains a force, and ranks one above the curve."""
     system = System(default().make("model", "linear_oscillator"), (CoulombFriction(),))
-    selection = SimpleNamespace(unbeaten={"coulomb_friction"}, gain=lambda key: gain)
+    selection = SimpleNamespace(tied={"coulomb_friction"}, gain=lambda key: gain)
     d = SimpleNamespace(
         selection=selection, before=SimpleNamespace(problem=SimpleNamespace(system=system)), settings=DEFAULT
     )
-    assert unknowns._why_unnamed(d, SimpleNamespace(gain=58.0)).lower() == says.lower()
+    assert unknowns._explain_missing_name(d, SimpleNamespace(gain=58.0)).lower() == says.lower()

@@ -7,12 +7,12 @@ import pytest
 import report_fixture as made
 
 from lostmotion.diagnosis import verdict
-from lostmotion.diagnosis.notes import drowned
-from lostmotion.diagnosis.report.opening import badge
-from lostmotion.diagnosis.run import unused
+from lostmotion.diagnosis.notes import note_large_noise
+from lostmotion.diagnosis.report.opening import make_badge
+from lostmotion.diagnosis.run import note_unused
 from lostmotion.diagnosis.search import _check_moving
 from lostmotion.errors import DataError
-from lostmotion.inference.setup import lasting
+from lostmotion.inference.setup import count_lasting_samples
 from lostmotion.likelihood.observation import Observation, Sensor
 from lostmotion.results import Interval
 from lostmotion.results.diagnosis import Mechanism
@@ -55,24 +55,26 @@ def diagnosed(slow, *names, white=0.0):
 def test_what_grows_is_not_said_to_fall(monkeypatch, force, error, told):
     outcome = diagnosed([0.0])
     outcome.before, outcome.after.nrmse = SimpleNamespace(nrmse=error[0]), error[1]
-    monkeypatch.setattr(verdict, "noise_floor", lambda _: 0.01)
-    monkeypatch.setattr(verdict, "unexplained_of", lambda _, after: UnexplainedForce(True, force[after], "N", 0.1))
+    monkeypatch.setattr(verdict, "compute_noise_floor", lambda _: 0.01)
+    monkeypatch.setattr(verdict, "measure_unexplained", lambda _, after: UnexplainedForce(True, force[after], "N", 0.1))
     friction = Mechanism(mechanism="friction", probability=1.0, state="named", parameters={}, says="Friction acts.")
-    said = verdict.says(outcome, [friction])[1]
+    said = verdict.summarise(outcome, [friction])[1]
     start, end = told.split(" * ")
     assert start in said
     assert f"over one drive period {end} of the response" in said
 
 
 def test_noise_that_may_be_motion_is_doubted():
-    assert drowned(diagnosed([0.2])) == []
-    assert drowned(diagnosed([0.0], white=0.7)) == []
-    assert drowned(diagnosed([0.0], white=0.9))[0].startswith("What passes for noise is 90 % of the held-out readings")
-    assert drowned(diagnosed([0.5]))[0].startswith(
-        "What passes for noise has a memory and is 50 % of the held-out readings"
+    assert note_large_noise(diagnosed([0.2])) == []
+    assert note_large_noise(diagnosed([0.0], white=0.7)) == []
+    assert note_large_noise(diagnosed([0.0], white=0.9))[0].startswith(
+        "What passes for noise is 90% of the held-out readings"
     )
-    (only,) = drowned(diagnosed([0.1, 0.9], "front", "rear"))
-    assert only.startswith("What passes for noise of rear has a memory and is 90 %")
+    assert note_large_noise(diagnosed([0.5]))[0].startswith(
+        "What passes for noise has a memory and is 50% of the held-out readings"
+    )
+    (only,) = note_large_noise(diagnosed([0.1, 0.9], "front", "rear"))
+    assert only.startswith("What passes for noise of rear has a memory and is 90%")
 
 
 @pytest.mark.parametrize(("mechanism", "words"), [("random_force", "open"), ("unknown", "open"),
@@ -80,7 +82,7 @@ def test_noise_that_may_be_motion_is_doubted():
 def test_a_force_without_a_name_is_not_called_explained(mechanism, words):
     facts = made.mismatch()
     facts["found"][0] |= {"mechanism": mechanism, "state": words}
-    assert badge(made.evidence(facts).result).words == f"Mismatch, {words}"
+    assert make_badge(made.evidence(facts).result).words == f"Mismatch, {words}"
 
 
 def test_a_number_without_a_dimension_has_no_unit():
@@ -101,12 +103,12 @@ def test_what_is_held_out_still_moves(rests):
     """A machine that stops: the part at rest is held out beside a part of the motion, never alone."""
     t = np.linspace(0.0, 1.0, 3000)
     turned = 0.09 * np.round(500.0 * np.minimum(t, 1.0 - rests) / 0.09)
-    cut = round(0.7 * lasting(observed(turned)))
+    cut = round(0.7 * count_lasting_samples(observed(turned)))
     assert t[cut] < 1.0 - rests
 
 
 def test_known_values_of_terms_are_not_passed_over_in_silence():
-    (note,) = unused(["m", "sensor_delay@load encoder.delay"])
+    (note,) = note_unused(["m", "sensor_delay@load encoder.delay"])
     assert "sensor_delay@load encoder.delay" in note
     assert "not used" in note
-    assert unused(["m", "k"]) == []
+    assert note_unused(["m", "k"]) == []

@@ -157,7 +157,7 @@ TERMS = [
     (spoiled(Drag, "guest_nan", force=staticmethod(no_number)), "nan"),
     (spoiled(Drag, "guest_pushes", force=staticmethod(pushes)), "force is 1.0"),
     (spoiled(Drag, "guest_null", params=(Param("size", "drag", DAMPING),)), "no parameter has a null"),
-    (spoiled(Drag, "guest_method", force=Drag.force), "is no static method"),
+    (spoiled(Drag, "guest_method", force=Drag.force), "is not a static method"),
 ]
 
 
@@ -176,7 +176,7 @@ METHODS = [
     (spoiled(Crest, "guest_q_float", estimate=lambda self, data, *, rng: 3.0), "an Estimate was wanted"),
     (
         spoiled(Crest, "guest_q_nan", estimate=lambda self, data, *, rng: Estimate(math.nan, 0.0, 1.0, "ok")),
-        "says that all is well, and returned nan",
+        "returned the status 'ok' with the value nan",
     ),
     (spoiled(Crest, "guest_q_blank", estimate=blank), "changed the samples that it was given"),
     (spoiled(Crest, "guest_q_wild", estimate=wild), "drew from NumPy's global generator"),
@@ -186,7 +186,7 @@ METHODS = [
     (spoiled(Shuffle, "guest_s_raises", draw=raises), "raised ZeroDivisionError"),
     (
         spoiled(Shuffle, "guest_s_short", draw=lambda self, series, *, draws, rng: np.zeros((2, 3))),
-        "finite rows of at most 1200 were wanted",
+        "finite rows of at most 1200 samples were wanted",
     ),
     (spoiled(Mean3, "guest_d_raises", clean=raises), "raised ZeroDivisionError"),
     (

@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 
 from lostmotion.campaigns.campaign import Campaign
-from lostmotion_trials.coverage.ranks import rank_of
+from lostmotion_trials.coverage.ranks import compute_rank
 from lostmotion_trials.coverage.results import MachineTrial, Sought, Standing
 
 COUNT = 12
@@ -69,7 +69,7 @@ def buried(number):
 def placed(number, truth, chain):
     low, median, high = np.quantile(chain, [0.025, 0.5, 0.975])
     z, below = (truth - chain.mean()) / chain.std(), float(np.mean(chain < truth))
-    standing = Standing("1", low, median, high, chain.std(), z, below, rank_of(truth, chain))
+    standing = Standing("1", low, median, high, chain.std(), z, below, compute_rank(truth, chain))
     return MachineTrial(number, "ok", "", {"a": Sought(truth, True, standing)})
 
 

@@ -13,18 +13,19 @@ from scipy.integrate import solve_ivp
 from test_units import CASE
 
 from lostmotion.cli import main
-from lostmotion.flow import flow_of, stepped
-from lostmotion.inference.fit import sensitivity
+from lostmotion.flow import flow_of, make_stepped_flow
+from lostmotion.inference.fit import compute_sensitivity
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.engine import Dynamics, Points
 from lostmotion.likelihood.lanes import Lanes
 from lostmotion.likelihood.levels import LEAST
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.predict import WORST, FreeRuns, free_runs
+from lostmotion.likelihood.predict import WORST, FreeRuns, predict_freely
 from lostmotion.likelihood.problem import USUAL, Innovations
 from lostmotion.likelihood.space import FreeParameter, ParameterSpace
 from lostmotion.likelihood.system import System
 from lostmotion.maps.cells import CODES
+from lostmotion.settings import DEFAULT
 from lostmotion_plugins.models.exact import ExactBacklash
 from lostmotion_plugins.models.lin import LinBacklash
 
@@ -69,7 +70,7 @@ def test_a_stiff_contact_becomes_a_rigid_wall():
     assert stiff[1e12] / stiff[1e14] == pytest.approx(10.0, rel=0.3)
 
 
-@pytest.mark.parametrize("make", [flow_of, stepped])
+@pytest.mark.parametrize("make", [flow_of, make_stepped_flow])
 def test_no_gap_is_a_linear_oscillator(make):
     def state(x0, **more):
         machine = LinBacklash() if make is flow_of else System.of(LinBacklash())
@@ -86,7 +87,7 @@ def test_without_gap_nothing_is_crossed():
     assert flow.crossings(START, periods=1000) == 0
 
 
-@pytest.mark.parametrize(("make", "most"), [(flow_of, 1e-9), (stepped, 1e-3)])
+@pytest.mark.parametrize(("make", "most"), [(flow_of, 1e-9), (make_stepped_flow, 1e-3)])
 def test_without_damping_no_energy_is_lost(make, most):
     machine = LinBacklash() if make is flow_of else System.of(LinBacklash())
     states = strobed(make(machine, {**MACHINE, "c": 0.0}, drive=(0.0, 40.0), start=START), 200)
@@ -110,8 +111,8 @@ def test_a_motion_too_stiff_to_follow_has_a_status():
     machine, stiff = System.of(LinBacklash()), {**MACHINE, "k0": 1e18, "x0": 1e-12}
     for flow, statuses in (
         (flow_of(LinBacklash(), stiff, drive=DRIVE, start=START), {"too_stiff"}),
-        (stepped(machine, {**MACHINE, "c": 1e9}, drive=DRIVE, start=START), {"too_stiff"}),
-        (stepped(machine, stiff, drive=DRIVE, start=START), {"too_stiff", "diverged"}),
+        (make_stepped_flow(machine, {**MACHINE, "c": 1e9}, drive=DRIVE, start=START), {"too_stiff"}),
+        (make_stepped_flow(machine, stiff, drive=DRIVE, start=START), {"too_stiff", "diverged"}),
     ):
         orbit = flow.strobe(START, periods=200, tangents=1)
         assert orbit.status in statuses
@@ -163,7 +164,7 @@ class Filter:
             self.full[None], np.array([self.q]), np.array([self.pace]), self.r * one, 0.0 * one, 0.0 * one, one, 0.0 *
             one, 0.0 * one, y[None], cov[None], (drive,), number, number,
         )  # fmt: skip
-        kept, seen = Lanes().kept(dynamics, observation, points)
+        kept, seen = Lanes().run_for_smoother(dynamics, observation, points)
         assert seen.finite.all()
         return seen.variances[0, :, 0], kept[1], kept[2][-1, :2], kept[3][-1, :2, :2]
 
@@ -209,7 +210,7 @@ class Cliff:
     def space(self):
         return ParameterSpace(self.free)
 
-    def many(self, points):
+    def filter_many(self, points):
         seen = np.linspace(-1.0, 1.0, 9)
         return Innovations(
             np.where(points > 1.0, np.nan, seen - points), np.ones((len(points), 9)), points[:, 0] <= 1.0
@@ -218,7 +219,7 @@ class Cliff:
 
 def test_derivatives_at_the_edge_of_a_runaway_are_taken_from_the_safe_side():
     for at in (0.0, 0.9999, 1.0):
-        slopes = sensitivity(Cliff(), np.array([at]), np.array([1e-3]))
+        slopes = compute_sensitivity(Cliff(), np.array([at]), np.array([1e-3]))
         assert slopes.gradient() == pytest.approx([-9.0 * at], abs=1e-9)
         assert slopes.information() == pytest.approx(np.array([[9.0]]))
 
@@ -228,14 +229,15 @@ def test_a_free_run_that_leaves_all_bounds_errs_by_the_most(monkeypatch):
     from lostmotion.likelihood import predict
 
     class Still:
+        settings = DEFAULT
         observations = (Observation.of("still", np.array([1.0, 2.0, 3.0, 5.0]), np.zeros((4, 1)), 1.0, "position"),)
 
     def observed(problem, theta, states, where=(0, 0), sensor=0):
         return np.array([0.0, 1e200, np.nan])
 
-    monkeypatch.setattr(predict, "_runs", lambda *args: np.zeros((1, 3, 2)))
-    monkeypatch.setattr(predict, "observed", observed)
-    (runs,) = free_runs(Still(), np.zeros(1), np.zeros((4, 2)), np.array([0]), 3)
+    monkeypatch.setattr(predict, "_simulate_runs", lambda *args: np.zeros((1, 3, 2)))
+    monkeypatch.setattr(predict, "observe_states", observed)
+    (runs,) = predict_freely(Still(), np.zeros(1), np.zeros((4, 2)), np.array([0]), 3)
     assert isinstance(runs, FreeRuns)
     spread = float(np.std(Still.observations[0].response))
     assert runs.growth(spread) == pytest.approx([abs(Still.observations[0].response[0]) / spread, WORST, WORST])

@@ -8,7 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lostmotion.recording import Channel, RecordingSpec, load_recording
+from lostmotion.recording import Channel, Recording, RecordingSpec, load_recording
+from lostmotion.settings import DEFAULT
+from lostmotion.signals import impacts
 
 DT = 0.002
 TIME = DT * np.arange(10_000)
@@ -55,6 +57,21 @@ def test_swapped_columns_are_noted(tmp_path: Path) -> None:
     columns = machine()
     (note,) = notes(tmp_path, {**columns, "F": columns["x"], "x": columns["F"]})
     assert "'F' and 'x' are swapped" in note
+
+
+def test_thresholds_of_warnings_can_be_changed(tmp_path: Path) -> None:
+    columns = machine()
+    notes(tmp_path, {**columns, "x": -columns["x"]})
+    limits = DEFAULT.changed({"recording.returned_errors": 1e3}).recording
+    assert load_recording(SPEC, tmp_path, limits).notes == ()
+    settings = {"recording.returned_errors": 1e3}
+    how = {"inputs": {"force": "F"}, "sensors": {"position": "x"}, "units": {"F": "N", "x": "m"}, "time": "time"}
+    assert Recording.read(tmp_path / "a.npz", **how).notes
+    assert Recording.read(tmp_path / "a.npz", **how, settings=settings).notes == ()
+
+
+def test_the_default_without_settings_is_that_of_the_settings() -> None:
+    assert DEFAULT.recording.stuck == impacts.STUCK
 
 
 def test_power_of_a_measured_force_under_a_moved_base(tmp_path: Path) -> None:

@@ -8,7 +8,7 @@ import pytest
 from lostmotion.codec import to_plain
 from lostmotion.diagnosis.run import run_diagnosis
 from lostmotion.likelihood.drive import Drive
-from lostmotion.likelihood.observation import rounded
+from lostmotion.likelihood.observation import round_values
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import Registry
@@ -68,12 +68,12 @@ def test_a_change_of_units_changes_no_bit_of_what_is_fitted(tmp_path, recorded, 
 
 def test_ten_digits_are_kept_and_a_lattice_stays_one():
     values = np.random.default_rng(0).normal(size=1000)
-    assert np.max(np.abs(rounded(values) - values)) < 1.2e-10 * np.max(np.abs(values))
+    assert np.max(np.abs(round_values(values) - values)) < 1.2e-10 * np.max(np.abs(values))
     lattice = 5e-8 * np.arange(-4000, 4000)
-    steps = np.diff(rounded(lattice)) / 5e-8
+    steps = np.diff(round_values(lattice)) / 5e-8
     assert np.max(np.abs(steps - 1.0)) < 1e-3
-    assert not rounded(np.zeros(3)).any()
-    assert np.isnan(rounded(np.array([np.nan, 1.0]))[0])
+    assert not round_values(np.zeros(3)).any()
+    assert np.isnan(round_values(np.array([np.nan, 1.0]))[0])
 
 
 @pytest.mark.slow

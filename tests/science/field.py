@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from lostmotion.flow import stepped
+from lostmotion.flow import make_stepped_flow
 from lostmotion.likelihood.system import System
 
 
 def flow_of(model, values, *, drive, start, steps=0):
     """Return the flow of a model by RK4."""
-    return stepped(System.of(model), values, drive=drive, start=np.array(start, dtype=float), steps=steps)
+    return make_stepped_flow(System.of(model), values, drive=drive, start=np.array(start, dtype=float), steps=steps)
 
 
 def followed(model, values, *, drive, start, periods=1, looks=200, steps=0):

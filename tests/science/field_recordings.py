@@ -14,7 +14,7 @@ from field import elsewhere
 from truths import system_of
 
 from lostmotion.case import CaseFile, Prior
-from lostmotion.diagnosis.findings import draws_of, intervals
+from lostmotion.diagnosis.findings import compute_intervals, draw_parameters
 from lostmotion.diagnosis.search import diagnose
 from lostmotion.likelihood.drive import DriveHarmonic
 from lostmotion.likelihood.observation import Observation
@@ -55,4 +55,4 @@ def case_of(model, values, unknown):
 def diagnosed(model, values, unknown, observation):
     """Return the diagnosis of a recording, and the 95 % intervals of what was estimated."""
     found = diagnose(case_of(model, values, unknown), [observation], system_of(model), rng=np.random.default_rng(0))
-    return found, intervals(found.after, draws_of(found.after, np.random.default_rng(1)))
+    return found, compute_intervals(found.after, draw_parameters(found.after, np.random.default_rng(1)))

@@ -17,10 +17,10 @@ from scipy.signal import decimate
 
 from lostmotion.identification.sampling import SampledPosterior, SamplingPlan, identify
 from lostmotion.identification.trajectory import SampledCase, choose_terms, make_trajectory_task, sample_case
-from lostmotion.inference.fit import Fit, maximise, robust_covariance
-from lostmotion.inference.modes import distinct
-from lostmotion.inference.setup import problem_of, separated, stepped
-from lostmotion.likelihood.predict import filtered, free_run, observed
+from lostmotion.inference.fit import Fit, compute_robust_covariance, maximise
+from lostmotion.inference.modes import select_modes
+from lostmotion.inference.setup import choose_steps, make_problem, separate_levels
+from lostmotion.likelihood.predict import filter_recording, observe_states, simulate_run
 from lostmotion.likelihood.problem import NOISE, RANDOM, Problem
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.prepare import prepare
@@ -97,7 +97,9 @@ class Found:
         The second allows for leftovers with a memory, and is never the smaller one.
         """
         i = self.index(key)
-        usual, robust = (float(np.sqrt(c[i, i])) for c in (self.fit.local.covariance, robust_covariance(self.fit)))
+        usual, robust = (
+            float(np.sqrt(c[i, i])) for c in (self.fit.local.covariance, compute_robust_covariance(self.fit))
+        )
         return usual, robust
 
 
@@ -121,8 +123,8 @@ def damper(folder: Path, data: Path, names: tuple[str, ...], plan: SamplingPlan 
     prepared = prepare(case, registry)
     terms = choose_terms(prepared, (), registry)
     rng, system = np.random.default_rng(0), System(prepared.model, terms)
-    problem = replace(problem_of(system, prepared.case, prepared.observations), active=frozenset(system.keys))
-    fits = [separated(fit, prepared.case.sensor) for fit in hills(problem, rng)]
+    problem = replace(make_problem(system, prepared.case, prepared.observations), active=frozenset(system.keys))
+    fits = [separate_levels(fit, prepared.case.sensor) for fit in hills(problem, rng)]
     return found(SampledCase(identify(make_trajectory_task(prepared, fits, terms), rng=rng, plan=plan), tuple(fits)))
 
 
@@ -141,9 +143,9 @@ def hills(problem: Problem, rng: np.random.Generator) -> list[Fit]:
             starts[:, i] = problem.scales.usual
         else:
             starts[1:, i] = [free.quantile(share) for share in rng.uniform(1 / 3, 2 / 3, STARTS - 1)]
-    fits = [maximise(stepped(problem, start), start) for start in problem.clip(starts)]
+    fits = [maximise(choose_steps(problem, start), start) for start in problem.clip(starts)]
     best = max((fit.problem for fit in fits), key=lambda p: p.nsub)
-    return distinct([f if f.problem.nsub == best.nsub else maximise(best, f.theta) for f in fits], 20.0)
+    return select_modes([f if f.problem.nsub == best.nsub else maximise(best, f.theta) for f in fits], 20.0)
 
 
 def thinned(folder: Path, data: Path, name: str) -> str:
@@ -161,8 +163,8 @@ def found(sample: SampledCase) -> Found:
     fit = sample.fits[0]
     problem, theta = fit.problem, fit.theta
     observation = problem.observations[0]
-    states = free_run(problem, theta, filtered(problem, theta).states[0], 0, observation.samples)
-    error = observed(problem, theta, states) - observation.response
+    states = simulate_run(problem, theta, filter_recording(problem, theta).states[0], 0, observation.samples)
+    error = observe_states(problem, theta, states) - observation.response
     return Found(sample.result, fit, float(np.sqrt(np.nanmean(error**2)) / np.nanstd(observation.response)))
 
 

@@ -9,10 +9,10 @@ from scipy.linalg import expm
 from scipy.signal import lfilter
 
 from lostmotion.case import CaseFile, Prior
-from lostmotion.inference.candidates import Hint, with_term
-from lostmotion.inference.fit import maximise, restarted
-from lostmotion.inference.setup import polish, problem_of
-from lostmotion.inference.sharing import sharing_of
+from lostmotion.inference.candidates import ScoreTest, add_term
+from lostmotion.inference.fit import maximise, restart
+from lostmotion.inference.setup import make_problem, polish_fit
+from lostmotion.inference.sharing import compare_recordings
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
 from lostmotion.registry import default
@@ -45,7 +45,7 @@ def fitted(observations, *terms):
     """Return the fit of an oscillator with damping and stiffness unknown, begun at the truth; `terms` may be tried."""
     system = System(default().make("model", "linear_oscillator"), terms)
     case = CaseFile("study", Path(), (), "linear_oscillator", {"m": M}, PRIORS, {}, (), "")
-    problem = problem_of(system, case, tuple(observations), jobs=1)
+    problem = make_problem(system, case, tuple(observations), jobs=1)
     start = problem.start.copy()
     for i, key in enumerate(problem.keys):
         start[i] = np.log({"c": C, "k": K}[key]) if key in PRIORS else start[i]
@@ -77,11 +77,11 @@ def rubbed(name, seed, level, *, friction=0.0, c=C, samples=1000, noise=0.005, f
 def rubbing(observations):
     """Return the fit of an oscillator with dry friction."""
     bare = fitted(observations, default().load("term", "coulomb_friction")())
-    hint = Hint("coulomb_friction", 0.0, {}, 1.0)
-    return polish(maximise(with_term(restarted(bare), hint, {"coulomb_friction.force": 0.5})))
+    hint = ScoreTest("coulomb_friction", 0.0, {}, 1.0)
+    return polish_fit(maximise(add_term(restart(bare), hint, {"coulomb_friction.force": 0.5})))
 
 
 def least(number, memory):
     """Return the least p-value over the parameters of three recordings that differ in nothing but their level."""
     runs = [recorded(f"run {i}", 1000 * number + i, 2.0**i, slip=1.0, memory=memory) for i in range(3)]
-    return min(one.p for one in sharing_of(fitted(runs)).parameters.values())
+    return min(one.p for one in compare_recordings(fitted(runs)).parameters.values())

@@ -12,12 +12,12 @@ import numpy as np
 import pytest
 from scipy.stats import binom
 
-from lostmotion.diagnosis.notes import vague
+from lostmotion.diagnosis.notes import note_unknown_position
 from lostmotion.inference.fit import maximise
-from lostmotion.inference.setup import problem_of, scales_of, search, split, stepped
-from lostmotion.inference.unseen import place_of_body
-from lostmotion.likelihood.levels import usual_of
-from lostmotion.likelihood.observation import Observation, windowed
+from lostmotion.inference.setup import choose_steps, compute_scales, make_problem, search_maximum, split_heldout
+from lostmotion.inference.unseen import smooth_body_position
+from lostmotion.likelihood.levels import compute_usual_level
+from lostmotion.likelihood.observation import Observation, window_force
 from lostmotion.likelihood.problem import NOISE, RANDOM
 from lostmotion.likelihood.reference import Reference
 from lostmotion.likelihood.system import System
@@ -41,7 +41,7 @@ def posed(number):
     """Return a machine, its problem on what is fitted, the coordinates of the truth, and the true states."""
     machine, observation, states = recorded(number)
     system = System(default().make("model", machine.model), ())
-    problem = problem_of(system, machines.case_of(machine), split([observation])[0])
+    problem = make_problem(system, machines.case_of(machine), split_heldout([observation])[0])
     levels = {
         RANDOM: math.log((machines.EXCITATION_NOISE * machine.peak) ** 2 * machine.dt),
         NOISE: math.log(machine.noise * states[:, 2].std()),
@@ -56,7 +56,7 @@ def test_the_size_of_a_motion_is_told_by_its_acceleration(number):
     """Spikes of hits are most of an acceleration, and none of the motion: taken for it they made it far too small."""
     machine, observation, states = recorded(number)
     system = System(default().make("model", machine.model), ())
-    scales = scales_of(system, (observation,), system.vector(machine.values))
+    scales = compute_scales(system, (observation,), system.vector(machine.values))
     assert scales.length == pytest.approx(math.sqrt(2.0) * states[:, 0].std(), rel=0.1)
     assert scales.velocity == pytest.approx(math.sqrt(2.0) * states[:, 1].std(), rel=0.1)
 
@@ -64,7 +64,7 @@ def test_the_size_of_a_motion_is_told_by_its_acceleration(number):
 @pytest.mark.slow
 def test_the_usual_noise_of_a_hammer_goes_with_its_peak():
     machine, problem, _, _, observation = posed(0)
-    size = math.sqrt(math.exp(usual_of(problem, 1.0)) / machine.dt)
+    size = math.sqrt(math.exp(compute_usual_level(problem, 1.0)) / machine.dt)
     assert size == pytest.approx(1e-3 * np.abs(problem.observations[0].inputs).max(), rel=0.01)
     assert size > 3e-3 * np.std(observation.inputs)
 
@@ -74,14 +74,14 @@ def test_between_hits_the_noise_of_a_hammer_is_no_force():
     t, rng = np.arange(4000.0), np.random.default_rng(3)
     true = machines.hammer(t, np.array([200.3, 2100.8]), np.array([8.0, 15.0]), np.array([1.0, 0.6]))
     noise = 1e-3 * rng.standard_normal(len(t))
-    kept = windowed(true + noise)
+    kept = window_force(true + noise)
     rest = np.abs(kept - true)[true == 0.0]
     assert np.mean(rest > 1e-4) < 0.01
     np.testing.assert_array_equal(kept[true > 0.01], (true + noise)[true > 0.01])
     wave = np.cos(0.1 * t) + noise
-    np.testing.assert_array_equal(windowed(wave), wave)
+    np.testing.assert_array_equal(window_force(wave), wave)
     slow = true + np.convolve(rng.standard_normal(len(t)), np.ones(20) / 20.0, "same") * 2e-3 + noise
-    np.testing.assert_array_equal(windowed(slow), slow)
+    np.testing.assert_array_equal(window_force(slow), slow)
 
 
 def test_what_edges_of_hits_do_between_samples_is_told_as_it_is():
@@ -97,16 +97,16 @@ def test_what_edges_of_hits_do_between_samples_is_told_as_it_is():
         force = machines.hammer(t, np.array([begin]), np.array([width]), np.array([1.0]))
         seen = Observation.of("a", force, force[:, None], 1.0, "acceleration")
         means = seen.drive.cubics[:-1, :, 0] @ (1.0 / np.arange(1.0, 5.0))
-        told, made = told + float(np.sum(seen.unsure)), made + float(np.sum((means - true) ** 2))
+        told, made = told + float(np.sum(seen.input_variance)), made + float(np.sum((means - true) ** 2))
     assert math.sqrt(told / made) == pytest.approx(1.0, rel=0.33)
-    assert not Observation.of("b", t, np.cos(0.1 * t)[:, None], 1.0, "acceleration").unsure.any()
+    assert not Observation.of("b", t, np.cos(0.1 * t)[:, None], 1.0, "acceleration").input_variance.any()
 
 
 def test_the_engines_agree_on_a_recording_with_hits():
     _, problem, true, _, observation = posed(0)
-    struck = int(np.argmax(observation.unsure > 0.0))
-    short = stepped(problem.on((observation.part(max(struck - 300, 0), struck + 300),)), true)
-    assert short.observations[0].unsure.any()
+    struck = int(np.argmax(observation.input_variance > 0.0))
+    short = choose_steps(problem.on((observation.part(max(struck - 300, 0), struck + 300),)), true)
+    assert short.observations[0].input_variance.any()
     ours, plain = short.innovations(true), replace(short, engine=Reference()).innovations(true)
     np.testing.assert_allclose(plain.errors, ours.errors, rtol=0.0, atol=1e-9 * np.abs(ours.errors).max())
     np.testing.assert_allclose(plain.variances, ours.variances, rtol=1e-9)
@@ -120,7 +120,7 @@ def test_a_search_with_an_accelerometer_reaches_the_truth(number):
     Where a body flies free from contact to contact (14), the likelihood still has maxima some tens below the highest.
     """
     machine, problem, true, states, _ = posed(number)
-    fit = search(problem, np.random.default_rng(0))
+    fit = search_maximum(problem, np.random.default_rng(0))
     assert fit.local.log_posterior > fit.problem.log_posterior(true) - 50.0
     assert abs(fit.theta[-2] - true[-2]) < 2.0
     mean, covariance = fit.problem.observations[0].begun
@@ -137,7 +137,7 @@ def test_the_likelihood_is_smooth_where_a_body_creeps_up_to_a_contact():
     known = problem.on((replace(problem.observations[0], begun=exact),))
     thetas = np.repeat(true[None], 16, axis=0)
     thetas[:, 0] += 1e-7 * np.arange(16)
-    assert np.ptp(stepped(known, true).log_posteriors(thetas)) < 0.05, machine
+    assert np.ptp(choose_steps(known, true).log_posteriors(thetas)) < 0.05, machine
 
 
 def test_a_part_of_a_recording_begins_where_it_does():
@@ -153,22 +153,22 @@ def test_a_position_that_no_sensor_shows_is_told_with_its_band():
     Over 100 machines the band holds the position in about 95 of 100 samples: `benchmarks/accelerometers.py`.
     """
     machine, problem, true, states, observation = posed(0)
-    fit = maximise(stepped(problem, true), true)
-    place = place_of_body(fit, observation)
+    fit = maximise(choose_steps(problem, true), true)
+    place = smooth_body_position(fit, observation)
     error = place.mean - states[:, 0]
     assert np.mean(np.abs(error) < 2.0 * place.sd) > 0.9
     assert np.std(error) > 0.3 * np.sqrt(np.mean(place.sd**2))
-    assert vague(fit, observation) == []
+    assert note_unknown_position(fit, observation) == []
     loud = replace(fit, local=replace(fit.local, theta=fit.theta + 10.0 * (np.array(fit.problem.keys) == RANDOM)))
     pairs = zip(fit.problem.free, loud.theta, strict=True)
     levels = [replace(f, low=x, high=x) if f.key == RANDOM else f for f, x in pairs]
-    (said,) = vague(replace(loud, problem=replace(fit.problem, free=tuple(levels))), observation)
+    (said,) = note_unknown_position(replace(loud, problem=replace(fit.problem, free=tuple(levels))), observation)
     told = re.search(r"known to \+-(\S+) mm only .* (\S+) % of its amplitude", said)
     amplitude = 1e3 * math.sqrt(2.0) * states[:, 0].std()
     assert float(told[1]) / amplitude == pytest.approx(0.01 * float(told[2]), rel=0.15)
     assert float(told[2]) > 1.0
     shown = Observation.of("seen", states[:, 0], observation.inputs, machine.dt, "position")
-    assert vague(fit, shown) == []
+    assert note_unknown_position(fit, shown) == []
 
 
 @pytest.mark.slow

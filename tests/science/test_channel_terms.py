@@ -11,7 +11,7 @@ import pytest
 
 from lostmotion.inference.fit import maximise
 from lostmotion.inference.selection import Selector
-from lostmotion.inference.setup import noise_frees
+from lostmotion.inference.setup import make_noise_levels
 from lostmotion.likelihood.drive import DriveHarmonic
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem, Scales
@@ -54,7 +54,7 @@ def course_of(response, seed):
     scales = Scales(AMPLITUDE, 1.2, 1.0 / OMEGA, usual=math.log((1e-3 * AMPLITUDE) ** 2 * DT), span=SAMPLES * DT)
     free = FreeParameter("c", "N s/m", math.log(C), math.log(0.05), math.log(4.0), log=True)
     known = system.vector({"m": M, "c": C, "k": K})
-    problem = Problem(system, (observation,), scales, known, (free, *noise_frees((observation,), scales)), nsub=2)
+    problem = Problem(system, (observation,), scales, known, (free, *make_noise_levels((observation,), scales)), nsub=2)
     fits = [maximise(problem, np.array([math.log(C), level, problem.start[-1]])) for level in (scales.usual, 0.0)]
     nominal = max(fits, key=lambda f: f.local.log_posterior)
     return Selector(nominal, system.keys, lambda _: None).run()
@@ -80,7 +80,7 @@ def test_a_gain_of_one_per_cent_stays_open():
     """Mass and stiffness are known within 1 %, and both of them wrong by as much do the same."""
     course = course_of(moved(gain=1.01), seed=3)
     assert course.chosen.problem.active == frozenset()
-    assert "excitation_gain" in course.unbeaten
+    assert "excitation_gain" in course.tied
 
 
 @pytest.mark.slow
@@ -90,7 +90,7 @@ def test_under_one_tone_a_long_delay_and_a_small_harmonic_stay_open():
     for response, seed in ((moved(delay=0.9), 3), (moved() + steady(hidden, 3.0 * OMEGA), 4)):
         course = course_of(response, seed=seed)
         assert course.chosen.problem.active == frozenset()
-        assert course.unbeaten
+        assert course.tied
 
 
 def test_nothing_is_named_where_nothing_is_wrong():

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from truths import FORCE, FRICTION, case_of, observation_of, system_of
 
-from lostmotion.diagnosis.compare import exponent_of, horizon_for, pieces_of, predict, rates_of
-from lostmotion.diagnosis.findings import draws_of, intervals
+from lostmotion.diagnosis.compare import average_exponent, choose_heldout_horizon, compute_rates, cut_heldout, predict
+from lostmotion.diagnosis.findings import compute_intervals, draw_parameters
 from lostmotion.diagnosis.search import diagnose
 
 pytestmark = pytest.mark.slow
@@ -21,7 +21,7 @@ def diagnosed(force, unknown, **kind):
 
 def interval(diagnosis, key):
     """Return the 95 % interval of a parameter after the diagnosis."""
-    return intervals(diagnosis.after, draws_of(diagnosis.after, np.random.default_rng(1)))[key]
+    return compute_intervals(diagnosis.after, draw_parameters(diagnosis.after, np.random.default_rng(1)))[key]
 
 
 @pytest.fixture(scope="module")
@@ -64,9 +64,9 @@ def test_held_out_data_are_predicted_better(rubbing):
     Median over starts on one fixed recording.
     """
     observation, d = rubbing
-    pieces = pieces_of([observation], d.held)
-    rates = rates_of(d.after, [observation])
-    horizon = horizon_for(d.after, pieces, exponent_of(rates))
+    pieces = cut_heldout([observation], d.held)
+    rates = compute_rates(d.after, [observation])
+    horizon = choose_heldout_horizon(d.after, pieces, average_exponent(rates))
     before, after = (predict(fit, pieces, horizon, rates) for fit in (d.before, d.after))
     assert after.valid_time > 2.0 * before.valid_time
     assert after.nrmse < 0.3 * before.nrmse

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from machines import CARRIAGE, EMPS, EMPS_FILES, PUBLISHED
 
-from lostmotion.diagnosis.findings import intervals
+from lostmotion.diagnosis.findings import compute_intervals
 from lostmotion.diagnosis.run import compare_heldout
 from lostmotion.diagnosis.search import diagnose
 from lostmotion.likelihood.system import System
@@ -39,7 +39,7 @@ def test_friction_and_offset_are_found(outcome):
 
 def test_values_are_the_published_ones(outcome):
     """Within 3 % (offset 10 %), and the published values inside our intervals. One real recording: no chance."""
-    ours = intervals(outcome.diagnosis.after, outcome.draws_after)
+    ours = compute_intervals(outcome.diagnosis.after, outcome.draws_after)
     for key, (value, _) in PUBLISHED.items():
         assert ours[key].median == pytest.approx(value, rel=TOLERANCE[key]), key
         assert ours[key].low <= value <= ours[key].high, key

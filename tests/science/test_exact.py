@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from lostmotion.errors import ContractError
-from lostmotion.flow import Harmonic, Stepped, flow_of, stepped
+from lostmotion.flow import Harmonic, SteppedFlow, flow_of, make_stepped_flow
 from lostmotion.likelihood.system import System
 from lostmotion.rates import exponent_in
 from lostmotion_plugins.models import _kernels
@@ -249,13 +249,15 @@ def test_windows_of_chaos_in_case_1(inverse):
 
 def test_the_general_flow_agrees():
     """In two chaotic periods, and on the periodic motion at 1/alpha = 2.6 (one of those that coexist)."""
-    general = stepped(System.of(LinBacklash()), CASE_1, drive=DRIVE, start=START)
-    assert isinstance(general, Stepped)
+    general = make_stepped_flow(System.of(LinBacklash()), CASE_1, drive=DRIVE, start=START)
+    assert isinstance(general, SteppedFlow)
     one, other = (f.strobe(START, periods=2, tangents=2) for f in (general, exact()))
     np.testing.assert_allclose(one.states, other.states, rtol=1e-3)
     np.testing.assert_allclose(one.growth.sum(), other.growth.sum(), rtol=2e-4)
     drive = (200.0 / 2.6, 40.0)
-    settled = stepped(System.of(LinBacklash()), CASE_1, drive=drive, start=START).strobe(START, periods=400, tangents=0)
+    settled = make_stepped_flow(System.of(LinBacklash()), CASE_1, drive=drive, start=START).strobe(
+        START, periods=400, tangents=0
+    )
     followed = exact(drive=drive).strobe(settled.states[-9], periods=8, tangents=0)
     np.testing.assert_allclose(followed.states, settled.states[-9:], rtol=1e-3)
 
@@ -266,7 +268,7 @@ def test_a_joint_on_a_moving_base_agrees_with_the_general_flow(phase):
     values = {"m": 1.0, "c": 2.0, "k0": 4e3, "x0": 0.02, "mgl": 0.0}
     drive, start = (0.05, 9.7, phase), np.array([0.03, 0.2])
     flow = solve_joint_exactly(values, drive, start)
-    general = stepped(System.of(RobotJoint()), values, drive=Harmonic(*drive), start=start, steps=4000)
+    general = make_stepped_flow(System.of(RobotJoint()), values, drive=Harmonic(*drive), start=start, steps=4000)
     np.testing.assert_allclose(
         flow.sample(start, periods=2, looks=6), general.sample(start, periods=2, looks=6), atol=1e-4
     )
@@ -278,8 +280,8 @@ def test_a_joint_on_a_moving_base_agrees_with_the_general_flow(phase):
 @pytest.mark.slow
 def test_what_is_not_exact_goes_to_the_general_flow():
     machine, values = LinBacklash() + ViscousDamping(), {**CASE_1, "viscous_damping.coefficient": 1.0}
-    assert isinstance(flow_of(machine, values, drive=DRIVE), Stepped)
-    assert isinstance(flow_of(LinBacklash(), CASE_1, drive=DRIVE, steps=500), Stepped)
+    assert isinstance(flow_of(machine, values, drive=DRIVE), SteppedFlow)
+    assert isinstance(flow_of(LinBacklash(), CASE_1, drive=DRIVE, steps=500), SteppedFlow)
     resonance = {**CASE_1, "c": 0.0, "k1": 1600.0}
     assert solve_exactly(resonance, (100.0, 40.0, 0.0), None) is None
     assert solve_exactly({**CASE_1, "m": -1.0}, (100.0, 40.0, 0.0), None) is None

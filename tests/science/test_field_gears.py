@@ -10,10 +10,10 @@ import pytest
 from field import elsewhere
 
 from lostmotion.contracts import Assembly
-from lostmotion.flow import Harmonic, stepped
+from lostmotion.flow import Harmonic, make_stepped_flow
 from lostmotion.inference.fit import maximise
 from lostmotion.likelihood.drive import Drive
-from lostmotion.likelihood.motion import derivatives
+from lostmotion.likelihood.motion import compute_derivatives
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import NOISE, RANDOM, FreeParameter, Problem, Scales
 from lostmotion.likelihood.sensors import Sensor
@@ -72,7 +72,7 @@ def test_wheels_that_rattle_against_another_integrator_in_other_coordinates():
     assert np.sum(np.diff(np.abs(seen[:, 0]) > 0.01)) > 10
     np.testing.assert_allclose(motion.states, wheels(seen), atol=2e-5 * np.abs(wheels(seen)).max())
     inputs = pulled(t).T
-    _, shown = derivatives(system, frozenset(), system.pack(full[None], 1e-3), wheels(seen), inputs, t)
+    _, shown = compute_derivatives(system, frozenset(), system.pack(full[None], 1e-3), wheels(seen), inputs, t)
     rates = np.array([apart(at, y) for at, y in zip(t, seen, strict=True)])
     absolute = np.stack([rates[:, 1] + RATIO * rates[:, 3] + inputs[:, 2], rates[:, 3] + inputs[:, 2]], axis=1)
     np.testing.assert_allclose(shown[:, [2, 5]], absolute, rtol=1e-9, atol=1e-9 * np.abs(absolute).max())
@@ -88,7 +88,7 @@ def test_a_spring_in_the_mesh_pulls_the_second_wheel_by_the_ratio(compiled):
 
     system = System.of(GearPair("rotation") + CubicStiffness(at="mesh"))
     values = {**LOOSE, "cubic_stiffness@mesh.coefficient": 3e4}
-    flow = stepped(system, values, drive=Harmonic(1.5, 9.0), start=START, steps=2000)
+    flow = make_stepped_flow(system, values, drive=Harmonic(1.5, 9.0), start=START, steps=2000)
     t = np.linspace(0.0, 2.0 * np.pi / 9.0, 21)
     states = replace(flow, compiled=compiled).sample(START, periods=1, looks=20)
     exact = wheels(elsewhere(rates, t, deflected(START), max_step=1e-3))
@@ -141,7 +141,7 @@ def test_the_fastest_rate_is_that_of_both_wheels_where_only_the_first_is_known_t
     matrix[np.ix_([1, 3], [0, 2])] = 0.0 if open_ else 400.0 * across
     fastest = np.abs(np.linalg.eigvals(matrix)).max()
     assert fastest > 0.4 * c * RATIO**2 / light
-    assert system.stiffness(full, (), states, np.zeros((9, 3))) == pytest.approx(fastest, rel=1e-4)
+    assert system.find_fastest_rate(full, (), states, np.zeros((9, 3))) == pytest.approx(fastest, rel=1e-4)
 
 
 def test_stiff_teeth_turn_as_one_shaft():

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from field import elsewhere
 
-from lostmotion.flow import Harmonic, stepped
+from lostmotion.flow import Harmonic, make_stepped_flow
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.system import System
 from lostmotion_plugins.models.clearance_chain import ClearanceChain
@@ -39,7 +39,7 @@ def test_a_spring_in_the_joint_against_another_integrator(compiled):
 
     system = System.of(ClearanceChain() + CubicStiffness(at="joint"))
     values = {**BODIES, "cubic_stiffness@joint.coefficient": 1e6}
-    flow = stepped(system, values, drive=Harmonic(30.0, 40.0), start=START, steps=1000)
+    flow = make_stepped_flow(system, values, drive=Harmonic(30.0, 40.0), start=START, steps=1000)
     t = np.linspace(0.0, 2.0 * np.pi / 40.0, 21)
     states = replace(flow, compiled=compiled).sample(START, periods=1, looks=20)
     np.testing.assert_allclose(states, elsewhere(rates, t, START, max_step=1e-3), atol=1e-4)

@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 from scipy.signal import lfilter
 
 from lostmotion.contracts import Interface, Model, Orbit, Param
-from lostmotion.flow import Stepped, flow_of, stepped
+from lostmotion.flow import SteppedFlow, flow_of, make_stepped_flow
 from lostmotion.likelihood.system import System
 from lostmotion.quantities import NUMBER
 from lostmotion.rates import exponent_in
@@ -71,22 +71,26 @@ class Roessler(Autonomous):
 
 
 def lin(amplitude=100.0, **options):
-    return stepped(System.of(LinBacklash()), CASE_1, drive=(amplitude, 40.0), start=START, **options)
+    return make_stepped_flow(System.of(LinBacklash()), CASE_1, drive=(amplitude, 40.0), start=START, **options)
 
 
 def lorenz(period=0.5):
     start = np.array([1.0, 1.0, 20.0])
-    return stepped(System.of(Lorenz()), {"sigma": 10.0, "rho": 28.0, "beta": 8.0 / 3.0}, drive=period, start=start)
+    return make_stepped_flow(
+        System.of(Lorenz()), {"sigma": 10.0, "rho": 28.0, "beta": 8.0 / 3.0}, drive=period, start=start
+    )
 
 
 def roessler():
-    return stepped(System.of(Roessler()), {"a": 0.2, "b": 0.2, "c": 5.7}, drive=6.0, start=np.array([1.0, 1.0, 0.0]))
+    return make_stepped_flow(
+        System.of(Roessler()), {"a": 0.2, "b": 0.2, "c": 5.7}, drive=6.0, start=np.array([1.0, 1.0, 0.0])
+    )
 
 
 def ueda():
     system = System.of(LinearOscillator() + CubicStiffness())
     values = {"m": 1.0, "c": 0.05, "k": 0.0, "cubic_stiffness.coefficient": 1.0}
-    return stepped(system, values, drive=(7.5, 1.0), start=np.array([2.5, 0.0]))
+    return make_stepped_flow(system, values, drive=(7.5, 1.0), start=np.array([2.5, 0.0]))
 
 
 KNOWN = {
@@ -137,7 +141,7 @@ def test_case_1_at_2_6_is_periodic():
 
 def test_linear_oscillator_shrinks_by_its_damping():
     """Both exponents are -zeta omega_0 = -c / 2m: Floquet exponents of a linear system."""
-    flow = stepped(System.of(LinearOscillator()), {"m": 2.0, "c": 0.3, "k": 5.0}, drive=(1.0, 1.3))
+    flow = make_stepped_flow(System.of(LinearOscillator()), {"m": 2.0, "c": 0.3, "k": 5.0}, drive=(1.0, 1.3))
     found = LyapunovSpectrum(periods=4000).estimate(flow, rng=np.random.default_rng(0))
     assert found.curve["spectrum"] == pytest.approx([-0.075, -0.075], abs=1e-4)
     assert found.details["sum"] == pytest.approx(-0.15, rel=1e-6)
@@ -211,8 +215,8 @@ TWINS = {
 @pytest.mark.parametrize("name", TWINS)
 def test_strobe_equals_its_slow_twin(name):
     machine, values, drive = TWINS[name]
-    fast = stepped(System.of(machine), values, drive=drive, steps=300)
-    slow = Stepped(fast.system, fast.full, fast.beat, fast.period, fast.start, 300, fast.scale, compiled=False)
+    fast = make_stepped_flow(System.of(machine), values, drive=drive, steps=300)
+    slow = SteppedFlow(fast.system, fast.full, fast.beat, fast.period, fast.start, 300, fast.scale, compiled=False)
     one, other = (f.strobe(fast.start + 1e-3, periods=3, tangents=len(f.states)) for f in (fast, slow))
     assert one.status == other.status == "ok"
     np.testing.assert_allclose(one.states, other.states, rtol=1e-10, atol=1e-14)
@@ -286,7 +290,7 @@ def test_dry_friction_has_the_exponents_of_its_saltation():
     system = System.of(LinearOscillator() + CoulombFriction())
     values = {**SLIDING, "coulomb_friction.force": force}
     for steps in (1000, 8000):
-        flow = stepped(system, values, drive=(amplitude, omega), start=np.array([1.0, 0.0]), steps=steps)
+        flow = make_stepped_flow(system, values, drive=(amplitude, omega), start=np.array([1.0, 0.0]), steps=steps)
         found = LyapunovSpectrum(periods=400, transient=50).estimate(flow, rng=np.random.default_rng(0))
         assert found.curve["spectrum"] == pytest.approx(wanted, rel=0.01)
     assert wanted.sum() < -0.1 - 0.05
@@ -297,7 +301,7 @@ def test_a_body_that_sticks_forgets_where_it_came_from(term):
     """One direction is lost: it shrinks by a factor of e every eight steps of sticking."""
     own = {f"{term.name}.{q.name}": v for q, v in zip(term.params, (3.0, 1.0, 0.1), strict=False)}
     system = System.of(LinearOscillator() + term)
-    flow = stepped(system, {**SLIDING, **own}, drive=(4.2, 0.25))
+    flow = make_stepped_flow(system, {**SLIDING, **own}, drive=(4.2, 0.25))
     orbit = flow.strobe(flow.start, periods=60, tangents=2)
     assert orbit.status == "ok"
     assert orbit.growth[20:, 1].max() < -25.0

@@ -12,7 +12,7 @@ from independent import Machine, lin_oscillator, recording
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.engine import Dynamics, Points, Smoothed
 from lostmotion.likelihood.lanes import Lanes
-from lostmotion.likelihood.motion import derivatives
+from lostmotion.likelihood.motion import compute_derivatives
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.reference import Reference
 from lostmotion.likelihood.sensors import AR1, Sensor
@@ -23,7 +23,7 @@ from lostmotion_plugins.models.lin import LinBacklash
 from lostmotion_plugins.terms.friction import CoulombFriction, StribeckFriction
 from lostmotion_plugins.terms.memory import DahlFriction
 from lostmotion_plugins.terms.viscous import QuadraticDamping, ViscousDamping
-from lostmotion_trials.demo.conceal import FRICTION, HIDDEN, JOINT, joint_motion
+from lostmotion_trials.demo.conceal import FRICTION, HIDDEN, JOINT, simulate_joint
 
 CASE_1 = {"m": 1.0, "c": 8.0, "k1": 0.0, "k0": 4e4, "x0": 0.005}
 PERIOD = 2.0 * math.pi / 40.0
@@ -54,7 +54,7 @@ def seen_of(system, full, drive, sensors, random):
     dynamics = Dynamics(system, system.everything, 4, random)
     truth = system.simulate(full, system.everything, np.array([0.6 * full[system.index["x0"]], 0.1]), drive, 4)
     packed = system.pack(full[None], drive.dt / 4)
-    _, channels = derivatives(system, system.everything, packed, truth.states, drive.inputs)
+    _, channels = compute_derivatives(system, system.everything, packed, truth.states, drive.inputs)
     columns = [channels[:, system.model.channels.index(s.channel)] for s in sensors]
     z = np.stack([c + 1e-3 * c.std() * np.random.default_rng(0).standard_normal(len(c)) for c in columns], axis=1)
     z[7] = np.nan
@@ -185,7 +185,7 @@ def test_kernel_and_other_integrator_agree_with_friction():
 
 def test_joint_of_the_demo_obeys_the_model_that_will_find_it():
     """Degrees, relative motion and leapfrog against radians, absolute motion and RK4, for one period."""
-    base, seen = joint_motion(0.0, 0.3, FRICTION, 200.0, 130)
+    base, seen = simulate_joint(0.0, 0.3, FRICTION, 200.0, 130)
     amplitude, omega = math.radians(base[0]), 2.0 * math.pi * 1.54
     columns = (lambda t: amplitude * np.cos(omega * t), lambda t: -amplitude * omega * np.sin(omega * t))
     system = System(RobotJoint(), (CoulombFriction("base"),))

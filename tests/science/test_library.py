@@ -10,13 +10,22 @@ import numpy as np
 import pytest
 from sensed import case_of, model_of, moved, multisine, noisy
 
-from lostmotion.inference.candidates import screen, slopes_of
-from lostmotion.inference.late import TIMES, can_be_late, cut, onset, refined, since, since_of, times_of
-from lostmotion.inference.likeness import likeness
+from lostmotion.inference.candidates import compute_slopes, run_score_test
+from lostmotion.inference.late import (
+    TIMES,
+    can_have_onset,
+    cut_at_onsets,
+    estimate_onset,
+    find_onset,
+    list_onsets,
+    onset_key,
+    refine_onset,
+)
+from lostmotion.inference.likeness import find_likeness
 from lostmotion.inference.selection import Selector
-from lostmotion.inference.setup import problem_of, search, split
-from lostmotion.inference.shape_scan import scouted
-from lostmotion.likelihood.bends import stretched, unbent
+from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
+from lostmotion.inference.shape_scan import scan_shapes
+from lostmotion.likelihood.bends import correct_bends, rescale_innovations
 from lostmotion.likelihood.engine import Innovations
 from lostmotion.likelihood.problem import FreeParameter
 from lostmotion.likelihood.system import ALWAYS, System
@@ -62,9 +71,9 @@ def nominal_of(folder, terms, *, extra=lambda x, v, t: 0.0, spring=lambda x: x, 
     }
     model = model_of("linear_oscillator", VALUES, ("c", "k"))
     prepared = prepare(case_of(folder, columns, recording, model), Registry.discover())
-    train, _ = split(prepared.observations)
+    train, _ = split_heldout(prepared.observations)
     system = System(prepared.model, tuple(terms))
-    return search(problem_of(system, prepared.case, train, jobs=1), np.random.default_rng(seed))
+    return search_maximum(make_problem(system, prepared.case, train, jobs=1), np.random.default_rng(seed))
 
 
 def late_rub(x, v, t):
@@ -104,7 +113,7 @@ def test_friction_that_sets_in_late_is_named_with_its_onset(tmp_path):
     fit = nominal_of(tmp_path, terms, extra=late_rub)
     course = Selector(fit, ("coulomb_friction", "quadratic_damping"), lambda _: None).run()
     assert course.chosen.problem.active == {"coulomb_friction"}
-    told = since(course.chosen, "coulomb_friction")
+    told = estimate_onset(course.chosen, "coulomb_friction")
     assert told.low <= LATE <= told.high
     assert told.high - told.low < 0.1
     assert course.chosen.values["coulomb_friction.force"] == pytest.approx(RUBBED, rel=0.05)
@@ -114,9 +123,9 @@ def test_friction_from_the_beginning_has_no_onset(tmp_path):
     fit = nominal_of(tmp_path, [CoulombFriction()], extra=lambda x, v, t: -RUBBED * math.tanh(v / 1e-3))
     course = Selector(fit, ("coulomb_friction",), lambda _: None).run()
     assert course.chosen.problem.active == {"coulomb_friction"}
-    assert onset(course.chosen.problem, "coulomb_friction") == ALWAYS
-    assert since(course.chosen, "coulomb_friction") is None
-    assert refined(course.chosen, "coulomb_friction") is course.chosen
+    assert find_onset(course.chosen.problem, "coulomb_friction") == ALWAYS
+    assert estimate_onset(course.chosen, "coulomb_friction") is None
+    assert refine_onset(course.chosen, "coulomb_friction") is course.chosen
 
 
 def test_a_gain_that_sets_in_is_named_with_its_time(tmp_path):
@@ -125,7 +134,7 @@ def test_a_gain_that_sets_in_is_named_with_its_time(tmp_path):
     course = Selector(fit, ("sensor_gain", "coulomb_friction"), lambda _: None).run()
     assert course.chosen.problem.active == {"sensor_gain"}
     assert course.chosen.values["sensor_gain.error"] == pytest.approx(0.08, abs=0.001)
-    told = since(course.chosen, "sensor_gain")
+    told = estimate_onset(course.chosen, "sensor_gain")
     assert told.low <= LATE + 0.02
     assert told.high >= LATE
     assert told.high - told.low < 0.05
@@ -134,7 +143,7 @@ def test_a_gain_that_sets_in_is_named_with_its_time(tmp_path):
 def test_a_gain_from_the_beginning_has_no_time(tmp_path):
     fit = nominal_of(tmp_path, [SensorGain()], shown=lambda x: 1.08 * x)
     course = Selector(fit, ("sensor_gain",), lambda _: None).run()
-    assert since(course.chosen, "sensor_gain") is None
+    assert estimate_onset(course.chosen, "sensor_gain") is None
 
 
 def test_the_likelihood_of_a_sensor_that_changes_is_that_of_corrected_readings(tmp_path):
@@ -143,7 +152,7 @@ def test_the_likelihood_of_a_sensor_that_changes_is_that_of_corrected_readings(t
     The prior of the first state is as wide as the readings are, which makes a difference of 0.02.
     """
     fit = nominal_of(tmp_path, [SensorGain()], shown=lambda x: x * np.where(T > LATE, 1.08, 1.0))
-    problem = fit.problem.knowing({"sensor_gain.error": 0.08, since_of("sensor_gain"): LATE + 0.01})
+    problem = fit.problem.hold_values({"sensor_gain.error": 0.08, onset_key("sensor_gain"): LATE + 0.01})
     changed = replace(problem, active=frozenset({"sensor_gain"}))
     (observation,) = fit.problem.observations
     late = observation.time > LATE
@@ -158,13 +167,13 @@ def test_cut_sensitivities_are_those_of_a_term_that_sets_in(tmp_path):
     A term acts on readings before its onset as little as on any that the filter has forgotten.
     """
     fit = nominal_of(tmp_path, [LinearStiffness()], extra=lambda x, v, t: -5.0 * x * (t > LATE))
-    assert can_be_late(fit.problem, "linear_stiffness")
+    assert can_have_onset(fit.problem, "linear_stiffness")
     key, small = "linear_stiffness.coefficient", 1e-3
     held = FreeParameter(key, "", 0.0, -math.inf, math.inf)
-    wider = fit.problem.extended((held,), {"linear_stiffness"})
+    wider = fit.problem.extend((held,), {"linear_stiffness"})
     zero, one = np.append(fit.theta, 0.0), np.append(fit.theta, small)
-    slopes = slopes_of(fit)
-    seen = wider.many(np.array([zero, one]))
+    slopes = compute_slopes(fit)
+    seen = wider.filter_many(np.array([zero, one]))
     joint = type(slopes)(
         zero,
         seen[0],
@@ -172,10 +181,10 @@ def test_cut_sensitivities_are_those_of_a_term_that_sets_in(tmp_path):
         np.vstack([slopes.variances, (seen.variances[1] - seen.variances[0])[None] / small]),
         np.append(slopes.steps, small),
     )
-    found = np.array([g[-1] for _, g, _ in cut(fit.problem, joint, 1)])
+    found = np.array([g[-1] for _, g, _ in cut_at_onsets(fit.problem, joint, 1)])
     twin = []
-    for time in times_of(fit.problem):
-        late = wider.knowing({since_of("linear_stiffness"): float(time)})
+    for time in list_onsets(fit.problem):
+        late = wider.hold_values({onset_key("linear_stiffness"): float(time)})
         low, high = late.log_likelihoods(np.array([zero, one]))
         twin.append((high - low) / small)
     assert len(twin) == TIMES
@@ -186,7 +195,7 @@ def test_ripple_of_a_sensor_is_scouted_and_found(tmp_path):
     """An error of 0.4 mm that repeats every 13 mm, over a travel of 0.1 m and noise of 0.1 mm."""
     pitch, size = 0.013, 4e-4
     fit = nominal_of(tmp_path, [PositionRipple()], shown=lambda x: x + size * np.cos(2.0 * np.pi * x / pitch + 0.4))
-    found = scouted(fit, forces=False)
+    found = scan_shapes(fit, forces=False)
     assert found["position_ripple"][0]["position_ripple.pitch"] == pytest.approx(pitch, rel=0.03)
     course = Selector(fit, ("position_ripple",), lambda _: None, found).run()
     values = course.chosen.values
@@ -197,7 +206,7 @@ def test_ripple_of_a_sensor_is_scouted_and_found(tmp_path):
 def test_readings_that_are_put_right_are_bent_to_what_was_read(tmp_path):
     fit = nominal_of(tmp_path, [PositionRipple()])
     seen, p = fit.problem.observations[0], (3e-4, -2e-4, 0.02)
-    right, slopes = unbent(seen, [(0, PositionRipple(), p)])
+    right, slopes = correct_bends(seen, [(0, PositionRipple(), p)])
     assert np.allclose(PositionRipple.bent(right.readings[:, 0], p), seen.readings[:, 0], atol=1e-9)
     step = 1e-7
     ends = [PositionRipple.bent(right.readings[:, 0] + h, p) for h in (step, -step)]
@@ -209,7 +218,7 @@ def test_density_of_bent_readings_is_that_of_the_readings():
     errors, variances = np.array([[[0.3], [-1.2]]]), np.array([[[0.5], [2.0]]])
     slopes = np.array([[0.8], [1.3]])
     bare = Innovations.of(errors, variances, np.array([2]))
-    found = stretched(bare, 1.0 / slopes)
+    found = rescale_innovations(bare, 1.0 / slopes)
     wanted = bare.log_likelihood[0] + math.log(1.0 / 0.8) + math.log(1.0 / 1.3)
     assert found.log_likelihood[0] == pytest.approx(wanted)
 
@@ -227,8 +236,8 @@ def test_lags_of_drive_and_sensor_promise_the_same_of_a_linear_machine(tmp_path)
     """What lags a linear machine on its way in lags it on its way out; both are found by their secants."""
     late = 0.02
     fit = nominal_of(tmp_path, [ActuatorLag(), SensorLag()], shown=lambda x: lagging(x, late))
-    slopes = slopes_of(fit)
-    hints = [screen(fit, slopes, key) for key in ("actuator_lag", "sensor_lag")]
+    slopes = compute_slopes(fit)
+    hints = [run_score_test(fit, slopes, key) for key in ("actuator_lag", "sensor_lag")]
     assert min(h.gain for h in hints) > 30.0
     course = Selector(fit, ("actuator_lag", "sensor_lag"), lambda _: None).run()
     (key,) = course.chosen.problem.active
@@ -253,14 +262,14 @@ def test_a_learned_force_is_said_to_look_like_the_law_it_came_from(tmp_path):
     states = np.ascontiguousarray(fit.problem.smooth(fit.theta).states[:, :2])
     x, v = states.T
     stop = -np.sign(x) * np.maximum(np.abs(x) - 0.031, 0.0)
-    found = likeness(fit.problem, fit.theta, states, 40.0 * stop)
+    found = find_likeness(fit.problem, fit.theta, states, 40.0 * stop)
     assert found.keys == ("end_stop",)
     assert found.share > 0.98
     both = stop / np.std(stop) - v * np.abs(v) / np.std(v * np.abs(v))
-    found = likeness(fit.problem, fit.theta, states, both)
+    found = find_likeness(fit.problem, fit.theta, states, both)
     assert set(found.keys) == {"end_stop", "quadratic_damping"}
     noise = np.random.default_rng(0).standard_normal(len(x))
-    assert likeness(fit.problem, fit.theta, states, noise) is None
+    assert find_likeness(fit.problem, fit.theta, states, noise) is None
 
 
 @pytest.fixture

@@ -11,10 +11,10 @@ from scipy.linalg import expm
 from scipy.stats import chi2
 from truths import FORCE, FRICTION, TRUE, observation_of, problem_for, system_of
 
-from lostmotion.inference.candidates import fit_with, screen, slopes_of
+from lostmotion.inference.candidates import compute_slopes, fit_term, run_score_test
 from lostmotion.inference.fit import maximise
-from lostmotion.inference.natural import frees_of, term_of
-from lostmotion.likelihood.latent import missing_force
+from lostmotion.inference.natural import find_term, make_free_parameters
+from lostmotion.likelihood.latent import smooth_latent_force
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import NOISE, RANDOM, FreeParameter, Problem, Scales
 
@@ -131,7 +131,7 @@ def test_smoothed_force_is_the_hidden_one(rubbing):
     Alvarez, Luengo, Lawrence (2009). One seeded recording; over seeds the correlation scatters by less than 0.01.
     """
     problem, theta, states = rubbing
-    missing = missing_force(problem, theta)
+    missing = smooth_latent_force(problem, theta)
     hidden = -3.0 * np.sign(states[:, 1])
     assert np.corrcoef(missing.force, hidden)[0, 1] > 0.8
     assert missing.force.std() == pytest.approx(3.0, rel=0.2)
@@ -146,8 +146,8 @@ def test_score_test_promises_what_a_fit_keeps(seed):
     """
     problem, theta = problem_for(observation_of(0.05, seed=seed)[0], ("c", "x0"))
     bare = maximise(problem, theta)
-    hint = screen(bare, slopes_of(bare), FRICTION)
-    refitted = fit_with(bare, hint)
+    hint = run_score_test(bare, compute_slopes(bare), FRICTION)
+    refitted = fit_term(bare, hint)
     assert refitted.status == "converged"
     assert hint.gain == pytest.approx(refitted.log_likelihood - bare.log_likelihood, rel=0.25, abs=1.0)
     assert hint.start[FORCE] == pytest.approx(refitted.values[FORCE], rel=0.25)
@@ -169,8 +169,8 @@ def test_error_bars_are_as_wide_as_the_scatter():
 def standardised(seed):
     """Return how many standard deviations c, x0 and the friction force lie from the truth in one fit."""
     problem, theta = problem_for(observation_of(1.0, seed=40 + seed, periods=10)[0], ("c", "x0"))
-    _, slots = term_of(problem, FRICTION)
-    wider = problem.extended(frees_of(slots, problem.scales, {FORCE: 1.0}), {FRICTION})
+    _, slots = find_term(problem, FRICTION)
+    wider = problem.extend(make_free_parameters(slots, problem.scales, {FORCE: 1.0}), {FRICTION})
     wider = replace(wider, nsub=8)
     fit = maximise(wider, np.append(theta, 1.0))
     truth = {"c": math.log(TRUE["c"]), "x0": math.log(TRUE["x0"]), FORCE: 1.0}

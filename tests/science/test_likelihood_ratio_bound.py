@@ -5,7 +5,7 @@ import pytest
 from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import default
 from lostmotion_trials.blind.bound import yardstick
-from lostmotion_trials.blind.commitment import Blind, concealed, publish, unsealed
+from lostmotion_trials.blind.commitment import Blind, conceal_case, open_sealed, publish
 from lostmotion_trials.blind.judging import score_case
 from lostmotion_trials.blind.pilot import Effect
 
@@ -13,8 +13,8 @@ pytestmark = pytest.mark.slow
 
 
 def concealed_in(folder, blind, number=0):
-    publish(folder, [concealed(blind, folder, number)])
-    return prepare(folder / "cases" / f"{number:03d}" / "case.toml", default()), unsealed(folder, number)
+    publish(folder, [conceal_case(blind, folder, number)])
+    return prepare(folder / "cases" / f"{number:03d}" / "case.toml", default()), open_sealed(folder, number)
 
 
 def test_nominal_model_finds_its_best_fit_without_half_of_the_forces(tmp_path):

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from lostmotion.inference.fit import maximise
-from lostmotion.inference.memory import believed, remembering
-from lostmotion.inference.setup import noise_frees
+from lostmotion.inference.memory import fit_noise_memory, is_memory_supported
+from lostmotion.inference.setup import make_noise_levels
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem, Scales
 from lostmotion.likelihood.space import AR1_LEVEL, AR1_MEMORY, NOISE, RANDOM, FreeParameter
@@ -41,7 +41,7 @@ def problem_of(observation):
     scales = Scales(20.0, 1.2, 1.0 / OMEGA, usual=math.log((1e-3 * 20.0) ** 2 * DT), span=observation.samples * DT)
     known = system.vector({"m": M, "c": C, "k": K})
     free = FreeParameter("c", "N s/m", math.log(C), math.log(0.05), math.log(4.0), log=True)
-    return Problem(system, (observation,), scales, known, (free, *noise_frees((observation,), scales)), nsub=2)
+    return Problem(system, (observation,), scales, known, (free, *make_noise_levels((observation,), scales)), nsub=2)
 
 
 FINE = 40
@@ -112,7 +112,7 @@ def test_noise_with_a_memory_is_told_from_white_noise(seed):
     """
     for memory, wanted in ((0.1, True), (0.0, False)):
         fit = maximise(problem_of(recorded(3000, memory, seed)))
-        coloured = remembering(fit)
-        assert believed(fit, coloured) == wanted
+        coloured = fit_noise_memory(fit)
+        assert is_memory_supported(fit, coloured) == wanted
         if wanted:
             assert math.exp(coloured.values[AR1_MEMORY]) == pytest.approx(memory, rel=0.5)

@@ -6,14 +6,20 @@ import numpy as np
 import pytest
 from sensed import case_of, model_of, moved, multisine, noisy
 
-from lostmotion.diagnosis.compare import horizon_for, pieces_of
-from lostmotion.diagnosis.confirming import unconfirmed
-from lostmotion.diagnosis.search import fitted_keys
-from lostmotion.inference.candidates import fit_with, screen, slopes_of
-from lostmotion.inference.course import Selection, Visit
-from lostmotion.inference.rival import USUAL, evidence_of, expanded, fitted, righted
+from lostmotion.diagnosis.compare import choose_heldout_horizon, cut_heldout
+from lostmotion.diagnosis.confirming import find_unconfirmed
+from lostmotion.diagnosis.search import list_fitted_keys
+from lostmotion.inference.candidates import compute_slopes, fit_term, run_score_test
+from lostmotion.inference.rival import (
+    MOST_CORRECTION,
+    compute_log_evidence,
+    correct_channels,
+    expand_fit,
+    fit_discrepancy,
+)
 from lostmotion.inference.selection import Selector
-from lostmotion.inference.setup import problem_of, search, split
+from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
+from lostmotion.inference.term_sets import Selection, TermSet
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import Registry
@@ -42,8 +48,8 @@ def nominal_of(folder, extra, *, seed=0, stated=1.0, shown=lambda x: x):
     The sensor has `shown` of the position.
     """
     prepared, system = made_of(folder, extra, seed=seed, stated=stated, shown=shown)
-    train, _ = split(prepared.observations)
-    return search(problem_of(system, prepared.case, train, jobs=1), np.random.default_rng(seed)), system
+    train, _ = split_heldout(prepared.observations)
+    return search_maximum(make_problem(system, prepared.case, train, jobs=1), np.random.default_rng(seed)), system
 
 
 def made_of(folder, extra, *, seed=0, stated=1.0, shown=lambda x: x):
@@ -61,7 +67,7 @@ def made_of(folder, extra, *, seed=0, stated=1.0, shown=lambda x: x):
 
 
 def chosen_of(nominal, system):
-    return Selector(nominal, fitted_keys(system), lambda _: None).run()
+    return Selector(nominal, list_fitted_keys(system), lambda _: None).run()
 
 
 def bend(size):
@@ -80,14 +86,16 @@ def test_evidence_is_the_integral_over_the_coefficients(seed):
     grid = np.stack(np.meshgrid(a, b, indexing="ij"), axis=-1)
     height = np.exp(grid @ g - 0.5 * np.einsum("ijk,kl,ijl->ij", grid, h, grid))
     brute = np.log(np.sum(height * np.outer(prior, prior)) * (z[1] - z[0]) ** 2)
-    assert evidence_of(h, g, widths) == pytest.approx(brute, abs=1e-4)
-    assert evidence_of(h, g, np.array([widths[0], 0.0])) == pytest.approx(evidence_of(h[:1, :1], g[:1], widths[:1]))
+    assert compute_log_evidence(h, g, widths) == pytest.approx(brute, abs=1e-4)
+    assert compute_log_evidence(h, g, np.array([widths[0], 0.0])) == pytest.approx(
+        compute_log_evidence(h[:1, :1], g[:1], widths[:1])
+    )
 
 
 @pytest.mark.slow
 def test_a_smooth_force_is_seen_by_the_discrepancy_and_gets_no_name(tmp_path):
     nominal, system = nominal_of(tmp_path, bend(0.25))
-    best = expanded(nominal).best((), 1.0)
+    best = expand_fit(nominal).find_best_without((), 1.0)
     assert best.gain > 20.0
     assert dict(best.chosen)["unknown_over_position"] >= 0
     assert chosen_of(nominal, system).chosen.problem.active == frozenset()
@@ -95,26 +103,26 @@ def test_a_smooth_force_is_seen_by_the_discrepancy_and_gets_no_name(tmp_path):
 
 def test_what_is_promised_comes_true_when_it_is_fitted(tmp_path):
     nominal, _ = nominal_of(tmp_path, bend(0.25))
-    expansion = expanded(nominal)
-    promised = expansion.best((), expansion.worse).gain
-    fit, price = fitted(expansion)
+    expansion = expand_fit(nominal)
+    promised = expansion.find_best_without((), expansion.inflation).gain
+    fit, price = fit_discrepancy(expansion)
     won = fit.log_evidence - nominal.log_evidence - price
     assert won > 0.7 * promised
 
 
 def test_a_clean_machine_has_no_discrepancy(tmp_path):
     nominal, system = nominal_of(tmp_path, lambda x, v, t: 0.0)
-    assert expanded(nominal).gain() < 3.0
+    assert expand_fit(nominal).predict_gain() < 3.0
     assert chosen_of(nominal, system).chosen.problem.active == frozenset()
 
 
 def test_a_known_value_that_is_slightly_wrong_gets_no_name(tmp_path):
     nominal, system = nominal_of(tmp_path, lambda x, v, t: 0.0, stated=1.01)
     course = chosen_of(nominal, system)
-    raw = max(v.weight for v in course.visits.values()) - course.visits[frozenset()].weight
+    raw = max(v.weight for v in course.fitted_sets.values()) - course.fitted_sets[frozenset()].weight
     assert raw > DEFAULT.select.decisive, "by the evidence alone something would be named"
     assert course.chosen.problem.active == frozenset()
-    assert course.unbeaten
+    assert course.tied
 
 
 @pytest.mark.slow
@@ -130,32 +138,34 @@ def test_friction_is_named_beside_a_smooth_force(tmp_path):
 def test_leads_are_antisymmetric_and_bounded_by_what_the_larger_set_says(tmp_path):
     nominal, _ = nominal_of(tmp_path, bend(0.25))
     key = "cubic_stiffness"
-    more = fit_with(nominal, screen(nominal, slopes_of(nominal), key))
+    more = fit_term(nominal, run_score_test(nominal, compute_slopes(nominal), key))
     course = Selection(nominal, nominal)
     for fit in (nominal, more):
-        course.visits[fit.problem.active] = Visit(fit.problem.active, fit, fit.log_evidence)
-    bare, with_it = (course.visits[fit.problem.active] for fit in (nominal, more))
-    assert course.lead(with_it, bare) == -course.lead(bare, with_it)
+        course.fitted_sets[fit.problem.active] = TermSet(fit.problem.active, fit, fit.log_evidence)
+    bare, with_it = (course.fitted_sets[fit.problem.active] for fit in (nominal, more))
+    assert course.compute_log_odds(with_it, bare) == -course.compute_log_odds(bare, with_it)
     dropped = [i for i, k in enumerate(more.problem.keys) if k.startswith(key)]
     expansion = course.expansion(with_it)
     assert (
-        course.lead(with_it, bare)
-        <= expansion.gain(worse=expansion.worse) - expansion.gain(dropped, worse=expansion.worse) + 1e-9
+        course.compute_log_odds(with_it, bare)
+        <= expansion.predict_gain(inflation=expansion.inflation)
+        - expansion.predict_gain(dropped, inflation=expansion.inflation)
+        + 1e-9
     )
 
 
 def test_a_promise_is_also_looked_for_from_what_would_stand_in_for_the_terms(tmp_path):
     rub = lambda x, v, t: -1.0 * np.tanh(v / 1e-3)  # noqa: E731
     nominal, _ = nominal_of(tmp_path, rub)
-    more = fit_with(nominal, screen(nominal, slopes_of(nominal), "coulomb_friction"))
-    expansion = expanded(more)
+    more = fit_term(nominal, run_score_test(nominal, compute_slopes(nominal), "coulomb_friction"))
+    expansion = expand_fit(more)
     dropped = [i for i, k in enumerate(more.problem.keys) if k.startswith("coulomb_friction")]
-    stand_in = expansion.best(dropped, expansion.worse)
-    beside = expansion.best((), expansion.worse, stand_in.chosen)
+    stand_in = expansion.find_best_without(dropped, expansion.inflation)
+    beside = expansion.find_best_without((), expansion.inflation, stand_in.chosen)
     assert any(option >= 0 for _, option in stand_in.chosen)
     assert beside.gain >= stand_in.gain, "a set with the term is worth at least what it is worth without"
-    assert expansion.promise().gain == max(expansion.gain(), beside.gain)
-    assert expansion.best((), expansion.worse) is expansion.best((), expansion.worse)
+    assert expansion.find_best().gain == max(expansion.predict_gain(), beside.gain)
+    assert expansion.find_best_without((), expansion.inflation) is expansion.find_best_without((), expansion.inflation)
 
 
 def bent(x):
@@ -166,13 +176,13 @@ def bent(x):
 def test_a_bent_sensor_is_put_right_and_wins_what_slopes_promise(tmp_path):
     """The flaw has 1.6 times its usual width; what is won counts the change of the density of readings."""
     nominal, _ = nominal_of(tmp_path, lambda x, v, t: 0.0, shown=bent)
-    with_known, _ = fitted(expanded(nominal))
-    expansion = expanded(with_known)
-    promised = expansion.bare(expansion.worse)
-    once = righted(expansion)
-    twice = righted(expanded(once.fit), once)
+    with_known, _ = fit_discrepancy(expand_fit(nominal))
+    expansion = expand_fit(with_known)
+    promised = expansion.compute_fixed_gain(expansion.inflation)
+    once = correct_channels(expansion)
+    twice = correct_channels(expand_fit(once.fit), once)
     for right in (once, twice):
-        won = right.fit.log_evidence + right.wider - with_known.log_evidence - right.price
+        won = right.fit.log_evidence + right.log_jacobian - with_known.log_evidence - right.price
         assert won > 0.7 * promised > 35.0
     square = 1  # scale, square and cube of the sensor come first
     assert twice.sizes[square] == pytest.approx(-0.008, rel=0.1)
@@ -181,13 +191,13 @@ def test_a_bent_sensor_is_put_right_and_wins_what_slopes_promise(tmp_path):
 
 def test_a_channel_is_put_right_as_far_as_flaws_are_usual(tmp_path):
     nominal, _ = nominal_of(tmp_path, lambda x, v, t: 0.0, shown=lambda x: 1.3 * x)
-    expansion = expanded(nominal)
-    once = righted(expansion)
-    twice = righted(expanded(once.fit), once)
+    expansion = expand_fit(nominal)
+    once = correct_channels(expansion)
+    twice = correct_channels(expand_fit(once.fit), once)
     widths = expansion.widths[-len(once.sizes) :]
     for right in (once, twice):
-        assert np.all(np.abs(right.sizes) <= USUAL * widths * (1.0 + 1e-12))
-    assert np.any(np.abs(twice.sizes) > 0.99 * USUAL * widths)
+        assert np.all(np.abs(right.sizes) <= MOST_CORRECTION * widths * (1.0 + 1e-12))
+    assert np.any(np.abs(twice.sizes) > 0.99 * MOST_CORRECTION * widths)
 
 
 @pytest.mark.parametrize(
@@ -200,18 +210,18 @@ def test_a_channel_is_put_right_as_far_as_flaws_are_usual(tmp_path):
 @pytest.mark.slow
 def test_a_term_is_doubted_where_no_model_is_right_and_predictions_do_without_it(tmp_path, key, extra, doubted):
     prepared, system = made_of(tmp_path, extra)
-    train, held = split(prepared.observations)
-    nominal = search(problem_of(system, prepared.case, train, jobs=1), np.random.default_rng(0))
-    more = fit_with(nominal, screen(nominal, slopes_of(nominal), key))
+    train, held = split_heldout(prepared.observations)
+    nominal = search_maximum(make_problem(system, prepared.case, train, jobs=1), np.random.default_rng(0))
+    more = fit_term(nominal, run_score_test(nominal, compute_slopes(nominal), key))
     course = Selection(nominal, more)
     for fit in (nominal, more):
-        course.visits[fit.problem.active] = Visit(fit.problem.active, fit, fit.log_evidence)
-    horizon = horizon_for(more, pieces_of(prepared.observations, held), float("nan"))
+        course.fitted_sets[fit.problem.active] = TermSet(fit.problem.active, fit, fit.log_evidence)
+    horizon = choose_heldout_horizon(more, cut_heldout(prepared.observations, held), float("nan"))
     outcome = SimpleNamespace(
         diagnosis=SimpleNamespace(
             selection=course, held=held, named=(key,), after=more, unexplained=False, settings=DEFAULT
         ),
         horizon=horizon,
     )
-    told = unconfirmed(outcome, prepared.observations)
+    told = find_unconfirmed(outcome, prepared.observations)
     assert set(told) == ({key} if doubted else set())

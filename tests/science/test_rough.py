@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 
 from lostmotion_trials.blind import imperfect, simulator
 from lostmotion_trials.blind.hiding import hidden_in
-from lostmotion_trials.blind.imperfect import KINDS, draw_effect, draw_machine, draw_world, moved_roughly
+from lostmotion_trials.blind.imperfect import KINDS, draw_effect, draw_machine, draw_world, simulate_imperfect
 from lostmotion_trials.blind.mechanisms import Pilot
 from lostmotion_trials.blind.simulator import Meddling, moved
 from lostmotion_trials.integrators.hidden import BOUC_WEN, DAHL, LUGRE, Body, Hidden, move
@@ -146,14 +146,14 @@ def test_friction_follows_its_curve_over_the_speed():
 @pytest.mark.parametrize("name", ["coulomb_friction", "cubic_stiffness"])
 def test_half_the_step_moves_it_less_than_the_noise(kind, name, monkeypatch):
     """Over the first cycles, from rest: later a chaotic machine is anywhere, whatever the step."""
-    monkeypatch.setattr(simulator, "SETTLE", 0)
+    monkeypatch.setattr(simulator, "SETTLING_PERIODS", 0)
     rng = np.random.default_rng([3, KINDS.index(kind)])
     rig = draw_machine(kind, rng, 500)
     pilot = Pilot(rig, moved(rig, Hidden(), Meddling(), rng))
     world = draw_world(kind, pilot, rng)
     hidden = hidden_in(rig, (draw_effect(name, pilot, rng),))
-    coarse = moved_roughly(rig, hidden, world, rng)
-    monkeypatch.setattr(imperfect, "FINE", 0.5 * imperfect.FINE)
-    fine = moved_roughly(rig, hidden, world, rng)
+    coarse = simulate_imperfect(rig, hidden, world, rng)
+    monkeypatch.setattr(imperfect, "STEPS_PER_RATE", 0.5 * imperfect.STEPS_PER_RATE)
+    fine = simulate_imperfect(rig, hidden, world, rng)
     apart = np.abs(coarse - fine)[:FIRST].max()
     assert 0.0 < apart < 0.3 * pilot.noise

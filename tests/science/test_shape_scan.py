@@ -12,7 +12,7 @@ from truths import case_of
 
 from lostmotion.contracts import Param, Term
 from lostmotion.diagnosis.search import diagnose
-from lostmotion.inference.shape_scan import scouted
+from lostmotion.inference.shape_scan import scan_shapes
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.candidates import candidates_of
 from lostmotion.quantities import FORCE, LENGTH
@@ -50,13 +50,13 @@ def with_ratchet(fit, *more):
 
 
 def test_a_pitch_far_shorter_than_the_travel_is_scouted():
-    found = scouted(with_ratchet(fitted(RIPPLE)))
+    found = scan_shapes(with_ratchet(fitted(RIPPLE)))
     assert list(found) == ["ratchet"]
     assert found["ratchet"][0]["ratchet.pitch"] == pytest.approx(PITCH, rel=0.03)
 
 
 def test_where_nothing_is_missing_nothing_is_scouted():
-    assert scouted(with_ratchet(fitted(CLEAN))) == {}
+    assert scan_shapes(with_ratchet(fitted(CLEAN))) == {}
 
 
 @pytest.mark.slow

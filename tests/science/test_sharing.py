@@ -12,14 +12,14 @@ from lostmotion.case import dump_case
 from lostmotion.codec import to_plain
 from lostmotion.diagnosis.run import run_diagnosis
 from lostmotion.inference.sharing import (
-    covariance_of,
-    holm,
-    homogeneity,
-    levels_of,
-    odd_one,
-    power_of,
-    sharing_of,
-    widened,
+    adjust_by_holm,
+    compare_recordings,
+    compute_covariance,
+    compute_homogeneity,
+    find_odd_recording,
+    fit_power,
+    measure_levels,
+    widen_covariance,
 )
 from lostmotion.registry import Registry
 
@@ -29,7 +29,7 @@ FORCE = "coulomb_friction.force"
 def of(changes, **common):
     """Return what recordings at doubling levels share, each with `changes` of its own."""
     runs = [recorded(f"run {i}", 10 + i, 2.0**i, **common, **own) for i, own in enumerate(changes)]
-    return sharing_of(fitted(runs))
+    return compare_recordings(fitted(runs))
 
 
 def test_one_value_holds_where_nothing_differs():
@@ -61,7 +61,9 @@ def test_values_that_go_with_the_level_say_the_exponent():
 
 def test_dry_friction_holds_at_three_levels():
     """Friction that truly sticks, 1 N at levels of 4 to 16 N; the common value within 5 %."""
-    found = sharing_of(rubbing([rubbed(f"run {i}", 50 + i, level, friction=1.0) for i, level in enumerate((4, 8, 16))]))
+    found = compare_recordings(
+        rubbing([rubbed(f"run {i}", 50 + i, level, friction=1.0) for i, level in enumerate((4, 8, 16))])
+    )
     assert found.parameters[FORCE].holds
     assert found.parameters[FORCE].common.median == pytest.approx(1.0, rel=0.05)
     assert found.levels.of == "drive"
@@ -72,7 +74,7 @@ def test_friction_of_its_own_in_one_recording_is_found():
     """1.4 N in the second of three, 1 N in the others: named, within 5 %, and damping is not blamed."""
     forces = (1.0, 1.4, 1.0)
     runs = [rubbed(f"run {i}", 50 + i, 4.0 * 2**i, friction=force) for i, force in enumerate(forces)]
-    found = sharing_of(rubbing(runs))
+    found = compare_recordings(rubbing(runs))
     own = found.parameters[FORCE]
     assert not own.told
     assert own.odd == 1
@@ -82,7 +84,7 @@ def test_friction_of_its_own_in_one_recording_is_found():
 
 
 def test_nothing_is_compared_with_one_recording():
-    assert sharing_of(fitted([recorded("alone", 1)])) is None
+    assert compare_recordings(fitted([recorded("alone", 1)])) is None
 
 
 @pytest.mark.slow
@@ -102,49 +104,49 @@ def test_sandwich_sees_a_memory_that_the_usual_covariance_does_not():
     """Noise with a memory that the model takes for white: robust errors are larger, and never smaller."""
     fit = fitted([recorded(f"run {i}", 5 + i, slip=1.0, memory=0.9, samples=2000) for i in range(2)])
     usual = fit.local.covariance[:2, :2]
-    robust = covariance_of(fit, [0, 1])
+    robust = compute_covariance(fit, [0, 1])
     assert np.all(np.linalg.eigvalsh(robust - usual) > -1e-9 * np.diag(robust).max())
     assert np.max(np.diag(robust) / np.diag(usual)) > 2.0
 
 
 def test_widened_is_the_sandwich_where_that_is_larger_in_every_direction():
     a = np.array([[2.0, 0.5], [0.5, 1.0]])
-    assert np.allclose(widened(a, 3.0 * a), 3.0 * a)
-    assert np.allclose(widened(a, 0.3 * a), a)
+    assert np.allclose(widen_covariance(a, 3.0 * a), 3.0 * a)
+    assert np.allclose(widen_covariance(a, 0.3 * a), a)
 
 
 def test_homogeneity_is_the_weighted_scatter():
     """Independent values: the sum of squares about the weighted mean. Normal draws: chi-square (2000 seeded)."""
     values, sd = np.array([1.0, 2.0, 4.0]), np.array([0.5, 1.0, 2.0])
     mean = np.average(values, weights=sd**-2.0)
-    assert homogeneity(values, np.diag(sd**2)) == pytest.approx(float(np.sum(((values - mean) / sd) ** 2)))
+    assert compute_homogeneity(values, np.diag(sd**2)) == pytest.approx(float(np.sum(((values - mean) / sd) ** 2)))
     rng, mixed = np.random.default_rng(0), np.array([[2.0, 0.9, 0.2], [0.9, 1.0, 0.3], [0.2, 0.3, 0.5]])
-    drawn = [homogeneity(row, mixed) for row in rng.multivariate_normal(np.full(3, 7.0), mixed, 2000)]
+    drawn = [compute_homogeneity(row, mixed) for row in rng.multivariate_normal(np.full(3, 7.0), mixed, 2000)]
     assert abs(np.mean(np.array(drawn) > chi2.ppf(0.95, 2)) - 0.05) < 4.0 * math.sqrt(0.05 * 0.95 / 2000)
 
 
 def test_holm_by_hand():
-    assert holm([0.01, 0.04, 0.03]) == pytest.approx([0.03, 0.06, 0.06])
-    assert holm([]) == []
+    assert adjust_by_holm([0.01, 0.04, 0.03]) == pytest.approx([0.03, 0.06, 0.06])
+    assert adjust_by_holm([]) == []
 
 
 def test_powers_and_odd_ones_by_hand():
     levels, tight = np.array([1.0, 2.0, 4.0, 8.0]), 1e-4 * np.eye(4)
-    power = power_of(2.0 * np.log(levels) + 1.0, tight, levels)
+    power = fit_power(2.0 * np.log(levels) + 1.0, tight, levels)
     assert power is not None
     assert power.exponent == pytest.approx(2.0)
     assert power.error == pytest.approx(0.01 / math.sqrt(np.sum((np.log(levels) - np.log(levels).mean()) ** 2)))
     one = np.array([0.0, 1.0, 0.0, 0.0])
-    assert power_of(one, tight, levels) is None
-    assert odd_one(one, tight) == 1
-    assert odd_one(np.array([0.0, 1.0, 0.0, 1.0]), tight) is None
-    assert power_of(6.0 * np.log(levels), tight, levels) is None
-    assert power_of(one[:2], tight[:2, :2], levels[:2]) is None
-    assert power_of(one, tight, np.full(4, 2.0)) is None
+    assert fit_power(one, tight, levels) is None
+    assert find_odd_recording(one, tight) == 1
+    assert find_odd_recording(np.array([0.0, 1.0, 0.0, 1.0]), tight) is None
+    assert fit_power(6.0 * np.log(levels), tight, levels) is None
+    assert fit_power(one[:2], tight[:2, :2], levels[:2]) is None
+    assert fit_power(one, tight, np.full(4, 2.0)) is None
 
 
 def test_levels_are_those_of_the_response_where_the_drive_is_the_same():
-    same = levels_of([recorded("a", 1), recorded("b", 2, c=2.0 * C)])
+    same = measure_levels([recorded("a", 1), recorded("b", 2, c=2.0 * C)])
     assert (same.of, same.channel) == ("response", "position")
 
 
@@ -176,5 +178,5 @@ def test_a_diagnosis_says_whether_friction_holds(tmp_path, odd):
     assert first.shared.holds is (odd == 1.0)
     assert bool(first.doubts) is (odd != 1.0)
     page = (tmp_path / "out" / "report.html").read_text()
-    assert "What recordings share" in page
+    assert "Parameters in each recording" in page
     assert ("no, differs in" in page) is (odd != 1.0)

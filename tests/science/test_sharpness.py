@@ -12,7 +12,7 @@ from truths import TRUE, case_of, system_of
 
 from lostmotion.identification.sampling import SamplingPlan, identify, make_task
 from lostmotion.inference.fit import maximise
-from lostmotion.inference.setup import problem_of, stepped
+from lostmotion.inference.setup import choose_steps, make_problem
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import RANDOM
 from lostmotion.likelihood.system import System
@@ -67,10 +67,10 @@ def posed(amplitude, excitation, *, periods=100, seed=1):
     observation = Observation.of(
         "recording", seen.position, (seen.force + noise)[:, None], float(seen.time[1]), "position"
     )
-    problem = problem_of(System(system_of().model, ()), case_of(("c", "x0")), (observation,))
+    problem = make_problem(System(system_of().model, ()), case_of(("c", "x0")), (observation,))
     true = {key: math.log(TRUE[key]) for key in ("c", "x0")}
     problem = replace(problem, free=tuple(replace(f, start=true.get(f.key, f.start)) for f in problem.free))
-    fit = maximise(stepped(problem, maximise(problem).theta, accuracy=FINEST))
+    fit = maximise(choose_steps(problem, maximise(problem).theta, accuracy=FINEST))
     return machine, seen, 0.01 * seen.states[:, 0].std(), (excitation * amplitude) ** 2 * observation.dt, fit
 
 

@@ -8,8 +8,8 @@ import pytest
 from sensed import case_of, model_of, moved, multisine, noisy
 
 from lostmotion.diagnosis.run import run_diagnosis
-from lostmotion.inference.curves import band_of
-from lostmotion.inference.setup import problem_of, search, split
+from lostmotion.inference.curves import compute_band
+from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
 from lostmotion.inference.unexplained import CurveSearch
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.prepare import prepare
@@ -55,9 +55,9 @@ def hidden_case(folder, law, seed=0):
 def learned(folder, law, seed=0):
     """Return what is learned where a force is hidden, the library being empty."""
     prepared = prepare(hidden_case(folder, law, seed), Registry.discover())
-    train, _ = split(prepared.observations)
+    train, _ = split_heldout(prepared.observations)
     system = System(prepared.model)
-    nominal = search(problem_of(system, prepared.case, train, jobs=1), np.random.default_rng(seed))
+    nominal = search_maximum(make_problem(system, prepared.case, train, jobs=1), np.random.default_rng(seed))
     return CurveSearch(1).unknown(nominal, nominal)
 
 
@@ -69,7 +69,7 @@ def depends(found):
 def test_a_force_over_position_and_velocity_is_learned_as_a_map(tmp_path):
     found = learned(tmp_path, twisted)
     assert depends(found) == ["position", "velocity"]
-    band = band_of(found.fit, found.keys[0])
+    band = compute_band(found.fit, found.keys[0])
     x, v = np.meshgrid(band.at, band.beside, indexing="ij")
     visited = (np.abs(x) < 0.5 * np.max(band.at)) & (np.abs(v) < 0.5 * np.max(band.beside))
     told, true = band.mean.reshape(x.shape)[visited], twisted(x, v, 0.0)[visited]

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from truths import case_of
 
-from lostmotion.inference.curves import band_of
-from lostmotion.inference.proposal import Axis, proposed
-from lostmotion.inference.setup import problem_of, search
+from lostmotion.inference.curves import compute_band
+from lostmotion.inference.proposal import Axis, propose_formula
+from lostmotion.inference.setup import make_problem, search_maximum
 from lostmotion.inference.unexplained import CurveSearch
 from lostmotion.likelihood.drive import DriveHarmonic
 from lostmotion.likelihood.observation import Observation
@@ -56,8 +56,8 @@ def fitted(kind, *, seed=0):
     force = 100.0 * np.cos(OMEGA * dt * np.arange(SAMPLES)) + 0.1 * rng.standard_normal(SAMPLES)
     z = seen[:, 0] + 0.01 * np.std(seen[:, 0]) * rng.standard_normal(SAMPLES)
     observation = Observation.of("seen", z, force[:, None], dt, "position", harmonic=DriveHarmonic(OMEGA, 100.0))
-    problem = problem_of(System(default().make("model", "lin_backlash")), case_of(("c", "x0")), (observation,))
-    return search(problem, rng, points=24, finalists=2)
+    problem = make_problem(System(default().make("model", "lin_backlash")), case_of(("c", "x0")), (observation,))
+    return search_maximum(problem, rng, points=24, finalists=2)
 
 
 @pytest.mark.slow
@@ -67,13 +67,13 @@ def test_a_ripple_over_position_is_learned_and_its_period_proposed():
     found = CurveSearch(LIBRARY).unknown(fit, fit)
     assert found.keys == ("unknown_over_position",)
     assert found.probability > 0.99
-    band = band_of(found.fit, found.keys[0])
+    band = compute_band(found.fit, found.keys[0])
     truth = np.sin(2.0 * np.pi * band.at / 0.002)
     inside = np.abs(truth - band.mean) < 1.96 * band.sd
     assert inside.mean() > 0.8
     middle = np.abs(band.at) < 0.004
     assert np.sqrt(np.mean((truth - band.mean)[middle] ** 2)) < 0.4
-    formula = proposed(band.at, band.mean, band.covariance, Axis("x", LENGTH, FORCE, "translation"))
+    formula = propose_formula(band.at, band.mean, band.covariance, Axis("x", LENGTH, FORCE, "translation"))
     period = re.search(r"sin\(2 pi x / (\S+) m", formula.text)
     assert period is not None, formula.text
     assert float(period[1]) == pytest.approx(0.002, rel=0.02)

@@ -8,7 +8,7 @@ import numpy as np
 from independent import Machine, recording
 
 from lostmotion.case import CaseFile, Prior
-from lostmotion.inference.setup import noise_frees, problem_of
+from lostmotion.inference.setup import make_noise_levels, make_problem
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.candidates import candidates_of
@@ -41,8 +41,8 @@ def system_of(name="lin_backlash"):
 
 def problem_for(observation, unknown, *, noise=0.01):
     """Return the problem of a recording with its unknown parameters and noise levels started near the truth."""
-    problem = problem_of(system_of(), case_of(unknown), (observation,))
-    levels = noise_frees((observation,), problem.scales)
+    problem = make_problem(system_of(), case_of(unknown), (observation,))
+    levels = make_noise_levels((observation,), problem.scales)
     start = {k: np.log(TRUE[k]) for k in unknown}
     start |= {levels[0].key: levels[0].mean, levels[1].key: np.log(noise * np.std(observation.response))}
     return problem, np.array([start[k] for k in problem.keys])

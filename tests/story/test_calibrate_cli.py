@@ -68,7 +68,7 @@ def test_truths_are_found_again(done):
 
 def test_what_is_printed_and_written(done):
     outcome, out = done
-    assert "only gross faults can show" in outcome.output
+    assert "only large errors can be detected" in outcome.output
     assert outcome.output.rstrip().endswith(str(out / "report.html"))
     with (out / "machines.csv").open(encoding="utf-8", newline="") as stream:
         rows = list(csv.DictReader(stream))
@@ -102,7 +102,7 @@ def test_machines_that_fail_are_listed(case, tmp_path):
     bench = ("--drive", "step:size=0", *BENCH[2:])
     outcome = run(case, tmp_path, "--machines", "2", "--jobs", "1", bench=bench)
     assert outcome.exit_code == 0, outcome.output
-    assert "Not one machine has a posterior." in outcome.output
+    assert "None of the machines has a posterior." in outcome.output
     content = json.loads((tmp_path / "calibration.json").read_text(encoding="utf-8"))
     assert [one["machine"] for one in content["failed"]] == [0, 1]
     assert "is constant (0)" in content["failed"][0]["says"]

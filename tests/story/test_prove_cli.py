@@ -73,7 +73,7 @@ def test_changed_truth_is_refused(done, tmp_path):
     shutil.rmtree(copy / "steps" / "score")
     outcome = again(copy)
     assert outcome.exit_code == 2
-    assert "truth of case 000 is not what seal.json vouches for" in outcome.output
+    assert "truth of case 000 does not match its digest in seal.json" in outcome.output
 
 
 @pytest.mark.parametrize(

@@ -14,9 +14,10 @@ from lostmotion.errors import CaseError, DataError, nearest
 from lostmotion.preparation.prepare import case_of
 from lostmotion.provenance import digest
 from lostmotion.recording import Recording, Table, load_recording, read_table
-from lostmotion.recording.timing import EvenClock, check_step, even_clock, resampled
+from lostmotion.recording.timing import EvenClock, check_step, even_clock, resample_channel
 from lostmotion.recording.units import seconds, time_unit
 from lostmotion.registry import Registry
+from lostmotion.settings import DEFAULT, RecordingSettings
 
 Array = NDArray[np.float64]
 TIME_COLUMNS = ("time", "t", "Time", "time_s")
@@ -56,13 +57,12 @@ class Source:
     notes: tuple[str, ...] = ()
 
 
-def load_source(path: Path, wanted: WantedChannel, registry: Registry) -> Source:
+def load_source(
+    path: Path, wanted: WantedChannel, registry: Registry, limits: RecordingSettings = DEFAULT.recording
+) -> Source:
     """Return the channel to analyse: a response of a case file (.toml), or a column of a recording file."""
-    source = (
-        _load_from_case(case_of(path, registry), wanted)
-        if path.suffix.lower() == ".toml"
-        else _load_from_file(path, wanted)
-    )
+    is_case = path.suffix.lower() == ".toml"
+    source = _load_from_case(case_of(path, registry), wanted, limits) if is_case else _load_from_file(path, wanted)
     if wanted.every == 1:
         return source
     note = f"One sample of {wanted.every} is kept, as requested: higher frequencies are aliased."
@@ -76,7 +76,7 @@ def load_source(path: Path, wanted: WantedChannel, registry: Registry) -> Source
     )
 
 
-def _load_from_case(case: CaseFile, wanted: WantedChannel) -> Source:
+def _load_from_case(case: CaseFile, wanted: WantedChannel, limits: RecordingSettings) -> Source:
     """Return the requested recording and sensor of a case, else the first ones, with a note."""
     if not case.recordings:
         raise CaseError(f"{case.title!r} has no [[recordings]]: add one, or analyse a recording by itself")
@@ -93,7 +93,7 @@ def _load_from_case(case: CaseFile, wanted: WantedChannel) -> Source:
         notes.append(f"The first of {len(names)} recordings is analysed: name another one with --column.")
     if len(sensors) > 1 and asked not in sensors:
         notes.append(f"The first of {len(sensors)} sensors is analysed: name another one with --column.")
-    recording = load_recording(chosen, case.folder)
+    recording = load_recording(chosen, case.folder, limits)
     found = extract_source(recording, sensors.index(asked) if asked in sensors else 0)
     inputs = {"case": case.digest, **found.inputs}
     return replace(found, title=case.title, inputs=inputs, notes=(*found.notes, *notes))
@@ -167,7 +167,7 @@ def _load_from_file(path: Path, wanted: WantedChannel) -> Source:
 
 def _resample(values: Array, clock: EvenClock, time: Array) -> Array:
     """Return a channel (n,) on the uniform time grid of its recording; infinite values count as missing."""
-    return resampled(time, values, clock) if clock.uneven and values.size == time.size else values
+    return resample_channel(time, values, clock) if clock.uneven and values.size == time.size else values
 
 
 def _choose_columns(table: Table, asked: tuple[str, ...], clock: str | None, source: str) -> tuple[str, ...]:

@@ -1,60 +1,60 @@
-"""What a case file says: what was measured, the model, what is known and what is to be estimated.
+"""The format of a case file: measurements, model, known parameters and parameters to be estimated.
 
-What was measured stands in `[[recordings]]`, or in `[[levels]]` where only measures of chaos are at hand; a command
-says which of the two it wants. Beside them and `[model]` (`name`, `motion`, `[model.known]`, `[model.estimate]`) a
-case may hold:
+Measurements are in `[[recordings]]`, or in `[[levels]]` where only measures of chaos are available; each command tells
+which of the two it needs. Besides them and `[model]` (`name`, `motion`, `[model.known]`, `[model.estimate]`) a case may
+contain:
 
 - `title`, a line of text;
-- `plugins = ["file.py"]`: files, relative to the case, that bring models or terms of their own;
-- `[truth]`: true values of parameters, where there are any; they are drawn in the report and used for nothing else;
-- `[sensor]`: `noise = "each"` when each of several recordings has its own measurement noise and random force (as it
-  is when nothing is said), `noise = "shared"` when they have them in common; `offset = { a prior }` when the zeros of
-  the sensors are unknown, of each and in each recording anew (SI unit of the channel).
-- `[experiment]`: what the next experiment may ask of the machine, where a diagnosis proposes one: `max_level`, the
-  largest amplitude (SI unit of the excitation; a signal of another form has the rms of such a sine), and
-  `max_frequency` (Hz). Twice those of the recording when nothing is said.
+- `plugins = ["file.py"]`: files, relative to the case, that contain further models or terms;
+- `[truth]`: true values of parameters, where they are known; they are only drawn in the report;
+- `[sensor]`: `noise = "each"` when each of several recordings has its own measurement noise and random force (the
+  default), `noise = "shared"` when they have them in common; `offset = { a prior }` when the zeros of the sensors are
+  unknown, separately for each sensor and recording (SI unit of the channel).
+- `[experiment]`: limits for the next experiment that a diagnosis proposes: `max_level`, the largest amplitude (SI unit
+  of the excitation; another signal has the rms of such a sine), and `max_frequency` (Hz). The defaults are twice those
+  of the recording.
 
-In place of `name`, `[model]` may hold the machine itself: `equations`, one for each body, such as `"m*x'' + c*x' + k*x
-= force"`. A prime is d/dt; names that are neither a coordinate, an input nor a known function are parameters, and so
-are all in `known` and `estimate`. Each equation has the second derivative of one coordinate, times one parameter.
-Functions are `gap(x, k, x0)`, `stop(x, k, x0)` (one side), `sat(x, limit)`, `sign`, `abs`, `min`, `max`, `sqrt`, `exp`,
-`log` and those of trigonometry. Dimensions are checked; `units = { m = "kg" }` (SI) tells those that the equations
-leave open. Each coordinate is a channel (`x`, `x.velocity`, `x.acceleration`; the first is `position`, `velocity`,
-`acceleration` too) and a place for terms (`ground` for the first, else its name), as is each pair of coordinates that
-appears as a difference (`x1-x2`).
+Instead of `name`, `[model]` may contain the machine itself: `equations`, one for each body, such as `"m*x'' + c*x' +
+k*x = force"`. A prime is d/dt; names that are neither a coordinate, an input nor a known function are parameters, and
+so are all in `known` and `estimate`. Each equation has the second derivative of one coordinate, times one parameter.
+Functions are `gap(x, k, x0)`, `stop(x, k, x0)` (one side), `sat(x, limit)`, `sign`, `abs`, `min`, `max`, `sqrt`,
+`exp`, `log` and the trigonometric functions. Dimensions are checked; `units = { m = "kg" }` (SI) gives those that the
+equations do not determine. Each coordinate is a channel (`x`, `x.velocity`, `x.acceleration`; the first is also
+`position`, `velocity`, `acceleration`) and a place for terms (`ground` for the first, else its name), as is each pair
+of coordinates that appears as a difference (`x1-x2`).
 
-`motion` is "translation" or "rotation". Where it is not given the units of the recordings tell; where it is, units
-that say otherwise are refused, as are lengths and angles in one case.
+`motion` is "translation" or "rotation". By default it follows from the units of the recordings. Units that contradict
+it are refused, as are lengths and angles in one case.
 
-Per recording: `file`; `time` or `rate` (Hz); what drove the machine, as `excitation` or `inputs`; what was measured,
-as `response` or `sensors`; `name` (in results; the stem of the file otherwise); `hold = "step"` when a digital
-controller holds the inputs between samples ("smooth" otherwise); `t_start` and `t_end` (s) to cut out a piece;
-`start`, when it was recorded, which is kept and used for nothing. `time` is a column, or `{ column, unit }` with a
-unit out of s, ms, us, ns, min and h. Where the case gives none the file tells, by its header or by time stamps; else
-it is s. A unit that contradicts the header is refused.
+Per recording: `file`; `time` or `rate` (Hz); the drive, as `excitation` or `inputs`; the readings, as `response` or
+`sensors`; `name` (in results; by default the stem of the file); `hold = "step"` when a digital controller holds the
+inputs between samples ("smooth" otherwise); `t_start` and `t_end` (s) to select a part; `start`, the time of the
+recording, which is only stored. `time` is a column, or `{ column, unit }` with one of the units s, ms, us, ns, min and
+h. By default the unit follows from the header of the file or from time stamps, else it is s. A unit that contradicts
+the header is refused.
 
-The short form is one of each, and nothing has a name: `excitation` and `response` with `column`, `quantity`, `unit`,
-and `factor`, which multiplies the column before the unit is applied, for instance newtons per volt. `excitation =
-"none"` is a machine that nothing drives.
+The short form has one drive and one reading, without names: `excitation` and `response` with `column`, `quantity`,
+`unit`, and `factor`, which multiplies the column before the unit is applied, for instance newtons per volt.
+`excitation = "none"` means a machine that nothing drives.
 
-The long form is two lists. `inputs` has each input of the model at most once, those that are not there being zero; it
-is `[]` where nothing drives the machine, and the state in which it begins is then estimated. Per input: `input` (as
-the model names it: `force`, `second_force`, `base_position`, `base_acceleration`), `column`, `unit`, `factor`.
-`sensors` has one sensor or more. Per sensor: `channel` (as the model names it: `position`, `second_velocity`,
+The long form has two lists. `inputs` contains each input of the model at most once; inputs that are not listed are
+zero. It is `[]` where nothing drives the machine; the initial state is then estimated. Per input: `input` (its name in
+the model: `force`, `second_force`, `base_position`, `base_acceleration`), `column`, `unit`, `factor`.
+`sensors` contains at least one sensor. Per sensor: `channel` (its name in the model: `position`, `second_velocity`,
 `acceleration`), `column`, `unit`, `factor`, and
 
-- `name`: what results call it, and the place of its terms, as in `sensor_delay@load encoder`. That of its channel
-  where none is given. Names differ within a recording and have none of `[ ] : / @ .` in them;
-- `noise`: "white" where nothing is said; "quantised", in whole steps that are read off the stored values; "ar1", with
-  a part that has a memory. A diagnosis tries a memory by itself where the recording asks for it.
+- `name`: its name in results, and the place of its terms, as in `sensor_delay@load encoder`. The default is the name
+  of its channel. Names differ within a recording and contain none of `[ ] : / @ .`;
+- `noise`: "white" (the default); "quantised", in whole steps that are found from the stored values; "ar1", with a part
+  that is correlated in time. A diagnosis tries correlated noise itself where the recording shows it.
 
-The last part of an input or a channel is its quantity (position, velocity, acceleration or force), which says what
-units it may have. A torque is the force of a rotation, and `g` is 9.80665 m/s^2 in an acceleration. A reading of a
-sensor that is NaN or empty was not taken: sensors of different rates share one table. All recordings of a case have
-the same sensors, by name and channel.
+The last part of an input or a channel is its quantity (position, velocity, acceleration or force), which
+determines the allowed units. A torque is the force of a rotation, and `g` is 9.80665 m/s^2 in an acceleration. A
+reading of a sensor that is NaN or empty is missing: sensors of different rates can share one table. All recordings of a
+case have the same sensors, by name and channel.
 
 Per level of a sinusoidal drive: `amplitude` and its `unit` (of a force, a torque or a base motion); `frequency` (Hz)
-or `omega` (rad/s); `name`; and what was measured there, at least one of `motion = "periodic"` or `"chaotic"`,
+or `omega` (rad/s); `name`; and the measured results, at least one of `motion = "periodic"` or `"chaotic"`,
 `lyapunov` (`unit = "1/s"` or `"bit/s"`) and `d2`. A measured number is `{ value, sd }`, or `{ value, low, high }`
 with a 95 % interval.
 
@@ -65,10 +65,10 @@ A prior in `[model.estimate]` is one of
 - `{ median, sd_log }`: log-normal, `sd_log` being the standard deviation of the natural logarithm;
 - `{ half_sd }`: half-normal, from 0 up;
 
-and with `each = true` each recording has a value of its own, where otherwise all share one.
+and with `each = true` each recording has its own value; otherwise all share one.
 """
 
-from lostmotion.case.channels import check_alike
+from lostmotion.case.channels import check_same_sensors
 from lostmotion.case.levels import Level, Measured
 from lostmotion.case.load import WRITTEN, CaseFile, Experiment, SensorSpec, load_case
 from lostmotion.case.prior import Prior
@@ -77,5 +77,5 @@ from lostmotion.recording import Channel, RecordingSpec
 
 __all__ = [
     "WRITTEN", "CaseFile", "Channel", "Experiment", "Level", "Measured", "Prior", "RecordingSpec", "SensorSpec",
-    "check_alike", "dump_case", "load_case",
+    "check_same_sensors", "dump_case", "load_case",
 ]  # fmt: skip

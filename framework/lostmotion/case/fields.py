@@ -1,4 +1,4 @@
-"""The entries of a case file, each asked for by key and type; what is wrong is said with its place."""
+"""Access to the entries of a case file by key and type, with errors that name their place."""
 
 from __future__ import annotations
 
@@ -12,21 +12,21 @@ from unicodedata import category
 from lostmotion.errors import CaseError, nearest
 
 LONGEST, MOST = 1000, 1000
-"""Characters of a text, and tables of one kind, at most."""
+"""The greatest number of characters of a text, and of tables of one kind."""
 _CONTROLS = ("Cc", "Cs", "Zl", "Zp")
 _WORDS = {str: "text", bool: "true or false", int: "a number", float: "a number", list: "a list", dict: "a table"}
 
 
 @dataclass(frozen=True)
 class Fields:
-    """A table of the case file and where it stands, for instance `recordings[0].response`."""
+    """A table of the case file and its place, for instance `recordings[0].response`."""
 
     file: str
     place: str
     values: Mapping[str, Any]
 
     def only(self, known: Iterable[str]) -> Fields:
-        """Return the table itself, having refused every key that is not among `known`."""
+        """Return the table itself; raise `CaseError` for a key that is not among `known`."""
         known = list(known)
         for key in self.values:
             if key not in known:
@@ -40,7 +40,7 @@ class Fields:
     def wrong(self, key: str, wanted: str) -> CaseError:
         """Return an error on the value of `key`."""
         value = self.values[key]
-        found = f"{_WORDS.get(type(value), type(value).__name__)} ({_shown(value)})"[:80]
+        found = f"{_WORDS.get(type(value), type(value).__name__)} ({_format_value(value)})"[:80]
         return self.error(f"has {found} as {key!r}: wanted {wanted}")
 
     def text(self, key: str) -> str:
@@ -119,7 +119,7 @@ class Fields:
         if not isinstance(value, list) or not value or not all(isinstance(v, dict) for v in value):
             raise self.wrong(key, f"at least one table, headed [[{key}]]")
         if len(value) > MOST:
-            raise self.error(f"has {len(value)} [[{key}]], at most {MOST} are taken: make several cases of it")
+            raise self.error(f"has {len(value)} [[{key}]], at most {MOST} are read: divide it into several cases")
         for i, entry in enumerate(value):
             yield Fields(self.file, f"{self._below(key)}[{i}]", entry)
 
@@ -144,8 +144,8 @@ class Fields:
         return key if self.place == "the case" else f"{self.place}.{key}"
 
 
-def _shown(value: object) -> str:
-    """Return a value as text; one that nests too deep or has too many digits is only named."""
+def _format_value(value: object) -> str:
+    """Return a value as text; "..." for one that is nested too deeply or has too many digits."""
     try:
         return repr(value)
     except (RecursionError, ValueError):

@@ -1,4 +1,4 @@
-"""Levels of a drive at which chaos was measured, typed in: what the case says where no recording is at hand."""
+"""Levels of a drive with measures of chaos, entered in the case where no recording is available."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Motion = Literal["periodic", "chaotic"]
 LEVEL = ("amplitude", "unit", "frequency", "omega", "name", "motion", "lyapunov", "d2")
 MEASURED = ("value", "sd", "low", "high")
 UNITS = {"1/s": 1.0, "bit/s": math.log(2.0)}
-"""What turns an exponent into 1/s, base e."""
+"""The factors that convert an exponent to 1/s, base e."""
 WIDTH = 2.0 * 1.959963984540054
 """The width of a 95 % interval in standard deviations of a normal distribution."""
 
@@ -32,7 +32,7 @@ class Measured:
 class Level:
     """One level of a sinusoidal drive, `amplitude` (N, N m, m or rad, as `unit` says) and `omega` (rad/s).
 
-    What was measured there, as far as it was: kind of motion, largest Lyapunov exponent, correlation dimension.
+    The results measured there, as far as known: kind of motion, largest Lyapunov exponent, correlation dimension.
     """
 
     name: str
@@ -45,23 +45,23 @@ class Level:
 
 
 def levels_of(top: Fields) -> tuple[Level, ...]:
-    """Return the levels of a case, with names that differ; none where it has no [[levels]]."""
+    """Return the levels of a case, with unique names; none where it has no [[levels]]."""
     if "levels" not in top.values:
         return ()
-    return tuple(_named_apart([_level(fields) for fields in top.tables("levels")]))
+    return tuple(_number_names([_read_level(fields) for fields in top.tables("levels")]))
 
 
-def _level(fields: Fields) -> Level:
+def _read_level(fields: Fields) -> Level:
     fields.only(LEVEL)
     amplitude, unit = fields.positive("amplitude"), fields.text("unit")
-    factor, si = _drive_unit(fields, unit)
+    factor, si = _read_drive_unit(fields, unit)
     level = Level(
         name=fields.maybe_text("name") or f"{amplitude:g} {unit}",
         amplitude=amplitude * factor,
-        omega=_omega(fields),
+        omega=_read_omega(fields),
         motion=cast(Motion, fields.choice("motion", ("periodic", "chaotic"))) if "motion" in fields.values else None,
-        lyapunov=_exponent(fields),
-        d2=_dimension(fields),
+        lyapunov=_read_exponent(fields),
+        d2=_read_dimension(fields),
         unit=si,
     )
     if level.motion is None and level.lyapunov is None and level.d2 is None:
@@ -69,8 +69,8 @@ def _level(fields: Fields) -> Level:
     return level
 
 
-def _drive_unit(fields: Fields, unit: str) -> tuple[float, str]:
-    """Return the factor and the SI unit of a drive, which is a force or a torque, or a motion of the base."""
+def _read_drive_unit(fields: Fields, unit: str) -> tuple[float, str]:
+    """Return the factor and the SI unit of a drive, which is a force, a torque or a motion of the base."""
     try:
         return si_factor(unit, "force")
     except DataError:
@@ -83,7 +83,7 @@ def _drive_unit(fields: Fields, unit: str) -> tuple[float, str]:
         ) from err
 
 
-def _omega(fields: Fields) -> float:
+def _read_omega(fields: Fields) -> float:
     """Return the angular frequency of the drive in rad/s."""
     if ("frequency" in fields.values) == ("omega" in fields.values):
         found = "both frequency and omega" if "omega" in fields.values else "neither frequency nor omega"
@@ -91,40 +91,42 @@ def _omega(fields: Fields) -> float:
     return fields.positive("omega") if "omega" in fields.values else 2.0 * math.pi * fields.positive("frequency")
 
 
-def _exponent(fields: Fields) -> Measured | None:
+def _read_exponent(fields: Fields) -> Measured | None:
     if "lyapunov" not in fields.values:
         return None
     table = fields.table("lyapunov").only((*MEASURED, "unit"))
     factor = UNITS[table.choice("unit", UNITS)] if "unit" in table.values else 1.0
-    found = _measured(table)
+    found = _read_measured(table)
     return Measured(found.value * factor, found.sd * factor)
 
 
-def _dimension(fields: Fields) -> Measured | None:
+def _read_dimension(fields: Fields) -> Measured | None:
     if "d2" not in fields.values:
         return None
     table = fields.table("d2").only(MEASURED)
     if table.number("value") < 0:
         raise table.wrong("value", "a dimension, which is not negative")
-    return _measured(table)
+    return _read_measured(table)
 
 
-def _measured(table: Fields) -> Measured:
-    """Return a value with its standard deviation, which is given or read off a 95 % interval."""
+def _read_measured(table: Fields) -> Measured:
+    """Return a value with its standard deviation, which is given or computed from a 95 % interval."""
     value, interval = table.number("value"), {"low", "high"} & table.values.keys()
     if bool(interval) == ("sd" in table.values) or len(interval) == 1:
         found = ", ".join(key for key in MEASURED[1:] if key in table.values) or "no error"
-        raise table.error(f"has {found} beside the value: give sd, or low and high of a 95 % interval")
+        raise table.error(f"has {found} besides the value: give sd, or low and high of a 95 % interval")
     if not interval:
         return Measured(value, table.positive("sd"))
     low, high = table.number("low"), table.number("high")
     if not low <= value <= high or low == high:
-        raise table.error(f"has value = {value:g} with low = {low:g} and high = {high:g}: the value lies between them")
+        raise table.error(
+            f"has value = {value:g} with low = {low:g} and high = {high:g}: the value must lie between them"
+        )
     return Measured(value, (high - low) / WIDTH)
 
 
-def _named_apart(levels: list[Level]) -> Iterator[Level]:
-    """Yield the levels with names that differ: a name that comes again is numbered."""
+def _number_names(levels: list[Level]) -> Iterator[Level]:
+    """Yield the levels with unique names: a repeated name gets a number."""
     taken: set[str] = set()
     for level in levels:
         name, k = level.name, 1

@@ -1,4 +1,4 @@
-"""A case file, read and checked key by key."""
+"""Reading of a case file, with a check of each key."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ TIME = ("column", "unit")
 MODEL = ("name", "equations", "units", "motion", "known", "estimate")
 SENSOR = ("noise", "offset")
 WRITTEN = "equations"
-"""The name of a model that is written down."""
+"""The name of a model that is given by equations."""
 EXPERIMENT = ("max_level", "max_frequency")
 PRIOR = ("low", "high", "scale", "mean", "sd", "median", "sd_log", "half_sd")
 FORMS = ({"low", "high"}, {"mean", "sd"}, {"median", "sd_log"}, {"half_sd"})
 
 LARGEST, DOTS = 2**20, 50
-"""Bytes of a case file and dots in one line of it, at most."""
+"""The greatest size (bytes) of a case file, and number of dots in one line."""
 
 Sharing = Literal["each", "shared"]
 Motion = Literal["translation", "rotation"]
@@ -40,9 +40,9 @@ Motion = Literal["translation", "rotation"]
 
 @dataclass(frozen=True)
 class SensorSpec:
-    """What is believed of the measurement: whether several recordings share one `noise` or each has its own.
+    """Assumptions about the measurement: whether several recordings share one `noise` or each has its own.
 
-    `offset` is the prior of the zero of the response, in each recording anew, in the SI unit of the channel.
+    `offset` is the prior of the zero of a sensor, separate for each recording, in the SI unit of the channel.
     """
 
     noise: Sharing = "each"
@@ -51,9 +51,9 @@ class SensorSpec:
 
 @dataclass(frozen=True)
 class Experiment:
-    """What the next experiment may ask: the largest amplitude (SI unit of the excitation), the highest frequency (Hz).
+    """Limits of the next experiment: the largest amplitude (SI unit of the excitation), the highest frequency (Hz).
 
-    Where nothing is said, twice those of the recording.
+    The defaults are twice those of the recording.
     """
 
     max_level: float | None = None
@@ -62,12 +62,12 @@ class Experiment:
 
 @dataclass(frozen=True)
 class CaseFile:
-    """What was recorded, what is believed and what is to be estimated, in SI units.
+    """A case: measurements, known parameters and priors of the parameters to be estimated, in SI units.
 
-    `folder` is where the case file lies: the files of `recordings` and `plugins` are relative to it. `truth` holds
-    true values for the report alone. `digest` is the SHA-256 of the case file. A case may be without recordings or
-    without levels: whoever needs them says so. A model that is written down has `equations` and, where they leave
-    these open, `units` of its parameters.
+    `folder` is the folder of the case file, to which the files of `recordings` and `plugins` are relative. `truth`
+    contains true values for the report only. `digest` is the SHA-256 of the case file. A case may have no recordings
+    or no levels; commands that need them raise an error. A model given by `equations` may have `units` of parameters
+    that the equations do not determine.
     """
 
     title: str
@@ -88,15 +88,15 @@ class CaseFile:
 
 
 def load_case(path: Path) -> CaseFile:
-    """Return the case that the TOML file `path` describes; `CaseError` for anything that cannot be meant."""
+    """Return the case in the TOML file `path`; raise `CaseError` for anything that cannot be valid."""
     path = Path(path)
     top = Fields(path.name, "the case", _parse(path)).only(TOP)
     model = top.table("model").only(MODEL)
     known = model.maybe_table("known").numbers()
     motion = cast(Motion, model.choice("motion", get_args(Motion))) if "motion" in model.values else None
-    name, equations = _model(model)
+    name, equations = _read_model(model)
     units = {key: model.table("units").text(key) for key in model.maybe_table("units").values}
-    estimate = _estimate(model, known)
+    estimate = _read_estimate(model, known)
     coordinate = ""
     if equations:
         named = {key for key in (*known, *estimate) if "." not in key}
@@ -107,31 +107,31 @@ def load_case(path: Path) -> CaseFile:
     return CaseFile(
         title=top.maybe_text("title") or path.stem,
         folder=path.parent,
-        recordings=tuple(_aliased(spec, coordinate) for spec in _recordings(top)),
+        recordings=tuple(_rename_channels(spec, coordinate) for spec in _read_recordings(top)),
         model=name,
         known=known,
         estimate=estimate,
         truth=top.maybe_table("truth").numbers(),
-        plugins=_plugins(top, path.parent),
+        plugins=_read_plugins(top, path.parent),
         digest=digest(path),
-        sensor=_sensor(top),
+        sensor=_read_sensor(top),
         levels=levels_of(top),
-        experiment=_experiment(top),
+        experiment=_read_experiment(top),
         motion=motion,
         equations=equations,
         units=units,
     )
 
 
-def _model(model: Fields) -> tuple[str, tuple[str, ...]]:
-    """Return the name of a model, or that of one that is written down, with its equations."""
+def _read_model(model: Fields) -> tuple[str, tuple[str, ...]]:
+    """Return the name of the model, and its equations if it is given by equations."""
     if "name" in model.values and "equations" in model.values:
         raise model.error("has both name and equations: give one of them")
     if "name" not in model.values and "equations" not in model.values:
         raise model.error("lacks 'name': add name = \"lin_backlash\", or equations = [\"m*x'' + c*x' + k*x = force\"]")
     if "name" in model.values:
         if "units" in model.values:
-            raise model.error("has units beside name: they go with equations")
+            raise model.error("has units besides name: units belong to equations")
         return model.text("name"), ()
     value = model.values["equations"]
     equations = (model.text("equations"),) if isinstance(value, str) else model.texts("equations")
@@ -140,8 +140,8 @@ def _model(model: Fields) -> tuple[str, tuple[str, ...]]:
     return WRITTEN, equations
 
 
-def _aliased(spec: RecordingSpec, coordinate: str) -> RecordingSpec:
-    """Return a recording whose sensors of the first coordinate show `position`, `velocity` or `acceleration`."""
+def _rename_channels(spec: RecordingSpec, coordinate: str) -> RecordingSpec:
+    """Return a recording in which sensors of the first coordinate have the channels `position`, `velocity`, ..."""
     if not coordinate:
         return spec
     same = {coordinate: "position"} | {f"{coordinate}.{rate}": rate for rate in ("velocity", "acceleration")}
@@ -150,32 +150,34 @@ def _aliased(spec: RecordingSpec, coordinate: str) -> RecordingSpec:
 
 def _parse(path: Path) -> dict[str, Any]:
     try:
-        return tomllib.loads(_text(path))
-    except (tomllib.TOMLDecodeError, ValueError) as err:  # a plain ValueError for a number of thousands of digits
-        raise CaseError(f"{path.name} is not valid TOML ({err}): correct it there") from err
+        return tomllib.loads(_read_text(path))
+    except (tomllib.TOMLDecodeError, ValueError) as err:  # ValueError is raised for a number with thousands of digits
+        raise CaseError(f"{path.name} is not valid TOML ({err}): correct this place") from err
     except RecursionError as err:
         raise CaseError(f"{path.name} nests lists or tables hundreds deep: a case needs three levels") from err
 
 
-def _text(path: Path) -> str:
-    """Return the text of a case, of a size that can be one."""
+def _read_text(path: Path) -> str:
+    """Return the text of a case file; raise `CaseError` if it is too large or is no text."""
     try:
         if path.exists() and not (path.is_file() or path.is_dir()):
-            raise CaseError(f"{path.name} cannot be read (it is no ordinary file): give the path of a case file")
+            raise CaseError(f"{path.name} cannot be read (it is not a regular file): give the path of a case file")
         if path.is_file() and path.stat().st_size > LARGEST:
-            raise CaseError(f"{path.name} holds {path.stat().st_size} bytes, a case {LARGEST} at most: is it one?")
+            raise CaseError(
+                f"{path.name} holds {path.stat().st_size} bytes, and a case {LARGEST} at most: is it a case file?"
+            )
         text = path.read_text(encoding="utf-8-sig")
     except (OSError, ValueError) as err:
         if isinstance(err, UnicodeDecodeError):
             raise CaseError(f"{path.name} is not text in UTF-8: wanted a case in TOML, save it as UTF-8") from err
         said = getattr(err, "strerror", None) or err
         raise CaseError(f"{path.name} cannot be read ({said}): give the path of a case file") from err
-    if any(line.count(".") > DOTS for line in text.splitlines()):  # the parser is slow on keys of many parts
+    if any(line.count(".") > DOTS for line in text.splitlines()):  # the TOML parser is slow for keys of many parts
         raise CaseError(f"{path.name} has a line with more than {DOTS} dots: keys of a case have three parts at most")
     return text
 
 
-def _plugins(top: Fields, folder: Path) -> tuple[str, ...]:
+def _read_plugins(top: Fields, folder: Path) -> tuple[str, ...]:
     files = top.texts("plugins")
     for file in files:
         if not (folder / file).is_file():
@@ -183,16 +185,16 @@ def _plugins(top: Fields, folder: Path) -> tuple[str, ...]:
     return files
 
 
-def _recordings(top: Fields) -> tuple[RecordingSpec, ...]:
+def _read_recordings(top: Fields) -> tuple[RecordingSpec, ...]:
     if "recordings" not in top.values:
         return ()
-    return tuple(_named_apart([_recording(fields) for fields in top.tables("recordings")]))
+    return tuple(_number_names([_read_recording(fields) for fields in top.tables("recordings")]))
 
 
-def _recording(fields: Fields) -> RecordingSpec:
+def _read_recording(fields: Fields) -> RecordingSpec:
     fields.only(RECORDING)
     _check_span(fields)
-    column, unit = _time(fields)
+    column, unit = _read_time(fields)
     return RecordingSpec(
         file=fields.path("file"),
         time=column,
@@ -202,22 +204,22 @@ def _recording(fields: Fields) -> RecordingSpec:
         hold=cast(Hold, fields.choice("hold", ("smooth", "step")) if "hold" in fields.values else "smooth"),
         t_start=fields.maybe_number("t_start"),
         t_end=fields.maybe_number("t_end"),
-        name=_name(fields),
+        name=_read_name(fields),
         time_unit=unit,
         start=fields.maybe_text("start"),
     )
 
 
-def _time(fields: Fields) -> tuple[str | None, str | None]:
-    """Return the time column and its unit, as far as the case gives them."""
+def _read_time(fields: Fields) -> tuple[str | None, str | None]:
+    """Return the time column and its unit, each None where the case gives none."""
     if not isinstance(fields.values.get("time"), dict):
         return fields.maybe_text("time"), None
     table = fields.table("time").only(TIME)
     return table.text("column"), table.maybe_text("unit")
 
 
-def _name(fields: Fields) -> str | None:
-    """Return the name of a recording; results are stored under it, so it is no path."""
+def _read_name(fields: Fields) -> str | None:
+    """Return the name of a recording, which must be no path, since results are stored under it."""
     name = fields.maybe_text("name")
     if name and "/" in name:
         raise fields.wrong("name", "a name without '/'")
@@ -233,8 +235,8 @@ def _check_span(fields: Fields) -> None:
         raise fields.error(f"has t_start = {start:g} and t_end = {end:g}: t_start must lie before t_end")
 
 
-def _named_apart(specs: list[RecordingSpec]) -> Iterator[RecordingSpec]:
-    """Yield the recordings with names that differ; a clash of file stems is numbered, a clash of names refused."""
+def _number_names(specs: list[RecordingSpec]) -> Iterator[RecordingSpec]:
+    """Yield the recordings with unique names: equal file stems get numbers, equal given names raise `CaseError`."""
     given = Counter(spec.name for spec in specs if spec.name)
     for name, count in given.items():
         if count > 1:
@@ -249,28 +251,28 @@ def _named_apart(specs: list[RecordingSpec]) -> Iterator[RecordingSpec]:
         yield replace(spec, name=name)
 
 
-def _estimate(model: Fields, known: Mapping[str, float]) -> dict[str, Prior]:
+def _read_estimate(model: Fields, known: Mapping[str, float]) -> dict[str, Prior]:
     fields = model.maybe_table("estimate")
     both = [name for name in fields.values if name in known]
     if both:
-        raise model.error(f"has {both[0]!r} both known and estimated: take it out of one of the two")
-    return {name: _prior(fields.table(name), ("each",)) for name in fields.values}
+        raise model.error(f"has {both[0]!r} both known and estimated: remove it from one of the two")
+    return {name: _read_prior(fields.table(name), ("each",)) for name in fields.values}
 
 
-def _sensor(top: Fields) -> SensorSpec:
+def _read_sensor(top: Fields) -> SensorSpec:
     fields = top.maybe_table("sensor").only(SENSOR)
     noise = fields.choice("noise", get_args(Sharing)) if "noise" in fields.values else "each"
-    offset = _prior(fields.table("offset")) if "offset" in fields.values else None
+    offset = _read_prior(fields.table("offset")) if "offset" in fields.values else None
     return SensorSpec(cast(Sharing, noise), offset)
 
 
-def _experiment(top: Fields) -> Experiment:
+def _read_experiment(top: Fields) -> Experiment:
     fields = top.maybe_table("experiment").only(EXPERIMENT)
     return Experiment(**{key: fields.positive(key) for key in fields.values})
 
 
-def _prior(fields: Fields, more: tuple[str, ...] = ()) -> Prior:
-    """Return a prior; `more` are the keys beside its numbers that are known where it stands."""
+def _read_prior(fields: Fields, more: tuple[str, ...] = ()) -> Prior:
+    """Return a prior; `more` are further keys that are allowed at its place."""
     fields.only((*PRIOR, *more))
     if not any(form <= fields.values.keys() for form in FORMS):
         wanted = "neither low and high nor mean and sd nor median and sd_log nor half_sd"

@@ -1,4 +1,4 @@
-"""What is believed of a parameter before the recording is seen."""
+"""Prior distributions of parameters."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ _FORMS = "low and high, mean and sd, median and sd_log, or half_sd alone"
 
 @dataclass(frozen=True)
 class Prior:
-    """One of five densities of a parameter, in the parameter's unit; which one, the given numbers tell.
+    """One of five prior densities of a parameter, in its unit; the given numbers select the density.
 
     `low` and `high`: uniform, or log-uniform with `scale = "log"`. `mean` and `sd`: normal. `median` and `sd_log`:
-    log-normal, `sd_log` being the standard deviation of the natural logarithm. `half_sd`: a normal density about
-    zero with that standard deviation, of which the positive half is kept. `each`: one value for each recording.
+    log-normal, where `sd_log` is the standard deviation of the natural logarithm. `half_sd`: half-normal, the positive
+    half of a normal density about zero with that standard deviation. `each`: one value for each recording.
     """
 
     low: float = -math.inf
@@ -63,7 +63,7 @@ class Prior:
         bounded = math.isfinite(self.low) or math.isfinite(self.high) or self.scale == "log"
         if len(forms) + bounded > 1:
             other = forms[1] if len(forms) > 1 else "low, high or scale"
-            raise CaseError(f"gives {forms[0]} beside {other}: give either one pair or the other ({_FORMS})")
+            raise CaseError(f"gives {forms[0]} besides {other}: give either one pair or the other ({_FORMS})")
 
     def _check_span(self) -> None:
         if not self.low < self.high:
@@ -93,9 +93,9 @@ class Prior:
 
     @property
     def bell(self) -> tuple[float, float] | None:
-        """The mean and the standard deviation of the normal density it is made of; None where it is uniform.
+        """The mean and the standard deviation of the underlying normal density; None for a uniform prior.
 
-        That of a log-normal prior is one of the natural logarithm, that of a half-normal prior one of both halves.
+        For a log-normal prior it is the density of the natural logarithm, for a half-normal prior that of both halves.
         """
         if self.mean is not None and self.sd is not None:
             return self.mean, self.sd
@@ -113,11 +113,11 @@ class Prior:
         if self.bell is None:
             return -math.log(value) - math.log(math.log(high / low))
         if self.kind == "log-normal":
-            return _log_normal(math.log(value), *self.bell) - math.log(value) if value else -math.inf
-        return _log_normal(value, *self.bell) + (math.log(2.0) if self.kind == "half-normal" else 0.0)
+            return _normal_log_density(math.log(value), *self.bell) - math.log(value) if value else -math.inf
+        return _normal_log_density(value, *self.bell) + (math.log(2.0) if self.kind == "half-normal" else 0.0)
 
     def quantile(self, share: float) -> float:
-        """Return the value below which lies the given share of the distribution, for a share from 0 to 1."""
+        """Return the quantile of the distribution for a probability `share` from 0 to 1."""
         if self.kind == "uniform":
             return self.low + share * (self.high - self.low)
         if self.bell is None:
@@ -129,13 +129,13 @@ class Prior:
         return value if self.kind == "normal" else math.exp(value)
 
     def start(self) -> float:
-        """Return the median."""
+        """Return the median, at which a fit starts."""
         if self.kind == "log-uniform":
             return math.sqrt(self.low) * math.sqrt(self.high)
         return self.quantile(0.5)
 
 
-def _log_normal(value: float, mean: float, sd: float) -> float:
+def _normal_log_density(value: float, mean: float, sd: float) -> float:
     return -0.5 * ((value - mean) / sd) ** 2 - math.log(sd) - 0.5 * math.log(2.0 * math.pi)
 
 

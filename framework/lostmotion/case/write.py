@@ -1,4 +1,4 @@
-"""A small writer of TOML: what a case needs and no more."""
+"""A small writer of TOML for the constructs that a case needs."""
 
 from __future__ import annotations
 
@@ -10,43 +10,45 @@ from typing import Any
 
 
 def dump_case(case: Mapping[str, Any], path: Path) -> None:
-    """Write a case, given as the nested dictionaries that its TOML stands for, to the file `path`."""
-    Path(path).write_text("\n".join(_table(case, ())).lstrip("\n") + "\n", encoding="utf-8")
+    """Write a case, given as nested dictionaries with the structure of its TOML, to the file `path`."""
+    Path(path).write_text("\n".join(_write_table(case, ())).lstrip("\n") + "\n", encoding="utf-8")
 
 
-def _table(content: Mapping[str, Any], place: tuple[str, ...]) -> Iterator[str]:
-    """Yield the lines of a table: values first, then lists of tables, then tables; below `[a.b]` all is inline."""
+def _write_table(content: Mapping[str, Any], place: tuple[str, ...]) -> Iterator[str]:
+    """Yield the lines of a table: values, lists of tables, tables; below `[a.b]` everything is written inline."""
     heads = {k: v for k, v in content.items() if isinstance(v, Mapping) and len(place) < 2}
     lists = {k: v for k, v in content.items() if not place and _is_tables(v)}
-    yield from _values({k: v for k, v in content.items() if k not in heads and k not in lists})
+    yield from _write_values({k: v for k, v in content.items() if k not in heads and k not in lists})
     for key, entries in lists.items():
         for entry in entries:
-            yield f"\n[[{_key(key)}]]"
-            yield from _values(entry)
+            yield f"\n[[{_format_key(key)}]]"
+            yield from _write_values(entry)
     for key, inner in heads.items():
-        yield f"\n[{'.'.join(map(_key, (*place, key)))}]"
-        yield from _table(inner, (*place, key))
+        yield f"\n[{'.'.join(map(_format_key, (*place, key)))}]"
+        yield from _write_table(inner, (*place, key))
 
 
 def _is_tables(value: Any) -> bool:
     return isinstance(value, (list, tuple)) and bool(value) and all(isinstance(v, Mapping) for v in value)
 
 
-def _values(content: Mapping[str, Any]) -> Iterator[str]:
+def _write_values(content: Mapping[str, Any]) -> Iterator[str]:
     for key, value in content.items():
         if value is not None:
-            yield f"{_key(key)} = {_value(value)}"
+            yield f"{_format_key(key)} = {_format_value(value)}"
 
 
-def _key(key: str) -> str:
+def _format_key(key: str) -> str:
     return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else json.dumps(key)
 
 
-def _value(value: Any) -> str:
+def _format_value(value: Any) -> str:
     if isinstance(value, Mapping):
-        return "{ " + ", ".join(f"{_key(k)} = {_value(v)}" for k, v in value.items() if v is not None) + " }"
+        return (
+            "{ " + ", ".join(f"{_format_key(k)} = {_format_value(v)}" for k, v in value.items() if v is not None) + " }"
+        )
     if isinstance(value, (list, tuple)):
-        return "[" + ", ".join(map(_value, value)) + "]"
+        return "[" + ", ".join(map(_format_value, value)) + "]"
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, (str, Path)):

@@ -14,7 +14,7 @@ from click.shell_completion import CompletionItem
 
 from lostmotion.errors import LostMotionError, PluginWarning, nearest
 from lostmotion.registry import KINDS, Registry, default
-from lostmotion.registry.classes import imported
+from lostmotion.registry.classes import import_target
 from lostmotion.registry.hooks import COMMAND
 
 EXIT_INTERRUPTED = 130
@@ -87,7 +87,7 @@ class LazyGroup(click.Group):
         added = registry_of(ctx).commands()
         if cmd_name not in added:
             return None
-        command: click.Command = imported(added[cmd_name].target, added[cmd_name].whose, click.Command)
+        command: click.Command = import_target(added[cmd_name].target, added[cmd_name].whose, click.Command)
         return command
 
     def resolve_command(

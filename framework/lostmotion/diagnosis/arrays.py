@@ -7,15 +7,15 @@ from collections.abc import Mapping
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.diagnosis.attractors import section
+from lostmotion.diagnosis.attractors import take_section
 from lostmotion.diagnosis.findings import Outcome
-from lostmotion.diagnosis.search import Diagnosed, Located, base_keys
+from lostmotion.diagnosis.search import ForceLocation, SearchResult, list_physical_keys
 from lostmotion.inference.fit import Fit
 from lostmotion.quantities import unit_of
 from lostmotion.storage import StoredArray
 
 PORTRAIT = 3000
-WHOSE = {
+MOTION_NAMES = {
     "recorded": "smoothed motion of the recording",
     "before": "free run of the nominal model",
     "after": "free run of the augmented model",
@@ -23,45 +23,47 @@ WHOSE = {
 PREDICTED = "free-running prediction of the"
 
 
-def arrays_of(outcome: Outcome, motions: Mapping[str, Array]) -> tuple[dict[str, StoredArray], dict[str, StoredArray]]:
-    """Return the variables and the coordinates of `arrays.nc`; `motions` are those of `motions_of`."""
+def list_arrays(
+    outcome: Outcome, motions: Mapping[str, Array]
+) -> tuple[dict[str, StoredArray], dict[str, StoredArray]]:
+    """Return the variables and the coordinates of `arrays.nc`; `motions` are those of `list_motions`."""
     d = outcome.diagnosis
     variables = {
-        **_series(outcome),
-        **_further(outcome),
-        **_curves(d),
-        **_portraits(d, motions),
-        **_growth(outcome),
-        **_draws(outcome),
+        **_list_series(outcome),
+        **_list_further_sensors(outcome),
+        **_list_curves(d),
+        **_list_portraits(d, motions),
+        **_list_growth(outcome),
+        **_list_draws(outcome),
     }
     coords = {
         "time": StoredArray(("time",), d.shown.time, "s", "time from the start of the recording"),
         "covariate": StoredArray(("covariate",), list(d.located.curves)),
         "lead": StoredArray(("lead",), outcome.before.lead, "s", "time from the start of a free run"),
         "lag": StoredArray(("lag",), np.arange(1, len(outcome.before.acf) + 1), "1", "lag in samples"),
-        "parameter": StoredArray(("parameter",), base_keys(d.before)),
-        "parameter_after": StoredArray(("parameter_after",), base_keys(d.after)),
-        "parameter_unit": StoredArray(("parameter",), _units_of(d.before)),
-        "parameter_after_unit": StoredArray(("parameter_after",), _units_of(d.after)),
+        "parameter": StoredArray(("parameter",), list_physical_keys(d.before)),
+        "parameter_after": StoredArray(("parameter_after",), list_physical_keys(d.after)),
+        "parameter_unit": StoredArray(("parameter",), _list_units(d.before)),
+        "parameter_after_unit": StoredArray(("parameter_after",), _list_units(d.after)),
     }
     return variables, coords
 
 
-def _units_of(fit: Fit) -> list[str]:
+def _list_units(fit: Fit) -> list[str]:
     """Return the SI unit of each physical parameter of a fit."""
     units = {free.key: free.unit for free in fit.problem.free}
-    return [units[key] for key in base_keys(fit)]
+    return [units[key] for key in list_physical_keys(fit)]
 
 
-def units_of(d: Diagnosed) -> dict[str, str]:
+def name_units(d: SearchResult) -> dict[str, str]:
     """Return the SI units of position, velocity, acceleration and force in the model of a diagnosis."""
     if d.after.problem.system.model.motion == "rotation":
         return {"position": "rad", "velocity": "rad/s", "acceleration": "rad/s^2", "force": "N m"}
     return {"position": "m", "velocity": "m/s", "acceleration": "m/s^2", "force": "N"}
 
 
-def _series(outcome: Outcome) -> dict[str, StoredArray]:
-    d, units = outcome.diagnosis, units_of(outcome.diagnosis)
+def _list_series(outcome: Outcome) -> dict[str, StoredArray]:
+    d, units = outcome.diagnosis, name_units(outcome.diagnosis)
     shown, missing = d.shown, d.located.missing
     model = d.after.problem.system.model
     seen = unit_of(shown.channel, model.motion)
@@ -92,7 +94,7 @@ def _series(outcome: Outcome) -> dict[str, StoredArray]:
     return table
 
 
-def _further(outcome: Outcome) -> dict[str, StoredArray]:
+def _list_further_sensors(outcome: Outcome) -> dict[str, StoredArray]:
     """Return readings and predictions of the sensors behind the first: `response_2`, `forecast_before_2`, ..."""
     d, time, table = outcome.diagnosis, ("time",), {}
     motion = d.after.problem.system.model.motion
@@ -106,15 +108,15 @@ def _further(outcome: Outcome) -> dict[str, StoredArray]:
     return table
 
 
-def _curves(d: Diagnosed) -> dict[str, StoredArray]:
-    units = {**units_of(d), "phase": "cycles", "time": "s"}
+def _list_curves(d: SearchResult) -> dict[str, StoredArray]:
+    units = {**name_units(d), "phase": "cycles", "time": "s"}
     units |= {name: units[name.split()[0]] for name in d.located.curves}
     names = list(d.located.curves)
     width = max(len(c.mean) for c in d.located.curves.values())
     force = units["force"]
 
-    def stacked(located: Located, part: str) -> Array:
-        return np.array([_padded(getattr(located.curves[n], part), width) for n in names])
+    def stacked(located: ForceLocation, part: str) -> Array:
+        return np.array([_pad_values(getattr(located.curves[n], part), width) for n in names])
 
     dims = ("covariate", "bin")
     table = {"bin_center": StoredArray(dims, stacked(d.located, "center"), "see covariate_unit", "middle of each bin")}
@@ -124,16 +126,16 @@ def _curves(d: Diagnosed) -> dict[str, StoredArray]:
         if d.left is not None:
             table[f"after_{part}"] = StoredArray(dims, stacked(d.left, part), force, f"force left, {part}")
     if d.law_curves:
-        means = np.array([_padded(d.law_curves[n].mean, width) for n in names])
+        means = np.array([_pad_values(d.law_curves[n].mean, width) for n in names])
         table["law_mean"] = StoredArray(dims, means, force, "force of the found terms")
     return table
 
 
-def _padded(values: Array, width: int) -> Array:
+def _pad_values(values: Array, width: int) -> Array:
     return np.concatenate([values[:width], np.full(max(width - len(values), 0), np.nan)])
 
 
-def _growth(outcome: Outcome) -> dict[str, StoredArray]:
+def _list_growth(outcome: Outcome) -> dict[str, StoredArray]:
     lead, lag = ("lead",), ("lag",)
     said = "rms error over the standard deviation of the response"
     table = {
@@ -149,7 +151,7 @@ def _growth(outcome: Outcome) -> dict[str, StoredArray]:
     return table
 
 
-def _draws(outcome: Outcome) -> dict[str, StoredArray]:
+def _list_draws(outcome: Outcome) -> dict[str, StoredArray]:
     told = "draws of the parameters,"
     return {
         "posterior_before": StoredArray(
@@ -161,16 +163,16 @@ def _draws(outcome: Outcome) -> dict[str, StoredArray]:
     }
 
 
-def _portraits(d: Diagnosed, motions: Mapping[str, Array]) -> dict[str, StoredArray]:
+def _list_portraits(d: SearchResult, motions: Mapping[str, Array]) -> dict[str, StoredArray]:
     """Return phase portraits and stroboscopic sections of the recording and of free runs of both models."""
-    units, period = units_of(d), d.shown.period
+    units, period = name_units(d), d.shown.period
     table = {}
     for name, states in motions.items():
         tail = states[-PORTRAIT:] if period else states[:: max(1, len(states) // PORTRAIT)]
-        points = section(states, period) if period else None
+        points = take_section(states, period) if period else None
         for axis, column, unit in (("x", 0, units["position"]), ("v", 1, units["velocity"])):
-            table[f"portrait_{name}_{axis}"] = StoredArray(("portrait",), tail[:, column], unit, WHOSE[name])
+            table[f"portrait_{name}_{axis}"] = StoredArray(("portrait",), tail[:, column], unit, MOTION_NAMES[name])
             if points is not None:
-                told = f"{WHOSE[name]}, once each drive period"
+                told = f"{MOTION_NAMES[name]}, once each drive period"
                 table[f"section_{name}_{axis}"] = StoredArray(("section",), points[:, column], unit, told)
     return table

@@ -11,18 +11,18 @@ from scipy.stats import ttest_1samp
 
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.locate import autocorrelation, whiteness
+from lostmotion.inference.locate import compute_autocorrelation, compute_whiteness
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import (
     Filtered,
     FreeRuns,
     Horizon,
-    filtered,
-    free_run,
-    free_runs,
-    growth_rates,
-    horizon_of,
-    observed,
+    choose_horizon,
+    compute_growth_rates,
+    filter_recording,
+    observe_states,
+    predict_freely,
+    simulate_run,
 )
 from lostmotion.likelihood.problem import Problem
 from lostmotion.settings import DEFAULT, HeldOutSettings
@@ -70,41 +70,41 @@ class Prediction:
     scores: Array = field(default_factory=lambda: np.zeros(0))
 
 
-def pieces_of(observations: Sequence[Observation], held: Sequence[Observation]) -> tuple[HeldOutStretch, ...]:
+def cut_heldout(observations: Sequence[Observation], held: Sequence[Observation]) -> tuple[HeldOutStretch, ...]:
     """Return the held-out pieces: the end of the only recording, or whole recordings after a short settling."""
     if len(observations) == 1:
         return (HeldOutStretch(observations[0], observations[0].samples - held[0].samples),)
     return tuple(HeldOutStretch(t, max(t.samples // 20, 5)) for t in held)
 
 
-def rates_of(fit: Fit, observations: Sequence[Observation]) -> Array:
+def compute_rates(fit: Fit, observations: Sequence[Observation]) -> Array:
     """Return how fast (1/s) near runs of a fit part under the recorded drive, (pieces,); see `growth_rates`."""
     problem = fit.problem.on((observations[0],))
-    return growth_rates(problem, fit.theta, problem.begun(fit.theta))
+    return compute_growth_rates(problem, fit.theta, problem.begun(fit.theta))
 
 
-def exponent_of(rates: Array) -> float:
+def average_exponent(rates: Array) -> float:
     """Return the largest exponent (1/s), the mean of growth rates; NaN where there are none."""
     return float(np.mean(rates)) if len(rates) else math.nan
 
 
-def exponent_blocks(rates: Array, blocks: int = 10) -> Array:
+def average_exponent_blocks(rates: Array, blocks: int = 10) -> Array:
     """Return the exponent (blocks,), in 1/s, over successive parts of a recording; none if it is too short."""
     return np.array([part.mean() for part in np.array_split(rates, blocks)]) if len(rates) >= blocks else np.zeros(0)
 
 
 def predict(fit: Fit, pieces: Sequence[HeldOutStretch], horizon: Horizon, rates: Array) -> Prediction:
-    """Return the predictions of one model on the held-out pieces, judged over a horizon; `rates`: see `rates_of`."""
+    """Return the predictions of one model on held-out data, over a horizon; `rates` are those of `compute_rates`."""
     problems = [fit.problem.on((piece.observation,)) for piece in pieces]
-    tracked = [filtered(problem, fit.theta) for problem in problems]
+    tracked = [filter_recording(problem, fit.theta) for problem in problems]
     runs, scores, lengths = [], [], [p.observation.samples - p.begin for p in pieces]
     for piece, problem, seen in zip(pieces, problems, tracked, strict=True):
         held = slice(piece.begin, None)
         scores.append((seen.log_score(held), seen.expected_score(held)))
-        runs.append(_runs(problem, fit, seen.states, piece, horizon))
-    joint = [_joined([r[sensor] for r in runs]) for sensor in range(len(runs[0]))]
-    scales = [deviation(pieces, sensor) for sensor in range(len(joint))]
-    nrmse = [_nrmse(one, horizon, scale) for one, scale in zip(joint, scales, strict=True)]
+        runs.append(_run_freely(problem, fit, seen.states, piece, horizon))
+    joint = [_join_runs([r[sensor] for r in runs]) for sensor in range(len(runs[0]))]
+    scales = [compute_deviation(pieces, sensor) for sensor in range(len(joint))]
+    nrmse = [_compute_nrmse(one, horizon, scale) for one, scale in zip(joint, scales, strict=True)]
     first, main = tracked[0], joint[0]
     forecasts, restarts = _forecast(problems[0], fit, first.states, pieces[0], horizon)
     tail = slice(pieces[0].begin, None)
@@ -114,46 +114,48 @@ def predict(fit: Fit, pieces: Sequence[HeldOutStretch], horizon: Horizon, rates:
         nrmse=float(np.mean(nrmse)),
         by_sensor=tuple(nrmse),
         scales=tuple(scales),
-        exponent=exponent_of(rates),
+        exponent=average_exponent(rates),
         rates=rates,
         lead=main.lead,
         growth=main.growth(scales[0]),
-        valid_time=main.valid_time(own_motion(fit, pieces)),
+        valid_time=main.valid_time(compute_motion_deviation(fit, pieces)),
         forecasts=forecasts,
         restarts=restarts,
-        acf=autocorrelation(*_taken(first, tail, 0)),
-        white=_white([whiteness(*_taken(first, tail, sensor)) for sensor in range(len(joint))]),
+        acf=compute_autocorrelation(*_select_used(first, tail, 0)),
+        white=_combine_p_values(
+            [compute_whiteness(*_select_used(first, tail, sensor)) for sensor in range(len(joint))]
+        ),
         scores=np.concatenate([one.scores(slice(p.begin, None)) for one, p in zip(tracked, pieces, strict=True)]),
     )
 
 
-def deviation(pieces: Sequence[HeldOutStretch], sensor: int) -> float:
+def compute_deviation(pieces: Sequence[HeldOutStretch], sensor: int) -> float:
     """Return the standard deviation of the held-out readings of a sensor."""
     return float(np.nanstd(np.concatenate([p.observation.readings[p.begin :, sensor] for p in pieces])))
 
 
-def _taken(seen: Filtered, held: slice, sensor: int) -> tuple[Array, Array]:
+def _select_used(seen: Filtered, held: slice, sensor: int) -> tuple[Array, Array]:
     """Return errors and variances of those held-out readings of a sensor that were taken."""
     there = seen.taken[held, sensor]
     return seen.errors[held, sensor][there], seen.variances[held, sensor][there]
 
 
-def _white(told: Sequence[float]) -> float:
+def _combine_p_values(told: Sequence[float]) -> float:
     """Return the least of several p-values, corrected for their number (Bonferroni)."""
     return min(1.0, len(told) * min(told))
 
 
-def _joined(runs: Sequence[FreeRuns]) -> FreeRuns:
+def _join_runs(runs: Sequence[FreeRuns]) -> FreeRuns:
     """Return the free runs of all pieces, cut to the shortest."""
     shortest = min(r.error.shape[1] for r in runs)
     return replace(runs[0], lead=runs[0].lead[:shortest], error=np.vstack([r.error[:, :shortest] for r in runs]))
 
 
-def _nrmse(runs: FreeRuns, horizon: Horizon, scale: float) -> float:
+def _compute_nrmse(runs: FreeRuns, horizon: Horizon, scale: float) -> float:
     return float(np.sqrt(np.nanmean(runs.error[:, : horizon.steps + 1] ** 2)) / scale)
 
 
-def worsened(before: Prediction, after: Prediction, limits: HeldOutSettings = DEFAULT.heldout) -> bool:
+def is_worse(before: Prediction, after: Prediction, limits: HeldOutSettings = DEFAULT.heldout) -> bool:
     """Return whether held-out data speak against a model: free runs err more after than before, or it scores less.
 
     A small rise of the error is none (`HeldOutSettings.rise`). The log score of one-step predictions may not fall by
@@ -171,7 +173,7 @@ def worsened(before: Prediction, after: Prediction, limits: HeldOutSettings = DE
     return fall > limits.fall and after.nrmse > limits.less * before.nrmse
 
 
-def run_errors(fit: Fit, pieces: Sequence[HeldOutStretch], horizon: Horizon) -> Array:
+def compute_run_errors(fit: Fit, pieces: Sequence[HeldOutStretch], horizon: Horizon) -> Array:
     """Return the rms error (PARTS,) of free runs over a horizon, from starts in successive parts of held-out data.
 
     Errors of several sensors are told over the deviation of each, and averaged.
@@ -179,15 +181,15 @@ def run_errors(fit: Fit, pieces: Sequence[HeldOutStretch], horizon: Horizon) -> 
     found = []
     for piece in pieces:
         problem = fit.problem.on((piece.observation,))
-        runs = _runs(problem, fit, filtered(problem, fit.theta).states, piece, horizon)
+        runs = _run_freely(problem, fit, filter_recording(problem, fit.theta).states, piece, horizon)
         own = [np.nanmean(run.error[:, : horizon.steps + 1] ** 2, axis=1) for run in runs]
-        scales = [deviation(pieces, sensor) for sensor in range(len(runs))]
+        scales = [compute_deviation(pieces, sensor) for sensor in range(len(runs))]
         found.append(np.mean([squares / scale**2 for squares, scale in zip(own, scales, strict=True)], axis=0))
     joint = np.concatenate(found)
     return np.array([math.sqrt(float(np.mean(part))) for part in np.array_split(joint, PARTS) if len(part)])
 
 
-def confirmed(errors: Array, without: Array, chance: float = DEFAULT.heldout.chance) -> bool:
+def is_better(errors: Array, without: Array, chance: float = DEFAULT.heldout.chance) -> bool:
     """Return whether `errors` (PARTS,) of one model are smaller than those of another by more than `chance`.
 
     The paired test of Student on their logarithms, so that parts with little motion count as much as others.
@@ -199,7 +201,7 @@ def confirmed(errors: Array, without: Array, chance: float = DEFAULT.heldout.cha
     return bool(np.mean(more) > 0.0 and ttest_1samp(more, 0.0).pvalue < chance)
 
 
-def own_motion(fit: Fit, pieces: Sequence[HeldOutStretch]) -> float:
+def compute_motion_deviation(fit: Fit, pieces: Sequence[HeldOutStretch]) -> float:
     """Return the standard deviation of the motion of the machine itself: relative to its base where that moves."""
     first = pieces[0].observation
     relative = fit.problem.system.model.inputs[first.lead] == "base_position" and first.channel == "position"
@@ -207,14 +209,16 @@ def own_motion(fit: Fit, pieces: Sequence[HeldOutStretch]) -> float:
     return float(np.nanstd(np.concatenate(parts)))
 
 
-def _runs(problem: Problem, fit: Fit, states: Array, piece: HeldOutStretch, horizon: Horizon) -> tuple[FreeRuns, ...]:
+def _run_freely(
+    problem: Problem, fit: Fit, states: Array, piece: HeldOutStretch, horizon: Horizon
+) -> tuple[FreeRuns, ...]:
     """Return free runs of each sensor from starts that are spread over a held-out piece."""
     observation = piece.observation
     left = observation.samples - piece.begin
     steps = int(min(max(REACH * horizon.unit_time / observation.dt, horizon.steps + 1), left // 2))
     last = observation.samples - steps
     starts = np.unique(np.linspace(piece.begin, last, min(STARTS, max(last - piece.begin, 1))).astype(int))
-    return free_runs(problem, fit.theta, states, starts, steps)
+    return predict_freely(problem, fit.theta, states, starts, steps)
 
 
 def _forecast(
@@ -226,13 +230,13 @@ def _forecast(
     forecast, restarts = np.full(observation.readings.shape, np.nan), np.zeros(observation.samples)
     for start in range(piece.begin, observation.samples - 1, length):
         steps = min(length, observation.samples - start)
-        run = free_run(problem, fit.theta, states[start], start, steps)
+        run = simulate_run(problem, fit.theta, states[start], start, steps)
         for sensor in range(len(observation.sensors)):
-            forecast[start : start + steps, sensor] = observed(problem, fit.theta, run, (start, 0), sensor)
+            forecast[start : start + steps, sensor] = observe_states(problem, fit.theta, run, (start, 0), sensor)
         restarts[start] = 1.0
     return forecast, restarts
 
 
-def horizon_for(fit: Fit, pieces: Sequence[HeldOutStretch], exponent: float) -> Horizon:
+def choose_heldout_horizon(fit: Fit, pieces: Sequence[HeldOutStretch], exponent: float) -> Horizon:
     """Return the horizon over which predictions are judged, from the exponent of the better model."""
-    return horizon_of(pieces[0].observation, exponent, fit.problem.scales.time)
+    return choose_horizon(pieces[0].observation, exponent, fit.problem.scales.time)

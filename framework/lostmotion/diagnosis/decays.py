@@ -10,15 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.contracts import Array
-from lostmotion.diagnosis.search import Diagnosed
+from lostmotion.diagnosis.search import SearchResult
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.natural import term_of
+from lostmotion.inference.natural import find_term
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.predict import free_run, observed
+from lostmotion.likelihood.predict import observe_states, simulate_run
 from lostmotion.quantities import quantity_of, unit_of
 from lostmotion.recording.warnings import is_impulsive
-from lostmotion.report.words import readable, spoken
-from lostmotion.results import percent, rounded
+from lostmotion.report.words import choose_scale, to_words
+from lostmotion.results import percent
 from lostmotion.results.behaviour import DecayCycles, Decays
 from lostmotion.signals.decay import Decay, decay_of
 from lostmotion.signals.impacts import hits_of, onsets_of
@@ -43,48 +43,48 @@ NONE_MEASURED = (
 )
 
 
-class Stretch(NamedTuple):
+class DecayStretch(NamedTuple):
     """The samples from `start` up to `stop` of a recording, in which nothing drives the machine."""
 
     start: int
     stop: int
 
 
-def decay_in(d: Diagnosed) -> Decays | None:
+def describe_decays(d: SearchResult) -> Decays | None:
     """Return what the recording shown says of free decays, and the models beside it; None where it holds none.
 
     Of a recording that nothing drives, but in which no decay can be measured, there is a sentence alone.
     """
-    stretches = stretches_of(d.shown)
+    stretches = find_stretches(d.shown)
     most = MOST_CYCLES // max(len(stretches), 1)
     seen = [(s, decay_of(d.shown.response[s.start : s.stop], d.shown.dt, most=most)) for s in stretches]
     measured = [(stretch, decay) for stretch, decay in seen if decay is not None]
     if not measured:
         return Decays(NONE_MEASURED) if d.shown.free else None
-    models = {"before": _of_model(d.before, d.shown, measured)}
+    models = {"before": _measure_model(d.before, d.shown, measured)}
     if d.found:
-        models["after"] = _of_model(d.after, d.shown, measured)
+        models["after"] = _measure_model(d.after, d.shown, measured)
     unit = unit_of(d.shown.channel, d.after.problem.system.model.motion)
     rows = {
-        name: tuple(_listed(stretch, made, d.shown) for stretch, made in pairs if made)
+        name: tuple(_list_cycles(stretch, made, d.shown) for stretch, made in pairs if made)
         for name, pairs in models.items()
     }
-    told = _decay_sentence(d, measured, {name: [decay for _, decay in pairs] for name, pairs in models.items()}, unit)
-    recorded = tuple(_listed(stretch, decay, d.shown) for stretch, decay in measured)
+    told = _describe_decay(d, measured, {name: [decay for _, decay in pairs] for name, pairs in models.items()}, unit)
+    recorded = tuple(_list_cycles(stretch, decay, d.shown) for stretch, decay in measured)
     return Decays(told, unit, recorded, rows["before"], rows.get("after"))
 
 
-def stretches_of(observation: Observation) -> tuple[Stretch, ...]:
+def find_stretches(observation: Observation) -> tuple[DecayStretch, ...]:
     """Return where nothing drives the machine: between onsets if no input was recorded, or between hits of a hammer."""
     if observation.free:
         starts = sorted({0, *onsets_of(observation.response, observation.dt)})
         ends = [*starts[1:], observation.samples]
-        return tuple(map(Stretch, starts, ends))[:MOST_STRETCHES]
+        return tuple(map(DecayStretch, starts, ends))[:MOST_STRETCHES]
     if not is_struck(observation):
         return ()
     hits = hits_of(observation.excitation, observation.dt)
     ends = [*(hit.start for hit in hits[1:]), observation.samples]
-    pairs = (Stretch(hit.stop, end) for hit, end in zip(hits, ends, strict=True))
+    pairs = (DecayStretch(hit.stop, end) for hit, end in zip(hits, ends, strict=True))
     return tuple(pair for pair in pairs if pair.stop > pair.start)[:MOST_STRETCHES]
 
 
@@ -96,7 +96,7 @@ def is_struck(observation: Observation) -> bool:
     return bool(observation.excitation.any()) and is_impulsive(observation.excitation)
 
 
-def note_anew(observation: Observation) -> Iterator[str]:
+def note_restarts(observation: Observation) -> Iterator[str]:
     """Yield a note where a vibration begins anew in a recording without any input."""
     if not observation.free:
         return
@@ -112,10 +112,10 @@ def note_anew(observation: Observation) -> Iterator[str]:
         )
 
 
-Measured = Sequence[tuple[Stretch, Decay]]
+Measured = Sequence[tuple[DecayStretch, Decay]]
 
 
-def _of_model(fit: Fit, observation: Observation, measured: Measured) -> list[tuple[Stretch, Decay | None]]:
+def _measure_model(fit: Fit, observation: Observation, measured: Measured) -> list[tuple[DecayStretch, Decay | None]]:
     """Return the decay of a free run of a model from the start of each measured one, None where it has none."""
     problem = fit.problem.on((observation,))
     states = problem.smooth(fit.theta).states
@@ -123,77 +123,78 @@ def _of_model(fit: Fit, observation: Observation, measured: Measured) -> list[tu
     most, found = MOST_CYCLES // len(measured), []
     for stretch, seen in measured:
         start, stop = stretch
-        run = free_run(problem, fit.theta, states[start], start, stop - start)
+        run = simulate_run(problem, fit.theta, states[start], start, stop - start)
         decay = None
         if np.all(np.abs(run) < 1e100):
-            shown = observed(problem, fit.theta, run, (start, 0))
-            decay = _alike(shown, observation.dt, seen, most) if np.all(np.abs(shown) < bound) else None
+            shown = observe_states(problem, fit.theta, run, (start, 0))
+            decay = _measure_same_mode(shown, observation.dt, seen, most) if np.all(np.abs(shown) < bound) else None
         found.append((stretch, decay))
     return found
 
 
-def _alike(shown: Array, dt: float, seen: Decay, most: int) -> Decay | None:
+def _measure_same_mode(shown: Array, dt: float, seen: Decay, most: int) -> Decay | None:
     """Return the decay of a run (samples,) in the mode next to the one that was measured, else in its loudest."""
     near = decay_of(shown, dt, noise=seen.noise, near=float(np.median(seen.frequency)), most=most)
     return near or decay_of(shown, dt, noise=seen.noise, most=most)
 
 
-def _listed(stretch: Stretch, decay: Decay, observation: Observation) -> DecayCycles:
+def _list_cycles(stretch: DecayStretch, decay: Decay, observation: Observation) -> DecayCycles:
     """Return the cycles of a decay, with the time from the start of the recording."""
     return DecayCycles(
-        time=_figures(decay.time + (observation.begin + stretch.start) * observation.dt),
-        amplitude=_figures(decay.amplitude),
-        frequency=_figures(decay.frequency),
-        decrement=_figures(decay.decrement),
-        damping_ratio=_figures(decay.damping_ratio),
+        time=_round_values(decay.time + (observation.begin + stretch.start) * observation.dt),
+        amplitude=_round_values(decay.amplitude),
+        frequency=_round_values(decay.frequency),
+        decrement=_round_values(decay.decrement),
+        damping_ratio=_round_values(decay.damping_ratio),
     )
 
 
-def _figures(values: Array) -> tuple[float, ...]:
+def _round_values(values: Array) -> tuple[float, ...]:
     return tuple(float(f"{value:.{DIGITS}g}") for value in values)
 
 
-def _decay_sentence(d: Diagnosed, measured: Measured, models: dict[str, list[Decay | None]], unit: str) -> str:
+def _describe_decay(d: SearchResult, measured: Measured, models: dict[str, list[Decay | None]], unit: str) -> str:
     """Return in words how the widest of the measured decays goes, and how far the models are from it."""
     widest = max(range(len(measured)), key=lambda i: float(np.ptp(np.log(measured[i][1].amplitude))))
     stretch, decay = measured[widest]
-    scale = readable(float(decay.amplitude.max()), unit)
+    scale = choose_scale(float(decay.amplitude.max()), unit)
     opening = ""
     if len(measured) > 1:
         begun = (d.shown.begin + stretch.start) * d.shown.dt
         opening = f"Of {len(measured)} decays, the one from {rounded(begun, 4)} s on goes furthest: "
     words = says(decay, scale.unit, factor=scale.factor)
-    parts = [_beside(_named(d, name), decay, made[widest]) for name, made in models.items()]
+    parts = [_compare_decays(_name_model(d, name), decay, made[widest]) for name, made in models.items()]
     compared = "; ".join(parts)
     return f"{opening}{words if not opening else words[:1].lower() + words[1:]} {compared[:1].upper()}{compared[1:]}."
 
 
-def _named(d: Diagnosed, version: str) -> str:
+def _name_model(d: SearchResult, version: str) -> str:
     if not d.found:
         return "the model"
     if version == "before":
         return "the nominal model"
-    terms = [spoken(term_of(d.after.problem, key)[0].name) for key in d.named]
+    terms = [to_words(find_term(d.after.problem, key)[0].name) for key in d.named]
     terms += ["what was learned"] if d.learned else []
     return f"the model with {' and '.join([', '.join(terms[:-1]), terms[-1]] if len(terms) > 1 else terms)}"
 
 
-def _beside(who: str, seen: Decay, made: Decay | None) -> str:
+def _compare_decays(who: str, seen: Decay, made: Decay | None) -> str:
     """Return how far the decay of a model is from the recorded one."""
     if made is None:
         return f"a free run of {who} is no decay that could be measured"
-    loss, pitch = off(seen, made, "decrement"), off(seen, made, "frequency")
+    loss, pitch = compute_largest_error(seen, made, "decrement"), compute_largest_error(seen, made, "frequency")
     if math.isnan(loss):
         return f"{who} shares too few amplitudes with the recording to be compared"
     if loss < NEAR and pitch < CLOSE:
         return f"{who} follows the recorded decrement within {percent(loss)} and the frequency within {percent(pitch)}"
     return (
-        f"{who} decays with {_range(made.decrement, 'a decrement')}, up to {percent(loss)} from the recorded one, and"
-        f" {_range(made.frequency, 'a frequency', ' Hz')}, up to {percent(pitch)} from it"
+        f"{who} decays with {_describe_range(made.decrement, 'a decrement')}, up to {percent(loss)} from the recorded"
+        " one, and"
+        f" {_describe_range(made.frequency, 'a frequency', ' Hz')}, up to {percent(pitch)} from it"
     )
 
 
-def _range(values: Array, what: str, unit: str = "") -> str:
+def _describe_range(values: Array, what: str, unit: str = "") -> str:
     """Return "a decrement of 0.094 at all amplitudes", or from where to where it goes as the motion dies."""
     middle, first, last = (float(v) for v in (np.median(values), values[0], values[-1]))
     if abs(last - first) < (LEVEL if not unit else 0.1 * LEVEL) * abs(middle):
@@ -201,7 +202,7 @@ def _range(values: Array, what: str, unit: str = "") -> str:
     return f"{what} that goes from {rounded(first, 3)} to {rounded(last, 3)}{unit}"
 
 
-def off(seen: Decay, made: Decay, name: str) -> float:
+def compute_largest_error(seen: Decay, made: Decay, name: str) -> float:
     """Return how far a model is from the recorded `name` at most, as a share, over eight parts of the decay at most.
 
     Only amplitudes count that both have; NaN where these are too few. Loud cycles weigh more, as the noise has it. A

@@ -9,19 +9,19 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.diagnosis.decays import is_struck
-from lostmotion.diagnosis.search import Diagnosed
+from lostmotion.diagnosis.search import SearchResult
 from lostmotion.inference.disagreement import (
     FEWEST,
     SHORTEST,
     Windows,
-    between,
-    beyond_chance,
-    block_of,
-    even_windows,
-    hit_windows,
-    means_of,
-    squares_of,
-    trend,
+    average_windows,
+    choose_block,
+    compute_recording_p,
+    compute_squares,
+    compute_trend,
+    compute_window_p,
+    make_even_windows,
+    make_hit_windows,
 )
 from lostmotion.likelihood.observation import Observation
 from lostmotion.quantities import unit_of
@@ -42,26 +42,28 @@ from lostmotion.signals.impacts import Hit, hits_of
 EXPECTED = 1.0
 
 
-def disagreement_in(d: Diagnosed, rng: np.random.Generator) -> tuple[DisagreementOverTime | None, ByRecording | None]:
+def describe_disagreement(
+    d: SearchResult, rng: np.random.Generator
+) -> tuple[DisagreementOverTime | None, ByRecording | None]:
     """Return the disagreement over the time of the recording that is shown, and by recording where there are several.
 
     None where no one-step error is finite.
     """
     fits = {"before": d.before, "after": d.after} if d.found else {"before": d.before}
-    shown = {name: squares_of(fit, d.shown) for name, fit in fits.items()}
+    shown = {name: compute_squares(fit, d.shown) for name, fit in fits.items()}
     if not all(np.isfinite(one).any() for one in shown.values()):
         return None, None
     level = d.settings.locate.level
-    over = over_time(d.shown, shown, rng, level)
+    over = compare_over_time(d.shown, shown, rng, level)
     if d.shown.samples != d.held[0].samples:
         return over, None
     begun = (*d.after.problem.observations, *d.held)
-    all_of = {name: [squares_of(fit, one) for one in begun] for name, fit in fits.items()}
+    all_of = {name: [compute_squares(fit, one) for one in begun] for name, fit in fits.items()}
     motion = d.after.problem.system.model.motion
-    return over, by_recording(begun, all_of, len(d.train), motion, rng, level)
+    return over, compare_by_recording(begun, all_of, len(d.train), motion, rng, level)
 
 
-def over_time(
+def compare_over_time(
     observation: Observation,
     squares: Mapping[str, Array],
     rng: np.random.Generator,
@@ -73,9 +75,9 @@ def over_time(
     "after".
     """
     hits = hits_of(observation.excitation, observation.dt) if is_struck(observation) else ()
-    windows = _windows(observation, squares, hits)
+    windows = _make_windows(observation, squares, hits)
     edges = [round(float(e), 9) for e in (observation.begin + windows.edges) * observation.dt]
-    told = {name: _worst_window(one, windows, edges, rng, level) for name, one in squares.items()}
+    told = {name: _find_worst_window(one, windows, edges, rng, level) for name, one in squares.items()}
     last = told.get("after", told["before"])
     return DisagreementOverTime(
         edges=tuple(edges),
@@ -86,62 +88,63 @@ def over_time(
         expected=EXPECTED,
         worst=last[1],
         worst_before=told["before"][1],
-        says=_says({name: worst for name, (_, worst) in told.items()}, windows.aligned, len(windows)),
+        says=_describe_worst({name: worst for name, (_, worst) in told.items()}, windows.aligned, len(windows)),
         peaks=Peaks(tuple(hit.peak for hit in hits), "N") if windows.aligned else None,
     )
 
 
-def _windows(observation: Observation, squares: Mapping[str, Array], hits: Sequence[Hit]) -> Windows:
+def _make_windows(observation: Observation, squares: Mapping[str, Array], hits: Sequence[Hit]) -> Windows:
     if len(hits) > 1:
-        return hit_windows(observation.samples, [hit.start for hit in hits])
-    windows = even_windows(observation.samples, observation.period)
-    block = max(block_of(one, windows) for one in squares.values())
+        return make_hit_windows(observation.samples, [hit.start for hit in hits])
+    windows = make_even_windows(observation.samples, observation.period)
+    block = max(choose_block(one, windows) for one in squares.values())
     shortest = FEWEST * block
     if observation.samples < FEWEST * shortest:
         return windows
-    return even_windows(observation.samples, observation.period, shortest=max(shortest, SHORTEST))
+    return make_even_windows(observation.samples, observation.period, shortest=max(shortest, SHORTEST))
 
 
-def _worst_window(
+def _find_worst_window(
     squares: Array, windows: Windows, edges: Sequence[float], rng: np.random.Generator, level: float
 ) -> tuple[tuple[float, ...], WorstWindow]:
     """Return the disagreement in each window, and the window that stands out most with its p-value."""
-    means = means_of(squares, windows)
-    p = beyond_chance(squares, windows, rng)
-    at = int(np.nanargmax(means)) if p is None else _most(means, p)
+    means = average_windows(squares, windows)
+    p = compute_window_p(squares, windows, rng)
+    at = int(np.nanargmax(means)) if p is None else _find_most_significant(means, p)
     chance_of_it = math.nan if p is None else float(p[at])
     worst = WorstWindow(at, edges[at], edges[at + 1], float(means[at]), chance_of_it, chance_of_it <= level)
     return tuple(means.tolist()), worst
 
 
-def _most(means: Array, p: Array) -> int:
+def _find_most_significant(means: Array, p: Array) -> int:
     """Return the window with the smallest p-value; of several, the one with the largest disagreement."""
     order = sorted(range(len(means)), key=lambda i: (float(p[i]), -float(np.nan_to_num(means[i]))))
     return order[0]
 
 
-def _says(worst: Mapping[str, WorstWindow], hits: bool, count: int) -> str:
+def _describe_worst(worst: Mapping[str, WorstWindow], hits: bool, count: int) -> str:
     """Return where a model disagrees most, the last model first; an empty string where that is not beyond chance."""
     if "after" in worst and worst["after"].beyond_chance:
-        return f"The model disagrees most {_place(worst['after'], hits, count)}."
+        return f"The model disagrees most {_describe_place(worst['after'], hits, count)}."
     if not worst["before"].beyond_chance:
         return ""
     if "after" not in worst:
-        return f"The model disagrees most {_place(worst['before'], hits, count)}."
+        return f"The model disagrees most {_describe_place(worst['before'], hits, count)}."
     return (
-        f"The nominal model disagrees most {_place(worst['before'], hits, count)}; with what was found no stretch"
+        f"The nominal model disagrees most {_describe_place(worst['before'], hits, count)}; with what was found no"
+        " stretch"
         " stands out beyond chance."
     )
 
 
-def _place(worst: WorstWindow, hits: bool, count: int) -> str:
-    ratio = f"{rounded(worst.ratio)} times the variance expected, {chance(worst.p)} over {count}"
+def _describe_place(worst: WorstWindow, hits: bool, count: int) -> str:
+    ratio = f"{worst.ratio:.2g} times the variance expected, {chance(worst.p)} over {count}"
     if hits:
         return f"after hit {worst.window + 1}, at {rounded(worst.begin, 4)} s ({ratio} hits)"
     return f"between {rounded(worst.begin, 3)} and {rounded(worst.end, 3)} s ({ratio} windows)"
 
 
-def by_recording(
+def compare_by_recording(
     recordings: Sequence[Observation],
     squares: Mapping[str, Sequence[Array]],
     fitted: int,
@@ -153,12 +156,12 @@ def by_recording(
 
     The level of a recording is the rms of its drive about its mean, or of its response where nothing drives it.
     """
-    levels = np.array([_level(one) for one in recordings])
+    levels = np.array([_compute_level(one) for one in recordings])
     first = recordings[0]
-    unit = unit_of(first.channel if first.free else _driver(first), motion)
+    unit = unit_of(first.channel if first.free else _name_driver(first), motion)
     last = squares.get("after", squares["before"])
-    p_after, p_before = between(last, rng), between(squares["before"], rng)
-    measured = zip(recordings, levels, _means(squares["before"]), _means(last), strict=True)
+    p_after, p_before = compute_recording_p(last, rng), compute_recording_p(squares["before"], rng)
+    measured = zip(recordings, levels, _compute_means(squares["before"]), _compute_means(last), strict=True)
     rows = tuple(
         RecordingMismatch(
             name=one.name,
@@ -167,43 +170,47 @@ def by_recording(
             fitted=i < fitted,
             before=float(before),
             after=float(after),
-            p_after=_at(p_after, i),
-            p_before=_at(p_before, i),
+            p_after=_get_at(p_after, i),
+            p_before=_get_at(p_before, i),
         )
         for i, (one, strength, before, after) in enumerate(measured)
     )
-    trends = BothTrends(after=_trend(last, levels, rng), before=_trend(squares["before"], levels, rng))
-    says = _level_says(rows, "after", p_after, trends, level) or _level_says(rows, "before", p_before, trends, level)
+    trends = BothTrends(after=_make_trend(last, levels, rng), before=_make_trend(squares["before"], levels, rng))
+    says = _describe_levels(rows, "after", p_after, trends, level) or _describe_levels(
+        rows, "before", p_before, trends, level
+    )
     return ByRecording(rows, "response" if first.free else "drive", EXPECTED, trends, says)
 
 
-def _means(parts: Sequence[Array]) -> Array:
+def _compute_means(parts: Sequence[Array]) -> Array:
     return np.array([np.nanmean(part) for part in parts])
 
 
-def _at(values: Array | None, index: int) -> float | None:
+def _get_at(values: Array | None, index: int) -> float | None:
     return None if values is None else float(values[index])
 
 
-def _trend(parts: Sequence[Array], levels: Array, rng: np.random.Generator) -> LevelTrend | None:
-    found = trend(parts, levels, rng)
+def _make_trend(parts: Sequence[Array], levels: Array, rng: np.random.Generator) -> LevelTrend | None:
+    found = compute_trend(parts, levels, rng)
     return LevelTrend(*found) if found else None
 
 
-def _driver(observation: Observation) -> str:
+def _name_driver(observation: Observation) -> str:
     return observation.driven[0] if observation.driven else "force"
 
 
-def _level(observation: Observation) -> float:
+def _compute_level(observation: Observation) -> float:
     return float(np.nanstd(observation.response if observation.free else observation.excitation))
 
 
-def _level_says(rows: Sequence[RecordingMismatch], when: str, p: Array | None, tends: BothTrends, level: float) -> str:
+def _describe_levels(
+    rows: Sequence[RecordingMismatch], when: str, p: Array | None, tends: BothTrends, level: float
+) -> str:
     """Return in which recording the model "before" or "after" disagrees most; empty where that is not beyond chance."""
     if p is None:
         return ""
     means = np.array([row.after if when == "after" else row.before for row in rows])
-    at = _most(means, p)
+    at = _find_most_significant(means, p)
     if p[at] > level:
         return ""
     row, tend = rows[at], tends.after if when == "after" else tends.before

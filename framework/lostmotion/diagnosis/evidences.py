@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from lostmotion.diagnosis.search import Diagnosed
-from lostmotion.inference.evidence import checked
+from lostmotion.diagnosis.search import SearchResult
+from lostmotion.inference.evidence import sample_evidence
 from lostmotion.results.diagnosis import EvidenceCheck, SampledEvidence
 
 FEWEST = 15.0
@@ -13,15 +13,15 @@ FEWEST = 15.0
 APART = 3.0
 
 
-def evidence_of(diagnosis: Diagnosed, rng: np.random.Generator) -> EvidenceCheck:
+def check_evidence(diagnosis: SearchResult, rng: np.random.Generator) -> EvidenceCheck:
     """Return the log evidence of the models before and after by both methods; nothing where nothing was found."""
     if diagnosis.after is diagnosis.before:
         return EvidenceCheck()
-    before, after = (checked(fit, rng) for fit in (diagnosis.before, diagnosis.after))
-    return EvidenceCheck(before, after, _says(before, after))
+    before, after = (sample_evidence(fit, rng) for fit in (diagnosis.before, diagnosis.after))
+    return EvidenceCheck(before, after, _describe_evidence(before, after))
 
 
-def _says(before: SampledEvidence, after: SampledEvidence) -> str:
+def _describe_evidence(before: SampledEvidence, after: SampledEvidence) -> str:
     laplace, sampled = after.laplace - before.laplace, after.sampled - before.sampled
     error = float(np.hypot(before.error, after.error))
     if min(before.effective, after.effective) < FEWEST:

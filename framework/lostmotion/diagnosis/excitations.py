@@ -44,63 +44,63 @@ class Excitation:
     harmonic: DriveHarmonic
 
 
-def repeat_of(observation: Observation, samples: int, natural: float) -> Excitation:
+def repeat_drive(observation: Observation, samples: int, natural: float) -> Excitation:
     """Return the beginning of what moved a recording; `natural` (Hz) stands for its frequency where it has none."""
-    frequency = frequency_of(observation, natural)
+    frequency = find_frequency(observation, natural)
     return Excitation(
         REPEAT, observation.travel, (frequency, frequency), observation.inputs[:samples], observation.harmonic
     )
 
 
-def frequency_of(observation: Observation, natural: float) -> float:
+def find_frequency(observation: Observation, natural: float) -> float:
     """Return the frequency (Hz) of the drive of a recording, or that of its motion where there is no single one."""
     period = observation.period
     return 1.0 / (period * observation.dt) if period else natural
 
 
-def usual_limits(observation: Observation, natural: float) -> Limits:
+def choose_limits(observation: Observation, natural: float) -> Limits:
     """Return twice the level and twice the frequency of a recording."""
-    return Limits(2.0 * observation.travel, 2.0 * frequency_of(observation, natural))
+    return Limits(2.0 * observation.travel, 2.0 * find_frequency(observation, natural))
 
 
-def candidates_for(
+def list_candidates(
     observation: Observation, samples: int, limits: Limits, rng: np.random.Generator
 ) -> list[Excitation]:
     """Return the excitations to compare, each of so many samples every `observation.dt` s."""
     natural = 0.5 * limits.frequency
-    frequency, level = frequency_of(observation, natural), observation.travel
+    frequency, level = find_frequency(observation, natural), observation.travel
     top = min(limits.frequency, 1.0 / (FEWEST * observation.dt))
-    levels, frequencies = _within(level, limits.level), _within(frequency, top)
-    found = [_made(observation, samples, HARMONIC, a, _tones([f])) for a in levels for f in frequencies]
+    levels, frequencies = _list_within(level, limits.level), _list_within(frequency, top)
+    found = [_make_excitation(observation, samples, HARMONIC, a, _list_tones([f])) for a in levels for f in frequencies]
     if observation.period:
-        found = [c for c in found if not (_near(c.level, level) and _near(c.band[0], frequency))]
+        found = [c for c in found if not (_is_near(c.level, level) and _is_near(c.band[0], frequency))]
     band = (min(0.5 * frequency, 0.5 * top), min(2.0 * frequency, top))
     for a in sorted({min(level, limits.level), max(levels)}):
-        found.append(_made(observation, samples, TONES, a, _tones([GOLDEN * band[1], band[1]])))
-        found.append(_made(observation, samples, SWEEP, a, band))
-        found.append(_made(observation, samples, MULTISINE, a, _multisine(band, rng)))
+        found.append(_make_excitation(observation, samples, TONES, a, _list_tones([GOLDEN * band[1], band[1]])))
+        found.append(_make_excitation(observation, samples, SWEEP, a, band))
+        found.append(_make_excitation(observation, samples, MULTISINE, a, _draw_multisine(band, rng)))
     return found
 
 
-def _near(a: float, b: float) -> bool:
+def _is_near(a: float, b: float) -> bool:
     return abs(a - b) < 0.05 * b
 
 
-def _within(usual: float, most: float) -> list[float]:
+def _list_within(usual: float, most: float) -> list[float]:
     """Return what is tried about a usual value, and the limit itself where that is nearer."""
     tried = [f * usual for f in (*FACTORS, 1.0) if f * usual <= most * 1.0001]
-    return sorted(tried if any(_near(t, most) for t in tried) or most > 2.0 * usual else [*tried, most])
+    return sorted(tried if any(_is_near(t, most) for t in tried) or most > 2.0 * usual else [*tried, most])
 
 
 Wave = list[tuple[float, float, float]]
 """Lines of a signal: share of the power, frequency (Hz), phase (rad)."""
 
 
-def _tones(frequencies: list[float]) -> Wave:
+def _list_tones(frequencies: list[float]) -> Wave:
     return [(1.0 / len(frequencies), f, 0.5 * k * math.pi) for k, f in enumerate(frequencies)]
 
 
-def _multisine(band: tuple[float, float], rng: np.random.Generator) -> Wave:
+def _draw_multisine(band: tuple[float, float], rng: np.random.Generator) -> Wave:
     lines = np.linspace(*band, LINES)
     return [
         (1.0 / LINES, float(f), float(phase))
@@ -108,15 +108,15 @@ def _multisine(band: tuple[float, float], rng: np.random.Generator) -> Wave:
     ]
 
 
-def _made(
+def _make_excitation(
     observation: Observation, samples: int, waveform: str, level: float, shape: Wave | tuple[float, float]
 ) -> Excitation:
     """Return an excitation about the mean of the old one; a `shape` that is a pair is the band (Hz) of a sweep."""
     t: Array = np.arange(samples, dtype=float) * observation.dt
     if isinstance(shape, tuple):
-        rows, band = [_swept(t, shape)], shape
+        rows, band = [_compute_sweep(t, shape)], shape
     else:
-        rows = list(_waves(t, shape))
+        rows = list(_compute_waves(t, shape))
         band = (min(f for _, f, _ in shape), max(f for _, f, _ in shape))
     value, slope = (level * np.sum([row[k] for row in rows], axis=0) for k in (0, 1))
     inputs = np.tile(np.mean(observation.inputs, axis=0), (samples, 1))
@@ -127,13 +127,13 @@ def _made(
     return Excitation(waveform, level, band, inputs, DriveHarmonic(omega, level))
 
 
-def _waves(t: Array, wave: Wave) -> Iterator[tuple[Array, Array]]:
+def _compute_waves(t: Array, wave: Wave) -> Iterator[tuple[Array, Array]]:
     for share, f, phase in wave:
         omega, size = 2.0 * math.pi * f, math.sqrt(share)
         yield size * np.cos(omega * t + phase), -size * omega * np.sin(omega * t + phase)
 
 
-def _swept(t: Array, band: tuple[float, float]) -> tuple[Array, Array]:
+def _compute_sweep(t: Array, band: tuple[float, float]) -> tuple[Array, Array]:
     """Return a sine whose frequency goes evenly from one end of the band to the other, and its slope."""
     first, last = (2.0 * math.pi * f for f in band)
     pace = (last - first) / max(float(t[-1]), 1e-300)

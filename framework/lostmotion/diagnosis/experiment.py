@@ -9,17 +9,25 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.diagnosis.excitations import Excitation, Limits, candidates_for, repeat_of, usual_limits
-from lostmotion.diagnosis.rehearsal import Asked, RehearsedModel, evidence, simulated
+from lostmotion.diagnosis.excitations import Excitation, Limits, choose_limits, list_candidates, repeat_drive
+from lostmotion.diagnosis.rehearsal import EvidenceBudget, RehearsedModel, compute_evidence, simulate_recording
 from lostmotion.inference.fit import Fit
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.observation import Observation
 
-__all__ = ["Excitation", "Limits", "Proposal", "natural_of", "news", "propose", "usual_limits"]
+__all__ = [
+    "Excitation",
+    "Limits",
+    "Proposal",
+    "choose_limits",
+    "compute_bayes_factor",
+    "compute_natural_frequency",
+    "propose",
+]
 SAMPLES = 3000
 """Simulated recordings are this long at most, and count for as much as the recording at hand."""
 ROUNDS, HALFWAY = 4, 2
-GOOD, BEST, DRAWS = 6, 2, 2
+MOST_REFINED, MOST_FITTED, DRAWS = 6, 2, 2
 """So many candidates are looked at again with fits that have gone half of their way, and so many with whole ones, the
 mean of so many recordings."""
 PLAIN, IMITATED, SURE = 5.0, 0.2, 12.0
@@ -63,68 +71,68 @@ def propose(
 ) -> Proposal | None:
     """Return the excitation within `limits` that separates two fits best; None where no simulation gets through."""
     observation = chosen.problem.observations[0]
-    natural = natural_of(chosen)
+    natural = compute_natural_frequency(chosen)
     samples = min(SAMPLES, observation.samples)
     share = observation.samples / samples
     moved = replace(observation, inputs=observation.inputs[:, : len(chosen.problem.system.model.driven)])
-    offered = candidates_for(moved, samples, limits or usual_limits(observation, natural), rng)
-    weighed = _Weighed((RehearsedModel.of(chosen), RehearsedModel.of(rival)), share, rng)
+    offered = list_candidates(moved, samples, limits or choose_limits(observation, natural), rng)
+    weighed = _ExperimentComparison((RehearsedModel.of(chosen), RehearsedModel.of(rival)), share, rng)
     say(f"what {len(offered)} other excitations would tell")
-    rough = weighed.ways(offered, 0)
+    rough = weighed.compute_ways(offered, 0)
     say("what the best ones and a repeat would tell")
-    good = weighed.ways([e for e, _ in _best(rough, (0, 1), GOOD, max)], HALFWAY)
-    counted = _counted([ways for _, ways in good if ways])
-    again = [e for e, _ in _best(good, counted, BEST, min)]
-    *fine, (_, repeat) = weighed.means([*again, repeat_of(observation, samples, natural)])
-    found = _best(fine, counted, 1, min)
+    good = weighed.compute_ways([e for e, _ in _select_best(rough, (0, 1), MOST_REFINED, max)], HALFWAY)
+    counted = _select_counted([ways for _, ways in good if ways])
+    again = [e for e, _ in _select_best(good, counted, MOST_FITTED, min)]
+    *fine, (_, repeat) = weighed.average_ways([*again, repeat_drive(observation, samples, natural)])
+    found = _select_best(fine, counted, 1, min)
     if not found:
         return None
     best, ways = found[0]
     return Proposal(best, ways or (0.0, 0.0), repeat or (0.0, 0.0), counted)
 
 
-def natural_of(fit: Fit) -> float:
+def compute_natural_frequency(fit: Fit) -> float:
     """Return the rms frequency (Hz) of the recorded motion."""
     return 1.0 / (2.0 * math.pi * fit.problem.scales.time)
 
 
-def news(chosen: Fit, rival: Fit, observation: Observation) -> float:
+def compute_bayes_factor(chosen: Fit, rival: Fit, observation: Observation) -> float:
     """Return the log Bayes factor, chosen over rival, that a new recording adds to that of the old ones."""
-    natural = natural_of(chosen)
-    whole = repeat_of(observation, observation.samples, natural)
-    asked = Asked(1.0, 3 * ROUNDS)
-    told = [evidence(RehearsedModel.of(fit), whole, observation.readings, asked) for fit in (chosen, rival)]
+    natural = compute_natural_frequency(chosen)
+    whole = repeat_drive(observation, observation.samples, natural)
+    asked = EvidenceBudget(1.0, 3 * ROUNDS)
+    told = [compute_evidence(RehearsedModel.of(fit), whole, observation.readings, asked) for fit in (chosen, rival)]
     return told[0] - told[1]
 
 
 @dataclass(frozen=True)
-class _Weighed:
+class _ExperimentComparison:
     """Two models between which an excitation is to decide, over a recording that is `share` times as long."""
 
     models: tuple[RehearsedModel, RehearsedModel]
     share: float
     rng: np.random.Generator
 
-    def means(self, excitations: Sequence[Excitation]) -> list[_Tried]:
+    def average_ways(self, excitations: Sequence[Excitation]) -> list[_Tried]:
         """Return the gains of each excitation after whole fits, the mean of several recordings."""
-        drawn = self.ways([e for e in excitations for _ in range(DRAWS)], ROUNDS)
+        drawn = self.compute_ways([e for e in excitations for _ in range(DRAWS)], ROUNDS)
         told = [[ways for _, ways in drawn[k : k + DRAWS] if ways] for k in range(0, len(drawn), DRAWS)]
         means = [(float(np.mean([a for a, _ in t])), float(np.mean([b for _, b in t]))) if t else None for t in told]
         return list(zip(excitations, means, strict=True))
 
-    def ways(self, excitations: Sequence[Excitation], rounds: int) -> list[_Tried]:
+    def compute_ways(self, excitations: Sequence[Excitation], rounds: int) -> list[_Tried]:
         """Return the gains of each excitation with each model true, or None where one does not get through."""
-        drawn = [(e, [simulated(truth, e, self.rng) for truth in self.models]) for e in excitations]
+        drawn = [(e, [simulate_recording(truth, e, self.rng) for truth in self.models]) for e in excitations]
         jobs = self.models[0].fit.problem.jobs
-        found = each(lambda one: self._ways_of(*one, Asked(self.share, rounds)), drawn, jobs)
+        found = each(lambda one: self._compute_ways(*one, EvidenceBudget(self.share, rounds)), drawn, jobs)
         return list(zip(excitations, found, strict=True))
 
-    def _ways_of(self, excitation: Excitation, seen: Sequence[Array | None], asked: Asked) -> Ways | None:
+    def _compute_ways(self, excitation: Excitation, seen: Sequence[Array | None], asked: EvidenceBudget) -> Ways | None:
         gains = []
         for z, truth, other in zip(seen, self.models, self.models[::-1], strict=True):
             gain = math.nan
             if z is not None:
-                gain = evidence(truth, excitation, z, asked) - evidence(other, excitation, z, asked)
+                gain = compute_evidence(truth, excitation, z, asked) - compute_evidence(other, excitation, z, asked)
             if not math.isfinite(gain):
                 return None
             gains.append(gain)
@@ -134,13 +142,15 @@ class _Weighed:
 _Tried = tuple[Excitation, Ways | None]
 
 
-def _best(tried: Sequence[_Tried], counted: tuple[int, ...], most: int, of: Callable[..., float]) -> list[_Tried]:
+def _select_best(
+    tried: Sequence[_Tried], counted: tuple[int, ...], most: int, of: Callable[..., float]
+) -> list[_Tried]:
     """Return the best of what got through, by the `of` (least, largest) of the gains that count."""
     through = [(e, ways) for e, ways in tried if ways]
     return sorted(through, key=lambda pair: -of(pair[1][k] for k in counted))[:most]  # type: ignore[return-value]
 
 
-def _counted(found: Sequence[Ways]) -> tuple[int, ...]:
+def _select_counted(found: Sequence[Ways]) -> tuple[int, ...]:
     """Return which truths an experiment can show: both, unless one model imitates the other."""
     tops = [max((ways[k] for ways in found), default=0.0) for k in (0, 1)]
     shown = tuple(k for k in (0, 1) if tops[k] > min(max(PLAIN, IMITATED * tops[1 - k]), SURE))

@@ -10,13 +10,13 @@ import numpy as np
 
 from lostmotion.contracts import Array, Model, SensorTerm, Term
 from lostmotion.diagnosis.compare import Prediction
-from lostmotion.diagnosis.search import Diagnosed, base_keys
-from lostmotion.diagnosis.states import LIKELY, NAMED, doubts_of, holds
-from lostmotion.diagnosis.unknowns import learned_entry, unnamed_entry
+from lostmotion.diagnosis.search import SearchResult, list_physical_keys
+from lostmotion.diagnosis.states import LIKELY, NAMED, is_valid, list_warnings
+from lostmotion.diagnosis.unknowns import make_learned_entry, make_unnamed_entry
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.late import since
-from lostmotion.inference.mixture import draws
-from lostmotion.inference.natural import term_of
+from lostmotion.inference.late import estimate_onset
+from lostmotion.inference.mixture import draw_posterior
+from lostmotion.inference.natural import find_term
 from lostmotion.likelihood.predict import Horizon
 from lostmotion.quantities import unit_of
 from lostmotion.results import Interval, percent, rounded
@@ -33,7 +33,7 @@ class Outcome:
     Sentences tell angles in `angle`, rad or deg.
     """
 
-    diagnosis: Diagnosed
+    diagnosis: SearchResult
     before: Prediction
     after: Prediction
     horizon: Horizon
@@ -43,49 +43,51 @@ class Outcome:
     angle: str = "rad"
 
 
-def draws_of(fit: Fit, rng: np.random.Generator) -> Array:
+def draw_parameters(fit: Fit, rng: np.random.Generator) -> Array:
     """Return draws (DRAWS, keys) of the physical parameters from the posterior about a fit."""
     free = fit.problem.free
-    theta = draws(fit, rng, DRAWS)
-    physical = set(base_keys(fit))
+    theta = draw_posterior(fit, rng, DRAWS)
+    physical = set(list_physical_keys(fit))
     kept = [i for i, f in enumerate(free) if f.key in physical]
     return np.array([[free[i].value(row[i]) for i in kept] for row in theta])
 
 
-def intervals(fit: Fit, draws: Array) -> dict[str, Interval]:
+def compute_intervals(fit: Fit, draws: Array) -> dict[str, Interval]:
     """Return median and central 95 % interval of each physical parameter."""
     units = {f.key: f.unit for f in fit.problem.free}
     low, median, high = np.quantile(draws, [0.025, 0.5, 0.975], axis=0)
-    keys = base_keys(fit)
+    keys = list_physical_keys(fit)
     return {k: Interval(float(median[i]), float(low[i]), float(high[i]), units[k]) for i, k in enumerate(keys)}
 
 
-def found_in(outcome: Outcome) -> tuple[Mechanism, ...]:
+def list_findings(outcome: Outcome) -> tuple[Mechanism, ...]:
     """Return the entries of `found`: terms, marks in the stored values, and what no term explains."""
     d = outcome.diagnosis
-    after = intervals(d.after, outcome.draws_after)
-    entries = [_entry(outcome, key, after) for key in d.named] + [_quantised_entry(d, key) for key in d.quantised]
+    after = compute_intervals(d.after, outcome.draws_after)
+    entries = [_make_entry(outcome, key, after) for key in d.named] + [
+        _make_quantised_entry(d, key) for key in d.quantised
+    ]
     if d.learned:
-        entries.append(learned_entry(d))
-    elif d.unexplained and (not d.found or _shapeless(d)):
-        entries.append(unnamed_entry(d))
-    why = why_withheld(outcome)
+        entries.append(make_learned_entry(d))
+    elif d.unexplained and (not d.found or _is_random(d)):
+        entries.append(make_unnamed_entry(d))
+    why = explain_withheld(outcome)
     if why and not d.found and not d.unexplained:
-        entries.append(replace(unnamed_entry(d), probability=1.0, says=why))
-    return tuple(replace(entry, parameters=shown(entry.parameters, why)) for entry in entries)
+        entries.append(replace(make_unnamed_entry(d), probability=1.0, says=why))
+    return tuple(replace(entry, parameters=withhold_intervals(entry.parameters, why)) for entry in entries)
 
 
-def noise_floor(outcome: Outcome) -> float:
+def compute_noise_floor(outcome: Outcome) -> float:
     """Return the share of the held-out readings that is noise, as the mean over the sensors."""
     fit, scales = outcome.diagnosis.after, outcome.after.scales
     noises = [math.sqrt(fit.problem.measurement(fit.theta, 0, i)) for i in range(len(scales))]
     return float(np.mean([noise / scale for noise, scale in zip(noises, scales, strict=True)]))
 
 
-def why_withheld(outcome: Outcome) -> str:
+def explain_withheld(outcome: Outcome) -> str:
     """Return why intervals are withheld: the model does not predict held-out data; empty where it does."""
-    floor = noise_floor(outcome)
-    if holds(outcome.after, floor, outcome.diagnosis.settings.name):
+    floor = compute_noise_floor(outcome)
+    if is_valid(outcome.after, floor, outcome.diagnosis.settings.name):
         return ""
     model = "model" if outcome.diagnosis.found else "nominal model"
     return (
@@ -95,36 +97,36 @@ def why_withheld(outcome: Outcome) -> str:
     )
 
 
-def shown(parameters: Mapping[str, Interval], why: str) -> Mapping[str, Interval]:
+def withhold_intervals(parameters: Mapping[str, Interval], why: str) -> Mapping[str, Interval]:
     """Return parameters as they are told: with bounds of NaN where there is a reason to withhold their intervals."""
     if not why:
         return parameters
     return {name: replace(one, low=math.nan, high=math.nan, withheld=why) for name, one in parameters.items()}
 
 
-def _shapeless(d: Diagnosed) -> bool:
+def _is_random(d: SearchResult) -> bool:
     """Return whether what is left beside terms is a random force: with no structure, and no memory that was doubted."""
     return not (d.left and d.left.structure) and not d.selection.declined
 
 
-def _entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> Mechanism:
+def _make_entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> Mechanism:
     d = outcome.diagnosis
-    term, slots = term_of(d.after.problem, key)
+    term, slots = find_term(d.after.problem, key)
     system, known = d.after.problem.system, d.after.problem.known
     held = {s.key: float(known[system.index[s.key]]) for s in slots}
-    own = {s.param.name: after.get(s.key) or _of(np.full(1, held[s.key]), s.unit) for s in slots}
-    why = why_withheld(outcome)
+    own = {s.param.name: after.get(s.key) or _make_interval(np.full(1, held[s.key]), s.unit) for s in slots}
+    why = explain_withheld(outcome)
     shown_own = {name: i.with_angles_in(outcome.angle) for name, i in own.items()}
     numbers = {name: f"{rounded(i.median, 3)} {i.unit}" if why else str(i) for name, i in shown_own.items()}
     numbers |= {q.name: q.words[q.choices.index(own[q.name].median)] for q in term.params if q.words}
-    sentence = term.physics.format(**numbers) + _whose(d, term)
-    if term.at in elsewhere(system.model):
+    sentence = term.physics.format(**numbers) + _name_sensor(d, term)
+    if term.at in list_other_places(system.model):
         sentence += f" at the place {term.at!r}"
-    late = since(d.after, key)
+    late = estimate_onset(d.after, key)
     if late:
         sentence += f", since {late}"
     share = float(np.max(np.abs(d.laws[key]))) / d.after.problem.scales.force
-    doubts = doubts_of(d, key) + [doubt for doubt in (outcome.unconfirmed.get(key), why) if doubt]
+    doubts = list_warnings(d, key) + [doubt for doubt in (outcome.unconfirmed.get(key), why) if doubt]
     size = "" if isinstance(term, SensorTerm) else f", up to {percent(share)} of {d.yardstick}"
     return Mechanism(
         mechanism=term.name,
@@ -132,27 +134,27 @@ def _entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> Mechani
         probability=d.selection.inclusion(key),
         state=LIKELY if doubts else NAMED,
         doubts=tuple(doubts),
-        parameters=own | _derived(outcome, term, held),
+        parameters=own | _compute_derived(outcome, term, held),
         share_of_drive=share,
         since=late,
         says=f"{sentence}{size}.",
     )
 
 
-def elsewhere(model: Model) -> set[str]:
+def list_other_places(model: Model) -> set[str]:
     """Return the names of the places at which a force acts on another body than the first."""
     first = model.interfaces[0]
     return {place.name for place in model.interfaces if place.row != first.row or place.against != first.against}
 
 
-def _quantised_entry(d: Diagnosed, key: str) -> Mechanism:
+def _make_quantised_entry(d: SearchResult, key: str) -> Mechanism:
     """Return the entry of a term that the stored values themselves betray."""
-    term, slots = term_of(d.selection.nominal.problem, key)
+    term, slots = find_term(d.selection.nominal.problem, key)
     rows = zip(slots, *d.quantised[key], strict=True)
     channel = next((s.channel for s in d.shown.sensors if s.place == term.at), d.shown.channel)
     unit = unit_of(channel, d.after.problem.system.model.motion)
     own = {s.param.name: Interval(v, v - 1.96 * sd, v + 1.96 * sd, unit) for s, v, sd in rows}
-    sentence = term.physics.format(**{name: f"{rounded(i.median, 3)} {i.unit}" for name, i in own.items()}) + _whose(
+    sentence = term.physics.format(**{name: f"{i.median:.3g} {i.unit}" for name, i in own.items()}) + _name_sensor(
         d, term
     )
     return Mechanism(
@@ -165,24 +167,26 @@ def _quantised_entry(d: Diagnosed, key: str) -> Mechanism:
     )
 
 
-def _whose(d: Diagnosed, term: Term) -> str:
+def _name_sensor(d: SearchResult, term: Term) -> str:
     """Return at which of several sensors a term acts, as a sentence on it ends; nothing for other terms."""
     if not isinstance(term, SensorTerm) or len(d.shown.sensors) < 2:
         return ""
     return next((f" (sensor {s.label!r})" for s in d.shown.sensors if s.place == term.at), "")
 
 
-def _derived(outcome: Outcome, term: Term, held: Mapping[str, float]) -> dict[str, Interval]:
+def _compute_derived(outcome: Outcome, term: Term, held: Mapping[str, float]) -> dict[str, Interval]:
     """Return the intervals of the further numbers of a term, from draws of its parameters (`held` where not free)."""
     after = outcome.diagnosis.after
-    columns = {key: i for i, key in enumerate(base_keys(after))}
+    columns = {key: i for i, key in enumerate(list_physical_keys(after))}
     rows = [[row[columns[k]] if k in columns else value for k, value in held.items()] for row in outcome.draws_after]
     made = np.array([term.derived(tuple(row)) for row in rows])
     motion = after.problem.system.model.motion
-    return {q.name: _of(column, q.dimension.unit(motion)) for q, column in zip(term.further, made.T, strict=True)}
+    return {
+        q.name: _make_interval(column, q.dimension.unit(motion)) for q, column in zip(term.further, made.T, strict=True)
+    }
 
 
-def _of(draws: Array, unit: str) -> Interval:
+def _make_interval(draws: Array, unit: str) -> Interval:
     """Return median and central 95 % interval of draws (count,)."""
     low, median, high = np.quantile(draws, [0.025, 0.5, 0.975])
     return Interval(float(median), float(low), float(high), unit)

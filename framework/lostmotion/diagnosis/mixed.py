@@ -9,32 +9,32 @@ from __future__ import annotations
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.diagnosis.findings import draws_of
-from lostmotion.diagnosis.search import Diagnosed, base_keys
-from lostmotion.inference.setup import polish
+from lostmotion.diagnosis.findings import draw_parameters
+from lostmotion.diagnosis.search import SearchResult, list_physical_keys
+from lostmotion.inference.setup import polish_fit
 
 OPEN = 0.05
 """An explanation with a smaller share of the posterior is left out."""
 MOST = 3
 
 
-def draws_after(diagnosis: Diagnosed, rng: np.random.Generator) -> Array:
+def draw_mixture(diagnosis: SearchResult, rng: np.random.Generator) -> Array:
     """Return draws (draws, keys) of the parameters of the model after the diagnosis.
 
     Those of the machine are a mixture over the chosen terms and their rivals, by posterior probability (Hoeting et al.,
     Statistical Science 14 (1999) 382-417); those of terms are from the chosen ones.
     """
     chosen = diagnosis.after
-    made = draws_of(chosen, rng)
+    made = draw_parameters(chosen, rng)
     if diagnosis.learned:
         return made
-    rivals = _rivals(diagnosis)
-    keys = base_keys(chosen)
+    rivals = _list_rivals(diagnosis)
+    keys = list_physical_keys(chosen)
     order, begin = rng.permutation(len(made)), 0
     for terms, share in rivals:
-        fit = polish(diagnosis.selection.visits[terms].fit)
-        other, count = draws_of(fit, rng), round(share * len(made))
-        columns = {key: i for i, key in enumerate(base_keys(fit))}
+        fit = polish_fit(diagnosis.selection.fitted_sets[terms].fit)
+        other, count = draw_parameters(fit, rng), round(share * len(made))
+        columns = {key: i for i, key in enumerate(list_physical_keys(fit))}
         rows = order[begin : begin + count]
         for i, key in enumerate(keys):
             if key in columns and "." not in key:
@@ -43,7 +43,7 @@ def draws_after(diagnosis: Diagnosed, rng: np.random.Generator) -> Array:
     return made
 
 
-def _rivals(diagnosis: Diagnosed) -> list[tuple[frozenset[str], float]]:
+def _list_rivals(diagnosis: SearchResult) -> list[tuple[frozenset[str], float]]:
     """Return the sets of terms beside the chosen one that have a share of the posterior, largest first."""
     shares = diagnosis.selection.probabilities()
     here = diagnosis.selection.chosen.problem.active

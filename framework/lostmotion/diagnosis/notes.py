@@ -7,15 +7,15 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from lostmotion.diagnosis.decays import note_anew
+from lostmotion.diagnosis.decays import note_restarts
 from lostmotion.diagnosis.findings import Outcome
-from lostmotion.diagnosis.repetitions import repetition_notes
-from lostmotion.diagnosis.search import Diagnosed
-from lostmotion.diagnosis.states import unsteady
-from lostmotion.inference.contacts import short_contacts
+from lostmotion.diagnosis.repetitions import note_repetitions
+from lostmotion.diagnosis.search import SearchResult
+from lostmotion.diagnosis.states import warn_of_moved_amplitudes
+from lostmotion.inference.contacts import list_short_contacts
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.unseen import place_of_body
-from lostmotion.likelihood.initial import placed
+from lostmotion.inference.unseen import smooth_body_position
+from lostmotion.likelihood.initial import shows_place
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.space import LEVELS
 from lostmotion.results import percent, rounded
@@ -29,31 +29,38 @@ LOUD, DEAFENING = 0.3, 0.8
 """Noise with a memory, and any noise, that makes up this share of what a sensor shows may as well be motion."""
 
 
-def notes_of(outcome: Outcome, said: Sequence[str]) -> list[str]:
+def write_notes(outcome: Outcome, said: Sequence[str]) -> list[str]:
     """Return the notes of a diagnosis: what the recordings `said` of themselves, and what a reader should doubt."""
     d = outcome.diagnosis
-    doubts = [*short_contacts(d.after), *_declined(d), *_on_the_edge(d), *_far_off(outcome), *_slow(d)]
-    doubts += [text for key in d.named for text in unsteady(d, key)]
+    doubts = [
+        *list_short_contacts(d.after),
+        *_note_declined(d),
+        *_note_bounds(d),
+        *_note_large_errors(outcome),
+        *_note_ar1_noise(d),
+    ]
+    doubts += [text for key in d.named for text in warn_of_moved_amplitudes(d, key)]
     if d.selection.stopped:
         doubts.append(
-            f"The search ended after {len(d.selection.visits)} sets of terms, which is its bound: what is left is told"
+            f"The search ended after {len(d.selection.fitted_sets)} sets of terms, which is its bound: what is left"
+            " is told"
             " as left."
         )
-    again = repetition_notes(_recordings(d), d.train, d.held)
-    return [*said, *_unrecorded(d), *doubts, *again, *vague(d.after, d.shown)]
+    again = note_repetitions(_list_recordings(d), d.train, d.held)
+    return [*said, *_note_unrecorded_inputs(d), *doubts, *again, *note_unknown_position(d.after, d.shown)]
 
 
-def _recordings(d: Diagnosed) -> tuple[Observation, ...]:
+def _list_recordings(d: SearchResult) -> tuple[Observation, ...]:
     """Return the recordings as a whole."""
     return (*d.train, *d.held) if d.shown is d.held[0] else (d.shown,)
 
 
-def _unrecorded(d: Diagnosed) -> list[str]:
+def _note_unrecorded_inputs(d: SearchResult) -> list[str]:
     """Return a note for each recording without an input that something drove all the same."""
-    return [note for observation in _recordings(d) for note in note_anew(observation)]
+    return [note for observation in _list_recordings(d) for note in note_restarts(observation)]
 
 
-def _slow(d: Diagnosed) -> list[str]:
+def _note_ar1_noise(d: SearchResult) -> list[str]:
     """Return a note for each sensor whose noise has a memory, which white noise and a random force would imitate."""
     problem, theta, notes = d.after.problem, d.after.theta, []
     for i, sensor in enumerate(d.shown.sensors):
@@ -70,7 +77,7 @@ def _slow(d: Diagnosed) -> list[str]:
     return notes
 
 
-def drowned(outcome: Outcome) -> list[str]:
+def note_large_noise(outcome: Outcome) -> list[str]:
     """Return a sentence for each sensor of which so much passes for noise, where held out, that it may be motion."""
     d, told = outcome.diagnosis, []
     problem, theta = d.after.problem, d.after.theta
@@ -87,7 +94,7 @@ def drowned(outcome: Outcome) -> list[str]:
     return told
 
 
-def _declined(d: Diagnosed) -> list[str]:
+def _note_declined(d: SearchResult) -> list[str]:
     declined = sorted(d.selection.declined - set(d.found))
     if not declined:
         return []
@@ -97,7 +104,7 @@ def _declined(d: Diagnosed) -> list[str]:
     ]
 
 
-def _on_the_edge(d: Diagnosed) -> list[str]:
+def _note_bounds(d: SearchResult) -> list[str]:
     """Return a note for each parameter that presses against a bound of its prior."""
     notes = []
     for f, at in zip(d.after.problem.free, d.after.theta, strict=True):
@@ -112,7 +119,7 @@ def _on_the_edge(d: Diagnosed) -> list[str]:
     return notes
 
 
-def _far_off(outcome: Outcome) -> list[str]:
+def _note_large_errors(outcome: Outcome) -> list[str]:
     d = outcome.diagnosis
     noises = [d.after.problem.measurement(d.after.theta, 0, i) ** 0.5 for i in range(len(d.shown.sensors))]
     errors = zip(outcome.after.by_sensor, outcome.after.scales, noises, strict=True)
@@ -126,11 +133,11 @@ def _far_off(outcome: Outcome) -> list[str]:
     ]
 
 
-def vague(fit: Fit, observation: Observation) -> list[str]:
+def note_unknown_position(fit: Fit, observation: Observation) -> list[str]:
     """Return a note where no sensor of a recording shows the position and it is not known well."""
-    if placed(observation):
+    if shows_place(observation):
         return []
-    place = place_of_body(fit, observation)
+    place = smooth_body_position(fit, observation)
     reach, amplitude = 2.0 * float(place.sd.max()), math.sqrt(2.0) * float(place.mean.std())
     if not reach > VAGUE * amplitude:
         return []

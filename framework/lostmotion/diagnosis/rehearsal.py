@@ -10,13 +10,13 @@ from scipy.signal import lfilter
 
 from lostmotion.contracts import Array
 from lostmotion.diagnosis.excitations import Excitation
-from lostmotion.inference.fit import Fit, sensitivity, solved
-from lostmotion.likelihood.predict import kicked_run, observed
+from lostmotion.inference.fit import Fit, compute_sensitivity, solve_scaled
+from lostmotion.likelihood.predict import observe_states, simulate_kicked
 from lostmotion.likelihood.problem import RANDOM, Problem
 
 PIECE = 4
 """Samples between two kicks of the random force."""
-RAISED = (0.0, 2.0, 4.0, 6.0)
+RANDOM_FORCE_STEPS = (0.0, 2.0, 4.0, 6.0)
 """By how much the log random force is raised to begin with: a model that is wrong needs more of it."""
 HALVINGS = 4
 
@@ -38,16 +38,16 @@ class RehearsedModel:
         shared = np.array([f.parameter != RANDOM for f in fit.problem.free])
         precision = np.diag([1.0 / min(f.sd, f.high - f.low) ** 2 for f in fit.problem.free])
         known = fit.local.covariance[np.ix_(shared, shared)]
-        precision[np.ix_(shared, shared)] = solved(known, np.eye(int(shared.sum())))
+        precision[np.ix_(shared, shared)] = solve_scaled(known, np.eye(int(shared.sum())))
         return cls(fit, 0.5 * (precision + precision.T))
 
-    def under(self, excitation: Excitation, z: Array | None = None) -> Problem:
+    def pose(self, excitation: Excitation, z: Array | None = None) -> Problem:
         """Return the problem of a new recording; the noise of the excitation grows with its level."""
         problem, old = self.fit.problem, self.fit.problem.observations[0]
         seen = np.zeros((len(excitation.inputs), len(old.sensors))) if z is None else z
         bare = replace(old, name="experiment", begin=0, harmonic=excitation.harmonic)
         observation = replace(bare, readings=seen, inputs=excitation.inputs)
-        shift = self._louder(excitation)
+        shift = self._compute_shift(excitation)
         frees = [
             replace(f, start=f.start + shift, low=f.low + shift, high=f.high + shift, mean=f.mean + shift)
             if f.parameter == RANDOM
@@ -56,18 +56,18 @@ class RehearsedModel:
         ]
         return replace(problem, observations=(observation,), free=tuple(frees), jobs=1)
 
-    def at(self, excitation: Excitation) -> Array:
+    def get_coordinates(self, excitation: Excitation) -> Array:
         """Return the coordinates under an excitation."""
         random = np.array([f.parameter == RANDOM for f in self.fit.problem.free])
-        return np.asarray(self.fit.theta + self._louder(excitation) * random, dtype=float)
+        return np.asarray(self.fit.theta + self._compute_shift(excitation) * random, dtype=float)
 
-    def _louder(self, excitation: Excitation) -> float:
+    def _compute_shift(self, excitation: Excitation) -> float:
         return 2.0 * math.log(max(excitation.level, 1e-300) / max(self.fit.problem.observations[0].travel, 1e-300))
 
 
-def simulated(model: RehearsedModel, excitation: Excitation, rng: np.random.Generator) -> Array | None:
+def simulate_recording(model: RehearsedModel, excitation: Excitation, rng: np.random.Generator) -> Array | None:
     """Return what the sensors would show (samples, sensors) of a model with its noise levels; None if it diverges."""
-    problem, theta = model.under(excitation), model.at(excitation)
+    problem, theta = model.pose(excitation), model.get_coordinates(excitation)
     system, place, full = problem.system, problem.system.model.interfaces[0], problem.full(theta)
     intensity, _ = problem.noise(theta)
     drive = problem.drive(0, theta)
@@ -75,18 +75,18 @@ def simulated(model: RehearsedModel, excitation: Excitation, rng: np.random.Gene
     kicks = np.zeros((drive.samples, problem.dynamics.states))
     kicked = [min(start + PIECE, drive.samples - 1) for start in range(0, drive.samples - 1, PIECE)]
     kicks[kicked, place.row] = kick * rng.standard_normal(len(kicked))
-    states = kicked_run(problem, theta, model.fit.problem.begun(model.fit.theta), kicks)
+    states = simulate_kicked(problem, theta, model.fit.problem.begun(model.fit.theta), kicks)
     if not np.all(np.isfinite(states)):
         return None
     shown = []
     for sensor in range(len(problem.observations[0].sensors)):
         white = math.sqrt(problem.noise(theta, 0, sensor)[1]) * rng.standard_normal(drive.samples)
-        seen = observed(problem, theta, states, sensor=sensor)
-        shown.append(seen + white + _slow(problem, theta, sensor, rng))
+        seen = observe_states(problem, theta, states, sensor=sensor)
+        shown.append(seen + white + _draw_ar1_noise(problem, theta, sensor, rng))
     return np.stack(shown, axis=1)
 
 
-def _slow(problem: Problem, theta: Array, sensor: int, rng: np.random.Generator) -> Array:
+def _draw_ar1_noise(problem: Problem, theta: Array, sensor: int, rng: np.random.Generator) -> Array:
     """Return measurement noise with a memory (samples,) of a sensor that has any."""
     variance, ar1_share = problem.ar1(theta, 0, sensor)
     fresh = math.sqrt(variance * (1.0 - ar1_share**2)) * rng.standard_normal(problem.observations[0].samples)
@@ -95,47 +95,47 @@ def _slow(problem: Problem, theta: Array, sensor: int, rng: np.random.Generator)
 
 
 @dataclass(frozen=True)
-class Asked:
+class EvidenceBudget:
     """How a recording is judged: it counts `share` times, as a longer one would; `rounds` of Fisher scoring at most."""
 
     share: float
     rounds: int
 
 
-def evidence(model: RehearsedModel, excitation: Excitation, z: Array, asked: Asked) -> float:
+def compute_evidence(model: RehearsedModel, excitation: Excitation, z: Array, asked: EvidenceBudget) -> float:
     """Return the log probability of a new recording, given the old ones, by Laplace's method; -inf if it diverges.
 
     With no rounds, the maximum is what the first step promises.
     """
-    problem, middle = model.under(excitation, z), model.at(excitation)
-    task = _Task(problem, middle, model.precision, asked.share)
-    point, height = task.warmest()
+    problem, middle = model.pose(excitation, z), model.get_coordinates(excitation)
+    task = _NewPosterior(problem, middle, model.precision, asked.share)
+    point, height = task.find_start()
     if not math.isfinite(height):
         return -math.inf
     steps = model.fit.local.steps
     for turn in range(asked.rounds + 1):
-        slopes = sensitivity(problem, point, steps)
+        slopes = compute_sensitivity(problem, point, steps)
         information = asked.share * slopes.information()
         gradient = asked.share * slopes.gradient() - model.precision @ (point - middle)
         whole = information + model.precision
         if not (np.all(np.isfinite(gradient)) and np.all(np.isfinite(whole))):
             return -math.inf
-        step = solved(whole, gradient)
+        step = solve_scaled(whole, gradient)
         promise = 0.5 * float(gradient @ step)
         if turn == asked.rounds or promise < 0.05:
             break
-        moved = task.climbed(point, height, step)
+        moved = task.climb(point, height, step)
         if moved is None:
             promise = 0.0
             break
         point, height = moved
     # What a fit gains from noise is counted once, however much longer than this the recording will be.
-    spare = 0.5 * (asked.share - 1.0) * float(np.trace(solved(whole, information)))
-    return height + max(promise, 0.0) - spare - 0.5 * _log_ratio(whole, model.precision)
+    spare = 0.5 * (asked.share - 1.0) * float(np.trace(solve_scaled(whole, information)))
+    return height + max(promise, 0.0) - spare - 0.5 * _compute_log_ratio(whole, model.precision)
 
 
 @dataclass(frozen=True)
-class _Task:
+class _NewPosterior:
     """The log posterior of a new recording, counted `share` times, with the old posterior as prior."""
 
     problem: Problem
@@ -149,15 +149,15 @@ class _Task:
         told = self.problem.log_likelihoods(thetas)
         return np.asarray(self.share * told - 0.5 * np.einsum("pi,ij,pj->p", away, self.precision, away))
 
-    def warmest(self) -> tuple[Array, float]:
+    def find_start(self) -> tuple[Array, float]:
         """Return where to begin: with as much random force as the recording asks for."""
         random = np.array([f.parameter == RANDOM for f in self.problem.free])
-        starts = self.problem.clip(self.middle + np.outer(RAISED, random))
+        starts = self.problem.clip(self.middle + np.outer(RANDOM_FORCE_STEPS, random))
         log_densities = self.log_densities(starts)
         best = int(np.argmax(log_densities))
         return starts[best], float(log_densities[best])
 
-    def climbed(self, point: Array, height: float, step: Array) -> tuple[Array, float] | None:
+    def climb(self, point: Array, height: float, step: Array) -> tuple[Array, float] | None:
         """Return a higher point along a step, or None."""
         trials = self.problem.clip(point + np.outer(0.5 ** np.arange(HALVINGS), step))
         reached = self.log_densities(trials)
@@ -165,6 +165,6 @@ class _Task:
         return (trials[higher[0]], float(reached[higher[0]])) if len(higher) else None
 
 
-def _log_ratio(a: Array, b: Array) -> float:
+def _compute_log_ratio(a: Array, b: Array) -> float:
     """Return the logarithm of the ratio of two determinants."""
     return float(np.linalg.slogdet(a)[1] - np.linalg.slogdet(b)[1])

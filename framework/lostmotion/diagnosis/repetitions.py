@@ -20,39 +20,39 @@ LONGEST = 50_000
 """Samples of the end of a recording whose cycles are compared."""
 
 
-def repetition_notes(
+def note_repetitions(
     observations: Sequence[Observation], train: Sequence[Observation], held: Sequence[Observation]
 ) -> list[str]:
     """Return notes on whole recordings whose cycles repeat, and on held-out data that repeat what was fitted."""
-    return [*_same_again(train, held), *_one_cycle(observations)]
+    return [*_note_repeated_heldout(train, held), *_note_equal_cycles(observations)]
 
 
-def looks_of(observation: Observation) -> Repetition | None:
+def count_cycles(observation: Observation) -> Repetition | None:
     """Return how many distinct cycles a recording has by its first sensor, None where it has no cycles."""
-    x = _filled(observation)[-LONGEST:]
+    x = _fill_gaps(observation)[-LONGEST:]
     omega = observation.harmonic.omega
     period = 2.0 * math.pi / (omega * observation.dt) if omega else observation.period
     return repetition_of(x, observation.noise, period)
 
 
-def share_repeated(train: Iterable[Observation], held: Observation) -> float | None:
+def compute_repeated_share(train: Iterable[Observation], held: Observation) -> float | None:
     """Return the share (0 to 1) of the variance of held-out data that some fitted data of its channel show as well.
 
     None where nothing can be compared.
     """
     alike = [o for o in train if o.channel == held.channel and math.isclose(o.dt, held.dt, rel_tol=1e-6)]
-    shares = [repeated_share(_filled(o), _filled(held), max(o.noise, held.noise)) for o in alike]
+    shares = [repeated_share(_fill_gaps(o), _fill_gaps(held), max(o.noise, held.noise)) for o in alike]
     return max((share for share in shares if share is not None), default=None)
 
 
-def _same_again(train: Sequence[Observation], held: Sequence[Observation]) -> list[str]:
-    shares = [(o, share_repeated(train, o)) for o in held]
+def _note_repeated_heldout(train: Sequence[Observation], held: Sequence[Observation]) -> list[str]:
+    shares = [(o, compute_repeated_share(train, o)) for o in held]
     again = [(o, share) for o, share in shares if share is not None and share > SAME]
     if not again:
         return []
     least = math.floor(1000.0 * min(share for _, share in again)) / 10.0
-    what = "The held-out part repeats" if len(held) == 1 else f"What is held out of {_listed(again)} repeats"
-    looks = [looks_of(o) for o, _ in again]
+    what = "The held-out part repeats" if len(held) == 1 else f"What is held out of {_join_names(again)} repeats"
+    looks = [count_cycles(o) for o, _ in again]
     cyclic = all(one is not None and one.distinct < FEW for one in looks)
     return [
         f"{what} the motion of the part that was fitted ({rounded(least, 4)} % of it): that"
@@ -61,11 +61,11 @@ def _same_again(train: Sequence[Observation], held: Sequence[Observation]) -> li
     ]
 
 
-def _one_cycle(observations: Sequence[Observation]) -> list[str]:
+def _note_equal_cycles(observations: Sequence[Observation]) -> list[str]:
     """Return a note for each recording whose cycles are one, to within the noise."""
     notes = []
     for observation in observations:
-        looks = looks_of(observation)
+        looks = count_cycles(observation)
         if looks is not None and looks.cycles >= ENOUGH and looks.distinct < FEW:
             these = f"The {looks.cycles} cycles of {observation.name}"
             notes.append(
@@ -77,12 +77,12 @@ def _one_cycle(observations: Sequence[Observation]) -> list[str]:
     return notes
 
 
-def _listed(again: Sequence[tuple[Observation, float]]) -> str:
+def _join_names(again: Sequence[tuple[Observation, float]]) -> str:
     names = list(dict.fromkeys(o.name for o, _ in again))
     return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
 
 
-def _filled(observation: Observation) -> Array:
+def _fill_gaps(observation: Observation) -> Array:
     """Return the readings (samples,) of the first sensor with lines through gaps; all NaN where gaps are many."""
     x = observation.response
     taken = np.isfinite(x)

@@ -9,16 +9,15 @@ import numpy as np
 
 from lostmotion.case import Experiment
 from lostmotion.contracts import Term
-from lostmotion.diagnosis.experiment import Limits, Proposal, natural_of, propose, usual_limits
-from lostmotion.diagnosis.search import Diagnosed
-from lostmotion.diagnosis.verdict import other_level
-from lostmotion.inference.course import Visit
-from lostmotion.inference.natural import term_of
-from lostmotion.inference.prices import related
+from lostmotion.diagnosis.experiment import Limits, Proposal, choose_limits, compute_natural_frequency, propose
+from lostmotion.diagnosis.search import SearchResult
+from lostmotion.diagnosis.verdict import name_other_recording
+from lostmotion.inference.natural import find_term
+from lostmotion.inference.penalties import are_related
+from lostmotion.inference.term_sets import TermSet
 from lostmotion.likelihood.system import key_of
 from lostmotion.quantities import unit_of
-from lostmotion.report.words import sentence, spoken
-from lostmotion.results import rounded
+from lostmotion.report.words import sentence, to_words
 from lostmotion.results.diagnosis import Confusion, DecidingExcitation
 
 MOST = 2
@@ -29,7 +28,7 @@ LITTLE = 3.0
 Proposals = Mapping[str, Proposal | None]
 
 
-def rivals_of(d: Diagnosed) -> dict[str, Visit]:
+def find_rivals(d: SearchResult) -> dict[str, TermSet]:
     """Return the best set of terms with each term that may be at work in place of what was found, heaviest first.
 
     There is none where more was found than the selection chose: a force without a name has no rivals with one.
@@ -41,73 +40,77 @@ def rivals_of(d: Diagnosed) -> dict[str, Visit]:
     weights, rows = course.probabilities(), {}
     for term in problem.system.terms:
         key = key_of(term)
-        sets = [k for k in weights if key in k and math.isfinite(course.visits[k].weight)]
+        sets = [k for k in weights if key in k and math.isfinite(course.fitted_sets[k].weight)]
         if key in problem.active or not sets:
             continue
         best = max(sets, key=lambda k: weights[k])
-        stands_in = any(related(term, term_of(problem, mine)[0]) for mine in problem.active - best)
-        short = course.chosen.log_evidence - course.visits[best].fit.log_evidence
+        stands_in = any(are_related(term, find_term(problem, mine)[0]) for mine in problem.active - best)
+        short = course.chosen.log_evidence - course.fitted_sets[best].fit.log_evidence
         remembers = (
-            stands_in and bool(term.states) and any(term_of(problem, k)[0].states for k in problem.active - best)
+            stands_in and bool(term.states) and any(find_term(problem, k)[0].states for k in problem.active - best)
         )
-        likely = course.chosen.log_likelihood - course.visits[best].fit.log_likelihood < d.settings.name.related
+        likely = course.chosen.log_likelihood - course.fitted_sets[best].fit.log_likelihood < d.settings.name.related
         close = stands_in and (short < d.settings.name.related or (remembers and likely))
         if course.inclusion(key) > d.settings.name.worth or close:
-            rows[key] = course.visits[best]
+            rows[key] = course.fitted_sets[best]
     return dict(sorted(rows.items(), key=lambda row: -row[1].weight))
 
 
-def proposed(
-    d: Diagnosed, allowed: Experiment | None, *, rng: np.random.Generator, say: Callable[[str], None] = lambda _: None
+def propose_experiments(
+    d: SearchResult,
+    allowed: Experiment | None,
+    *,
+    rng: np.random.Generator,
+    say: Callable[[str], None] = lambda _: None,
 ) -> dict[str, Proposal | None]:
     """Return the experiment that would decide between what was found and each of its heaviest rivals, by key.
 
     Where none is `allowed`, or nothing drives the machine, none is looked for.
     """
     chosen = d.selection.chosen
-    heaviest = list(rivals_of(d).items())[:MOST]
+    heaviest = list(find_rivals(d).items())[:MOST]
     if allowed is None or chosen.problem.observations[0].free:
         return {key: None for key, _ in heaviest}
-    usual = usual_limits(chosen.problem.observations[0], natural_of(chosen))
+    usual = choose_limits(chosen.problem.observations[0], compute_natural_frequency(chosen))
     limits = Limits(allowed.max_level or usual.level, allowed.max_frequency or usual.frequency)
     return {
-        key: propose(chosen, visit.fit, limits=limits, rng=rng, say=lambda step, key=key: say(f"{key}: {step}"))  # type: ignore[misc]
-        for key, visit in heaviest
+        key: propose(chosen, term_set.fit, limits=limits, rng=rng, say=lambda step, key=key: say(f"{key}: {step}"))  # type: ignore[misc]
+        for key, term_set in heaviest
     }
 
 
-def confused_with(d: Diagnosed, rows: Sequence[Confusion], proposals: Proposals) -> tuple[Confusion, ...]:
+def describe_confusions(d: SearchResult, rows: Sequence[Confusion], proposals: Proposals) -> tuple[Confusion, ...]:
     """Return the `rows` of what a verdict cannot tell apart, with close relatives, and the experiments that decide."""
     told = {}
     for key, proposal in proposals.items():
-        term, _ = term_of(d.selection.chosen.problem, key)
+        term, _ = find_term(d.selection.chosen.problem, key)
         p = d.selection.inclusion(key)
-        says = f"{_opening(d, term, p)} {sentence(other_level(d))} would decide."
+        says = f"{_describe_rival(d, term, p)} {sentence(name_other_recording(d))} would decide."
         told[term.name, term.at] = Confusion(
             mechanism=term.name,
             at=term.at,
             probability=p,
-            excitation=_excitation(d, proposal) if proposal else None,
-            says=_says(d, term, p, proposal) if proposal else says,
+            excitation=_make_excitation(d, proposal) if proposal else None,
+            says=_describe_proposal(d, term, p, proposal) if proposal else says,
         )
     rest = (row for row in rows if (row.mechanism, row.at) not in told)
     return (*told.values(), *rest)
 
 
-def _unit(d: Diagnosed) -> str:
+def _find_drive_unit(d: SearchResult) -> str:
     """Return the SI unit of what moves the machine."""
     model = d.selection.chosen.problem.system.model
     return unit_of(model.inputs[0], model.motion)
 
 
-def _excitation(d: Diagnosed, proposal: Proposal) -> DecidingExcitation:
+def _make_excitation(d: SearchResult, proposal: Proposal) -> DecidingExcitation:
     e = proposal.excitation
     return DecidingExcitation(
         waveform=e.waveform,
         level=e.level,
         frequency=e.band[1],
         band=e.band,
-        unit=_unit(d),
+        unit=_find_drive_unit(d),
         expected_log_gain=proposal.gain,
         repeat_log_gain=proposal.repeat,
         if_found_is_true=proposal.ways[0],
@@ -115,21 +118,21 @@ def _excitation(d: Diagnosed, proposal: Proposal) -> DecidingExcitation:
     )
 
 
-def _opening(d: Diagnosed, term: Term, p: float) -> str:
+def _describe_rival(d: SearchResult, term: Term, p: float) -> str:
     if p > d.settings.name.worth:
-        return f"This recording gives {_called(term)} a probability of {p:.2f}."
+        return f"This recording gives {_name_term(term)} a probability of {p:.2f}."
     return (
-        f"This recording does not rule out {_called(term)}: only the price of its further parameters brings it to a"
-        f" probability of {rounded(p)}."
+        f"This recording does not rule out {_name_term(term)}: only the price of its further parameters brings it to a"
+        f" probability of {p:.2g}."
     )
 
 
-def _called(term: Term) -> str:
-    return spoken(term.name)
+def _name_term(term: Term) -> str:
+    return to_words(term.name)
 
 
-def _says(d: Diagnosed, term: Term, p: float, proposal: Proposal) -> str:
-    opening = _opening(d, term, p)
+def _describe_proposal(d: SearchResult, term: Term, p: float, proposal: Proposal) -> str:
+    opening = _describe_rival(d, term, p)
     gain, repeat = proposal.gain, proposal.repeat
     if gain < LITTLE:
         return (
@@ -141,16 +144,16 @@ def _says(d: Diagnosed, term: Term, p: float, proposal: Proposal) -> str:
     )
     whose = ""
     if proposal.counted == (1,):
-        whose = f" if it is {_called(term)} (if it is not, by {rounded(max(proposal.ways[0], 0.0))})"
+        whose = f" if it is {_name_term(term)} (if it is not, by {max(proposal.ways[0], 0.0):.2g})"
     if proposal.counted == (0,):
-        whose = f" if it is not {_called(term)} (if it is, by {rounded(max(proposal.ways[1], 0.0))})"
+        whose = f" if it is not {_name_term(term)} (if it is, by {max(proposal.ways[1], 0.0):.2g})"
     return (
-        f"{opening} {_asked(d, proposal)}: this should separate them by {rounded(gain)} in"
-        f" log-likelihood{whose}, {against}."
+        f"{opening} {_describe_experiment(d, proposal)}: this should separate them by {gain:.2g} in log-likelihood"
+        f"{whose}, {against}."
     )
 
 
-def _asked(d: Diagnosed, proposal: Proposal) -> str:
+def _describe_experiment(d: SearchResult, proposal: Proposal) -> str:
     """Return the experiment in the imperative."""
     e, old = proposal.excitation, d.selection.chosen.problem.observations[0].travel
     change = e.level / old if old else 1.0
@@ -159,4 +162,4 @@ def _asked(d: Diagnosed, proposal: Proposal) -> str:
     shape = f"at {low} Hz" if low == high else f"and make it a {e.waveform} from {low} to {high} Hz"
     if e.waveform == "two tones":
         shape = f"and make it two tones, of {low} and {high} Hz"
-    return f"{verb} {rounded(e.level, 3)} {_unit(d)} {shape}"
+    return f"{verb} {e.level:.3g} {_find_drive_unit(d)} {shape}"

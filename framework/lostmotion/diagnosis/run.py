@@ -12,52 +12,58 @@ import numpy as np
 
 from lostmotion.case import CaseFile
 from lostmotion.codec import to_plain
-from lostmotion.diagnosis.arrays import arrays_of
-from lostmotion.diagnosis.attractors import motions_of
+from lostmotion.diagnosis.arrays import list_arrays
+from lostmotion.diagnosis.attractors import list_motions
 from lostmotion.diagnosis.compare import (
-    exponent_of,
-    horizon_for,
-    pieces_of,
+    average_exponent,
+    choose_heldout_horizon,
+    compute_rates,
+    cut_heldout,
+    is_worse,
     predict,
-    rates_of,
-    worsened,
 )
-from lostmotion.diagnosis.confirming import decided, find_simplest, predicted_better, unconfirmed
-from lostmotion.diagnosis.decays import decay_in
-from lostmotion.diagnosis.disagreements import disagreement_in
-from lostmotion.diagnosis.evidences import evidence_of
-from lostmotion.diagnosis.findings import Outcome, draws_of, found_in, why_withheld
-from lostmotion.diagnosis.mixed import draws_after
-from lostmotion.diagnosis.notes import notes_of
+from lostmotion.diagnosis.confirming import decide_by_heldout, find_better_set, find_simplest, find_unconfirmed
+from lostmotion.diagnosis.decays import describe_decays
+from lostmotion.diagnosis.disagreements import describe_disagreement
+from lostmotion.diagnosis.evidences import check_evidence
+from lostmotion.diagnosis.findings import Outcome, draw_parameters, explain_withheld, list_findings
+from lostmotion.diagnosis.mixed import draw_mixture
+from lostmotion.diagnosis.notes import write_notes
 from lostmotion.diagnosis.report.page import write_report
-from lostmotion.diagnosis.rivals import Proposals, confused_with, proposed
-from lostmotion.diagnosis.search import Diagnosed, diagnose, instead, simpler
-from lostmotion.diagnosis.sharings import shared_in
-from lostmotion.diagnosis.show import Seen, shown
-from lostmotion.diagnosis.states import doubted, in_order, open_of
-from lostmotion.diagnosis.unknowns import where
+from lostmotion.diagnosis.rivals import Proposals, describe_confusions, propose_experiments
+from lostmotion.diagnosis.search import SearchResult, diagnose, drop_least_probable, replace_terms
+from lostmotion.diagnosis.sharings import add_sharing
+from lostmotion.diagnosis.show import ShownMotions, measure_behaviour
+from lostmotion.diagnosis.states import limit_confidence, list_open_terms, sort_findings
+from lostmotion.diagnosis.unknowns import describe_dependence
 from lostmotion.diagnosis.verdict import (
-    angle_of,
-    bodies_of,
-    confusions_of,
-    drive_of,
-    exponents_of,
-    labels,
-    parameters_of,
-    ranking_of,
-    says,
-    scores_of,
-    sensors_of,
-    unexplained_of,
-    units_of,
-    valid_times,
-    whiteness_of,
+    count_bodies,
+    describe_drive,
+    describe_whiteness,
+    find_angle_unit,
+    label_models,
+    list_confusions,
+    list_exponents,
+    list_parameters,
+    list_scores,
+    list_sensors,
+    list_units,
+    list_valid_times,
+    measure_unexplained,
+    rank_candidates,
+    summarise,
 )
 from lostmotion.errors import ContractError
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.system import System, key_of
 from lostmotion.preparation.prepare import Prepared, prepare
-from lostmotion.preparation.vetting import blamed, note_set_aside, raising, theirs, within_numbers
+from lostmotion.preparation.vetting import (
+    catch_divergence,
+    find_raising_terms,
+    name_suspects,
+    note_set_aside,
+    third_party_keys,
+)
 from lostmotion.provenance import origin_of
 from lostmotion.quantities import quantity_of
 from lostmotion.recording import Recording
@@ -77,7 +83,7 @@ SHOW, NEXT, EVIDENCE, WHEN = 1, 2, 3, 4
 
 
 @dataclass(frozen=True, eq=False)
-class Told:
+class DiagnosisOutput:
     """A diagnosis as it is told: the result, the arrays behind it, and what both are made of."""
 
     result: Diagnosis
@@ -107,7 +113,7 @@ def run_diagnosis(
     Unless it is to `propose` none, it looks for the experiment that would tell rivals apart.
     """
     say("reading the case")
-    prepared = prepare(path, registry)
+    prepared = prepare(path, registry, settings)
     folder = folder_for(out)
     told = diagnose_prepared(prepared, registry, seed=seed, jobs=jobs, propose=propose, say=say, settings=settings)
     say("report")
@@ -115,7 +121,7 @@ def run_diagnosis(
     return told.result
 
 
-@within_numbers()
+@catch_divergence()
 def diagnose_prepared(
     prepared: Prepared,
     registry: Registry,
@@ -125,28 +131,32 @@ def diagnose_prepared(
     propose: bool = True,
     say: Say = lambda _: None,
     settings: Settings = DEFAULT,
-) -> Told:
+) -> DiagnosisOutput:
     """Return the diagnosis of a case, with all that is told of it; nothing is written."""
     work = partial(diagnose, jobs=jobs, say=say, settings=settings)
-    diagnosis, prepared, rng = _diagnosed(prepared, registry, seed, work)
+    diagnosis, prepared, rng = _run_search(prepared, registry, seed, work)
     say("held-out predictions")
-    outcome = upheld(diagnosis, prepared, rng, say)
-    outcome = replace(outcome, unconfirmed=unconfirmed(outcome, prepared.observations), angle=angle_of(prepared.case))
+    outcome = check_heldout(diagnosis, prepared, rng, say)
+    outcome = replace(
+        outcome, unconfirmed=find_unconfirmed(outcome, prepared.observations), angle=find_angle_unit(prepared.case)
+    )
     diagnosis = outcome.diagnosis
-    motions = motions_of(diagnosis)
+    motions = list_motions(diagnosis)
     say("attractors")
-    show = shown(Seen(outcome, motions, prepared.observations, registry), np.random.default_rng([seed, SHOW]))
+    show = measure_behaviour(
+        ShownMotions(outcome, motions, prepared.observations, registry), np.random.default_rng([seed, SHOW])
+    )
     stream = np.random.default_rng([seed, NEXT])
-    proposals = proposed(diagnosis, prepared.case.experiment if propose else None, rng=stream, say=say)
+    proposals = propose_experiments(diagnosis, prepared.case.experiment if propose else None, rng=stream, say=say)
     say("evidence by sampling")
-    result = _result(prepared, outcome, seed, proposals, show)
-    variables, coords = arrays_of(outcome, motions)
-    return Told(result, dataset_of(variables, coords, {"title": prepared.case.title}), outcome)
+    result = _make_result(prepared, outcome, seed, proposals, show)
+    variables, coords = list_arrays(outcome, motions)
+    return DiagnosisOutput(result, dataset_of(variables, coords, {"title": prepared.case.title}), outcome)
 
 
-def _diagnosed(
-    prepared: Prepared, registry: Registry, seed: int, work: Callable[..., Diagnosed]
-) -> tuple[Diagnosed, Prepared, np.random.Generator]:
+def _run_search(
+    prepared: Prepared, registry: Registry, seed: int, work: Callable[..., SearchResult]
+) -> tuple[SearchResult, Prepared, np.random.Generator]:
     """Return the diagnosis, what it was made of, and its random numbers, for who goes on with them.
 
     Terms of other people that break down on the way are left out, and it begins anew.
@@ -155,34 +165,36 @@ def _diagnosed(
     try:
         return work(prepared.case, prepared.observations, system, rng=rng), prepared, rng
     except ContractError as err:
-        third_party = theirs(registry, prepared.terms)
+        third_party = third_party_keys(registry, prepared.terms)
         culprits = {err.plugin} & set(third_party)
         if not err.plugin:
             suspects = [term for term in prepared.terms if key_of(term) in third_party]
-            culprits = raising(suspects, prepared.observations) or set(third_party)
+            culprits = find_raising_terms(suspects, prepared.observations) or set(third_party)
         if not culprits:
             raise
         kept = tuple(term for term in prepared.terms if key_of(term) not in culprits)
-        told = note_set_aside(blamed(registry, culprits, err))
+        told = note_set_aside(name_suspects(registry, culprits, err))
         fewer = replace(prepared, terms=kept, aside=(*prepared.aside, told))
-        return _diagnosed(fewer, registry, seed, work)
+        return _run_search(fewer, registry, seed, work)
 
 
-def compare_heldout(diagnosis: Diagnosed, prepared: Prepared, rng: np.random.Generator) -> Outcome:
+def compare_heldout(diagnosis: SearchResult, prepared: Prepared, rng: np.random.Generator) -> Outcome:
     """Return the diagnosis with what both models predict of the held-out data."""
-    pieces = pieces_of(prepared.observations, diagnosis.held)
+    pieces = cut_heldout(prepared.observations, diagnosis.held)
     same = diagnosis.after is diagnosis.before
     fits = [diagnosis.before] if same else [diagnosis.before, diagnosis.after]
     jobs = diagnosis.before.problem.jobs
-    rates = each(lambda fit: rates_of(fit, prepared.observations), fits, jobs)
-    horizon = horizon_for(diagnosis.after, pieces, exponent_of(rates[-1]))
+    rates = each(lambda fit: compute_rates(fit, prepared.observations), fits, jobs)
+    horizon = choose_heldout_horizon(diagnosis.after, pieces, average_exponent(rates[-1]))
     both = each(lambda pair: predict(pair[0], pieces, horizon, pair[1]), list(zip(fits, rates, strict=True)), jobs)
     before, after = both[0], both[-1]
-    draws = draws_of(diagnosis.before, rng)
-    return Outcome(diagnosis, before, after, horizon, draws, draws if same else draws_after(diagnosis, rng))
+    draws = draw_parameters(diagnosis.before, rng)
+    return Outcome(diagnosis, before, after, horizon, draws, draws if same else draw_mixture(diagnosis, rng))
 
 
-def upheld(diagnosis: Diagnosed, prepared: Prepared, rng: np.random.Generator, say: Say = lambda _: None) -> Outcome:
+def check_heldout(
+    diagnosis: SearchResult, prepared: Prepared, rng: np.random.Generator, say: Say = lambda _: None
+) -> Outcome:
     """Return the diagnosis with its predictions, less what held-out data speak against.
 
     They have a veto: where free runs or one-step predictions are worse with what was found than without it, learned
@@ -190,30 +202,30 @@ def upheld(diagnosis: Diagnosed, prepared: Prepared, rng: np.random.Generator, s
     that is missing rises with what was found. And held-out data choose among sets that explain the fitted data.
     """
     outcome, limits = compare_heldout(diagnosis, prepared, rng), diagnosis.settings.heldout
-    if (better := predicted_better(outcome, prepared.observations)) is not None:
+    if (better := find_better_set(outcome, prepared.observations)) is not None:
         say(f"held-out predictions with {' and '.join(sorted(better.problem.active))} instead")
-        outcome = compare_heldout(instead(diagnosis, better, rng.spawn(1)[0]), prepared, rng)
-    elif (close := decided(outcome, prepared.observations)) is not None:
+        outcome = compare_heldout(replace_terms(diagnosis, better, rng.spawn(1)[0]), prepared, rng)
+    elif (close := decide_by_heldout(outcome, prepared.observations)) is not None:
         fit, scored = close
         say(f"held-out data decide for {' and '.join(sorted(fit.problem.active))}")
-        weighed = replace(outcome.diagnosis.selection, scored=dict(scored))
+        weighed = replace(outcome.diagnosis.selection, heldout_gains=dict(scored))
         trial = compare_heldout(
-            instead(replace(outcome.diagnosis, selection=weighed), fit, rng.spawn(1)[0]), prepared, rng
+            replace_terms(replace(outcome.diagnosis, selection=weighed), fit, rng.spawn(1)[0]), prepared, rng
         )
-        good = trial.diagnosis.explains and not worsened(outcome.before, trial.after, limits)
+        good = trial.diagnosis.explains and not is_worse(outcome.before, trial.after, limits)
         outcome = trial if good else outcome
     elif (simplest := find_simplest(outcome, prepared.observations)) is not None:
         fit, weighed = simplest[0], replace(outcome.diagnosis.selection, simplest=simplest[1])
         say(f"{' and '.join(sorted(fit.problem.active))} as the simplest explanation")
         trial = compare_heldout(
-            instead(replace(outcome.diagnosis, selection=weighed), fit, rng.spawn(1)[0]), prepared, rng
+            replace_terms(replace(outcome.diagnosis, selection=weighed), fit, rng.spawn(1)[0]), prepared, rng
         )
-        good = trial.diagnosis.explains and not worsened(outcome.before, trial.after, limits)
+        good = trial.diagnosis.explains and not is_worse(outcome.before, trial.after, limits)
         outcome = trial if good else outcome
     while (found := outcome.diagnosis).found:
-        if not worsened(outcome.before, outcome.after, limits) and found.explains:
+        if not is_worse(outcome.before, outcome.after, limits) and found.explains:
             break
-        less = simpler(found, rng.spawn(1)[0])
+        less = drop_least_probable(found, rng.spawn(1)[0])
         if less is None:
             break
         say(f"held-out predictions without {less.withdrawn[-1]}")
@@ -221,57 +233,62 @@ def upheld(diagnosis: Diagnosed, prepared: Prepared, rng: np.random.Generator, s
     return outcome
 
 
-def _result(prepared: Prepared, outcome: Outcome, seed: int, proposals: Proposals, show: Behaviour) -> Diagnosis:
+def _make_result(prepared: Prepared, outcome: Outcome, seed: int, proposals: Proposals, show: Behaviour) -> Diagnosis:
     d, case = outcome.diagnosis, prepared.case
-    found, sharing = shared_in(d, found_in(outcome))
-    found, rest = in_order([doubted(entry, d.settings.name.sure) for entry in found]), open_of(d)
-    over_time, by_recording = disagreement_in(d, np.random.default_rng([seed, WHEN]))
-    before = replace(where(d.located, d.learned), bodies=bodies_of(d), over_time=over_time, by_recording=by_recording)
+    found, sharing = add_sharing(d, list_findings(outcome))
+    found, rest = sort_findings([limit_confidence(entry, d.settings.name.sure) for entry in found]), list_open_terms(d)
+    over_time, by_recording = describe_disagreement(d, np.random.default_rng([seed, WHEN]))
+    before = replace(
+        describe_dependence(d.located, d.learned),
+        bodies=count_bodies(d),
+        over_time=over_time,
+        by_recording=by_recording,
+    )
     return Diagnosis(
         title=case.title,
         verdict="mismatch" if found else "adequate",
-        says=says(outcome, found, rest),
+        says=summarise(outcome, found, rest),
         found=found,
         open=rest,
-        ranking=ranking_of(d, found, failed=bool(why_withheld(outcome))),
-        confused_with=confused_with(d, confusions_of(d), proposals),
-        unexplained=unexplained_of(d, after=True),
-        unexplained_before=unexplained_of(d, after=False),
+        ranking=rank_candidates(d, found, failed=bool(explain_withheld(outcome))),
+        confused_with=describe_confusions(d, list_confusions(d), proposals),
+        unexplained=measure_unexplained(d, after=True),
+        unexplained_before=measure_unexplained(d, after=False),
         where=before,
-        where_after=where(d.left or d.located),
-        parameters=parameters_of(outcome),
-        fit=scores_of(outcome),
-        model=labels(d),
-        drive=drive_of(d),
-        units=replace(units_of(d), angle=outcome.angle),
+        where_after=describe_dependence(d.left or d.located),
+        parameters=list_parameters(outcome),
+        fit=list_scores(outcome),
+        model=label_models(d),
+        drive=describe_drive(d),
+        units=replace(list_units(d), angle=outcome.angle),
         response=Response(quantity_of(d.shown.channel)),
-        sensors=sensors_of(d),
-        lyapunov=exponents_of(outcome),
-        valid_prediction_time=valid_times(outcome),
-        whiteness=whiteness_of(outcome),
+        sensors=list_sensors(d),
+        lyapunov=list_exponents(outcome),
+        valid_prediction_time=list_valid_times(outcome),
+        whiteness=describe_whiteness(outcome),
         sharing=sharing,
         show=show,
-        decay=decay_in(d),
-        evidence=evidence_of(d, np.random.default_rng([seed, EVIDENCE])),
-        machine=_machine(outcome, case),
+        decay=describe_decays(d),
+        evidence=check_evidence(d, np.random.default_rng([seed, EVIDENCE])),
+        machine=_describe_machine(outcome, case),
         truth=case.truth,
-        recordings=tuple(map(_recording, prepared.recordings)),
-        notes=tuple(notes_of(outcome, (*prepared.notes, *unused(case.known)))),
-        provenance=_origin(prepared, d, seed),
+        recordings=tuple(map(_describe_recording, prepared.recordings)),
+        notes=tuple(write_notes(outcome, (*prepared.notes, *note_unused(case.known)))),
+        provenance=_make_origin(prepared, d, seed),
     )
 
 
-def _recording(r: Recording) -> RecordingFacts:
+def _describe_recording(r: Recording) -> RecordingFacts:
     return RecordingFacts(r.name, r.n, r.rate, r.start, tuple(a.attrs["of"] for a in r.inputs))
 
 
-def _origin(prepared: Prepared, d: Diagnosed, seed: int) -> Origin:
+def _make_origin(prepared: Prepared, d: SearchResult, seed: int) -> Origin:
     case = prepared.case
     settings = {"model": case.model, "known": dict(case.known), "terms": [f"{t.name}@{t.at}" for t in prepared.terms]}
     return origin_of("diagnose", {**settings, "thresholds": d.settings.as_dict()}, seed, prepared.inputs)
 
 
-def _machine(outcome: Outcome, case: CaseFile) -> FittedMachine:
+def _describe_machine(outcome: Outcome, case: CaseFile) -> FittedMachine:
     """Return what it takes to set the model that was fitted in motion again: model, terms, and all values in SI."""
     problem, theta = outcome.diagnosis.after.problem, outcome.diagnosis.after.theta
     system, full = problem.system, problem.full(theta)
@@ -291,7 +308,7 @@ def _machine(outcome: Outcome, case: CaseFile) -> FittedMachine:
     )
 
 
-def unused(known: Iterable[str]) -> list[str]:
+def note_unused(known: Iterable[str]) -> list[str]:
     """Return a note on the known values of terms in a case: a diagnosis begins with the model alone."""
     terms = [name for name in known if "." in name]
     if not terms:

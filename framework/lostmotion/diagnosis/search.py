@@ -10,23 +10,30 @@ import numpy as np
 from lostmotion.case import CaseFile
 from lostmotion.contracts import Array, Interface, Model, SensorTerm, Values, place_of
 from lostmotion.errors import DataError
-from lostmotion.inference.course import Selection, Visit
 from lostmotion.inference.fit import Fit, maximise
-from lostmotion.inference.learned import Learned, OverTime
-from lostmotion.inference.leftovers import significant_random_force
-from lostmotion.inference.locate import Curve, covariates, curve, edges_of, further, summary
-from lostmotion.inference.natural import term_of
-from lostmotion.inference.odds import Ratio, likely, log_odds
-from lostmotion.inference.prices import price_of
+from lostmotion.inference.learned import LearnedCurve, OverTime
+from lostmotion.inference.locate import (
+    Curve,
+    average_curve,
+    choose_edges,
+    describe_location,
+    list_covariates,
+    list_further_covariates,
+)
+from lostmotion.inference.natural import find_term
+from lostmotion.inference.odds import LikelihoodRatio, compute_log_ratios, list_likely
+from lostmotion.inference.penalties import compute_penalty
+from lostmotion.inference.random_force import compute_random_force_gain
 from lostmotion.inference.selection import Selector
-from lostmotion.inference.setup import polish, problem_of, search, split, stepped
-from lostmotion.inference.shape_scan import scouted
-from lostmotion.inference.shares import Covariate, Share, shares_of, significant
-from lostmotion.inference.stretches import sought
-from lostmotion.inference.unexplained import CurveSearch, UnknownForce, fewer
+from lostmotion.inference.setup import choose_steps, make_problem, polish_fit, search_maximum, split_heldout
+from lostmotion.inference.shape_scan import scan_shapes
+from lostmotion.inference.shares import Covariate, Share, compute_shares, list_significant
+from lostmotion.inference.stretches import search_stretches
+from lostmotion.inference.term_sets import Selection, TermSet
+from lostmotion.inference.unexplained import CurveSearch, UnknownForce, drop_curve
 from lostmotion.kernels.threads import each
-from lostmotion.likelihood.latent import Missing, missing_force
-from lostmotion.likelihood.motion import derivatives
+from lostmotion.likelihood.latent import LatentForce, smooth_latent_force
+from lostmotion.likelihood.motion import compute_derivatives
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem
 from lostmotion.likelihood.space import LEVELS
@@ -35,30 +42,30 @@ from lostmotion.settings import DEFAULT, LocateSettings, Settings
 
 MANY = 2
 """So many terms together may stand in for one curve: then curves are tried although nothing is left over."""
-MOST_INSTEAD = 3
+MOST_REPLACEMENTS = 3
 """So many sets are tried in place of one that held-out data have refuted."""
 LARGEST = 1e100
 """A missing force beyond this means that the filter ran away: its square could not be taken."""
 
 
-def fitted_keys(system: System) -> tuple[str, ...]:
+def list_fitted_keys(system: System) -> tuple[str, ...]:
     """Return the keys of the terms that are found by likelihood; the others leave marks in the values themselves."""
     return tuple(k for k, t in zip(system.keys, system.terms, strict=True) if not t.marked)
 
 
 @dataclass(frozen=True)
-class Located:
+class ForceLocation:
     """A force over time and over each covariate, and what each covariate explains of it.
 
     `odds` are the log likelihood ratios of a curve over each covariate, which decide what is beyond chance; where there
     are none the shares do.
     """
 
-    missing: Missing
+    missing: LatentForce
     curves: dict[str, Curve]
     explained: dict[str, Share]
     summary: str
-    odds: Mapping[str, Ratio] = field(default_factory=dict)
+    odds: Mapping[str, LikelihoodRatio] = field(default_factory=dict)
     limits: LocateSettings = DEFAULT.locate
 
     @property
@@ -70,7 +77,7 @@ class Located:
     def significant(self) -> list[str]:
         """The covariates that are beyond chance, the likeliest first."""
         level = self.limits.level
-        return likely(self.odds, level) if self.odds else significant(self.explained, level)
+        return list_likely(self.odds, level) if self.odds else list_significant(self.explained, level)
 
     @property
     def structure(self) -> list[str]:
@@ -79,7 +86,7 @@ class Located:
 
 
 @dataclass(frozen=True)
-class Diagnosed:
+class SearchResult:
     """What was found: the fits before and after, the selection, the missing force before and what is left after.
 
     `quantised` holds the terms that the stored values themselves betray, with their parameters and the errors of these.
@@ -93,8 +100,8 @@ class Diagnosed:
     after: Fit
     selection: Selection
     shown: Observation
-    located: Located
-    left: Located | None
+    located: ForceLocation
+    left: ForceLocation | None
     law: Array
     laws: dict[str, Array]
     law_curves: dict[str, Curve]
@@ -153,47 +160,54 @@ def diagnose(
     jobs: int = 2,
     say: Callable[[str], None] = lambda _: None,
     settings: Settings = DEFAULT,
-) -> Diagnosed:
+) -> SearchResult:
     """Return the diagnosis of a case; `system` holds the model and every term that is to be tried."""
-    train, held = split(observations, settings.heldout.share)
+    train, held = split_heldout(observations, settings.heldout)
     _check_moving(held)
     say("fit of the nominal model")
-    nominal = search(problem_of(system, case, train, jobs=jobs, settings=settings), rng)
+    nominal = search_maximum(make_problem(system, case, train, jobs=jobs, settings=settings), rng)
     curves = CurveSearch(len(system.keys), say)
     say("shapes: pitches, stops, times")
-    shapes = scouted(nominal, forces=significant_random_force(nominal) > settings.locate.significant)
-    selection = sought(nominal, fitted_keys(system), say, shapes, curves.promise)
-    more_left = significant_random_force(selection.chosen) > settings.locate.significant
+    shapes = scan_shapes(nominal, forces=compute_random_force_gain(nominal) > settings.locate.significant)
+    selection = search_stretches(nominal, list_fitted_keys(system), say, shapes, curves.promise)
+    more_left = compute_random_force_gain(selection.chosen) > settings.locate.significant
     if selection.chosen.problem.active and more_left:
         say("shapes beside what was found")
-        if more := {key: found for key, found in scouted(selection.chosen).items() if key not in shapes}:
-            selector = Selector(selection.nominal, fitted_keys(system), say, {**shapes, **more}, curves.promise)
-            selection = selector.further(selection, more)
+        if more := {key: found for key, found in scan_shapes(selection.chosen).items() if key not in shapes}:
+            selector = Selector(selection.nominal, list_fitted_keys(system), say, {**shapes, **more}, curves.promise)
+            selection = selector.extend(selection, more)
     say("final estimates")
-    before = polish(selection.nominal)
-    after = polish(selection.chosen) if selection.chosen.problem.active else before
-    gain = significant_random_force(after)
+    before = polish_fit(selection.nominal)
+    after = polish_fit(selection.chosen) if selection.chosen.problem.active else before
+    gain = compute_random_force_gain(after)
     say("missing force")
     shown = held[0]
     if len(observations) == 1:
         shown = replace(observations[0], begun=after.problem.observations[0].begun)
     chance = rng.spawn(1)[0]
-    quantised = quantised_in(after)
-    bare = Diagnosed(before, after, selection, shown, _NOWHERE, None, _NO, {}, {}, gain, train, held, quantised)
-    known = _located(bare, chance)
+    quantised = find_quantised(after)
+    bare = SearchResult(
+        before, after, selection, shown, _NOT_LOCATED, None, _EMPTY, {}, {}, gain, train, held, quantised
+    )
+    known = _locate_forces(bare, chance)
     structured = bool((known.left or known.located).structure)
-    suspicious = known.unexplained or structured or len(known.found) >= MANY or selection.beaten() > settings.rival.much
+    suspicious = (
+        known.unexplained
+        or structured
+        or len(known.found) >= MANY
+        or selection.predict_smooth_gain() > settings.rival.much
+    )
     if not suspicious:
         return known
     learned = curves.unknown(selection.nominal, selection.chosen)
     if learned is None:
         return known
-    after = polish(learned.fit)
-    gain = significant_random_force(after)
-    return _located(replace(bare, after=after, random_gain=gain, learned=replace(learned, fit=after)), chance)
+    after = polish_fit(learned.fit)
+    gain = compute_random_force_gain(after)
+    return _locate_forces(replace(bare, after=after, random_gain=gain, learned=replace(learned, fit=after)), chance)
 
 
-def simpler(d: Diagnosed, rng: np.random.Generator) -> Diagnosed | None:
+def drop_least_probable(d: SearchResult, rng: np.random.Generator) -> SearchResult | None:
     """Return the diagnosis without one of its learned curves, else without its least probable term; None without any.
 
     A curve over time goes first: nobody knows how it goes on. All that was fitted is fitted anew, and the missing force
@@ -205,53 +219,55 @@ def simpler(d: Diagnosed, rng: np.random.Generator) -> Diagnosed | None:
     if learned:
         last = {key: -i for i, key in enumerate(learned.keys)}
         gone = min(learned.keys, key=lambda key: (not key.startswith(OverTime.name), last[key]))
-        learned = fewer(learned, gone)
+        learned = drop_curve(learned, gone)
     else:
         gone = d.found[-1]
-        selection = _shrunk(selection, gone)
-    return _anew(replace(d, selection=selection, learned=learned), (gone,), rng)
+        selection = _drop_term(selection, gone)
+    return _refit(replace(d, selection=selection, learned=learned), (gone,), rng)
 
 
-def instead(d: Diagnosed, fit: Fit, rng: np.random.Generator) -> Diagnosed:
+def replace_terms(d: SearchResult, fit: Fit, rng: np.random.Generator) -> SearchResult:
     """Return the diagnosis with another set of terms that was visited, given by its fit, in place of the chosen one.
 
     Terms of the old set are withdrawn, unless the new one is only a simpler explanation.
     """
     gone = () if d.selection.simplest else tuple(key for key in d.named if key not in fit.problem.active)
-    return _anew(replace(d, selection=replace(d.selection, chosen=fit), learned=None), gone, rng)
+    return _refit(replace(d, selection=replace(d.selection, chosen=fit), learned=None), gone, rng)
 
 
-def _anew(d: Diagnosed, gone: tuple[str, ...], rng: np.random.Generator) -> Diagnosed:
+def _refit(d: SearchResult, gone: tuple[str, ...], rng: np.random.Generator) -> SearchResult:
     """Return a diagnosis of which the selection or the learned curves changed, fitted and located anew."""
     fit = d.learned.fit if d.learned else d.selection.chosen
-    after = polish(fit) if fit.problem.active else d.before
+    after = polish_fit(fit) if fit.problem.active else d.before
     learned = replace(d.learned, fit=after) if d.learned else None
-    bare = replace(d, after=after, learned=learned, left=None, law=_NO, laws={}, law_curves={})
-    told = replace(bare, random_gain=significant_random_force(after), withdrawn=(*d.withdrawn, *gone))
-    return _located(told, rng)
+    bare = replace(d, after=after, learned=learned, left=None, law=_EMPTY, laws={}, law_curves={})
+    told = replace(bare, random_gain=compute_random_force_gain(after), withdrawn=(*d.withdrawn, *gone))
+    return _locate_forces(told, rng)
 
 
-def _shrunk(selection: Selection, gone: str) -> Selection:
+def _drop_term(selection: Selection, gone: str) -> Selection:
     """Return the selection without a term of the chosen set: the rest of it, or a set that is decisively better.
 
     A term may have taken the place of a simpler one: friction with a wave that held-out data refute is friction all
     the same.
     """
-    chosen, visits = selection.chosen, selection.visits
+    chosen, fitted_sets = selection.chosen, selection.fitted_sets
     limits, terms = chosen.problem.settings, chosen.problem.active - {gone}
-    if terms not in visits:
-        less = maximise(chosen.problem.reduced(gone, chosen.values))
-        price = price_of(term_of(chosen.problem, gone)[0], len(fitted_keys(chosen.problem.system)), limits)
-        dearer = chosen.log_evidence - visits[chosen.problem.active].weight
-        visits = {**visits, terms: Visit(terms, less, less.log_evidence - dearer + price)}
-    rest, barred = visits[terms], selection.withdrawn | {gone}
-    made = replace(selection, chosen=rest.fit, visits=visits, withdrawn=barred, simplest=None)
-    others = [v for v in visits.values() if not v.terms & (barred | selection.declined) and not v.terms <= terms]
+    if terms not in fitted_sets:
+        less = maximise(chosen.problem.remove_term(gone, chosen.values))
+        price = compute_penalty(
+            find_term(chosen.problem, gone)[0], len(list_fitted_keys(chosen.problem.system)), limits
+        )
+        dearer = chosen.log_evidence - fitted_sets[chosen.problem.active].weight
+        fitted_sets = {**fitted_sets, terms: TermSet(terms, less, less.log_evidence - dearer + price)}
+    rest, barred = fitted_sets[terms], selection.withdrawn | {gone}
+    made = replace(selection, chosen=rest.fit, fitted_sets=fitted_sets, withdrawn=barred, simplest=None)
+    others = [v for v in fitted_sets.values() if not v.terms & (barred | selection.declined) and not v.terms <= terms]
     others = [v for v in others if v.weight > rest.weight + limits.select.decisive and v.fit.status != "diverged"]
-    for visit in sorted(others, key=lambda v: -v.weight)[:MOST_INSTEAD]:
-        made.contest(visit, rest, limits.select.decisive)
-        if made.lead(visit, rest) > limits.select.decisive:
-            return replace(made, chosen=visit.fit)
+    for term_set in sorted(others, key=lambda v: -v.weight)[:MOST_REPLACEMENTS]:
+        made.settle_comparison(term_set, rest, limits.select.decisive)
+        if made.compute_log_odds(term_set, rest) > limits.select.decisive:
+            return replace(made, chosen=term_set.fit)
     return made
 
 
@@ -267,7 +283,7 @@ def _check_moving(held: Sequence[Observation]) -> None:
             )
 
 
-def quantised_in(fit: Fit) -> dict[str, tuple[Values, Values]]:
+def find_quantised(fit: Fit) -> dict[str, tuple[Values, Values]]:
     """Return the sensor terms that the stored values betray and that make up a share of the noise, by key."""
     observations, found = fit.problem.observations, {}
     for key, term in fit.problem.system.channel_terms.items():
@@ -283,40 +299,42 @@ def quantised_in(fit: Fit) -> dict[str, tuple[Values, Values]]:
     return found
 
 
-_NO = np.zeros(0)
-_NOWHERE = Located(Missing(_NO, _NO, np.zeros((0, 2)), 0.0, 0.0, 0.0), {}, {}, "")
+_EMPTY = np.zeros(0)
+_NOT_LOCATED = ForceLocation(LatentForce(_EMPTY, _EMPTY, np.zeros((0, 2)), 0.0, 0.0, 0.0), {}, {}, "")
 
 
-def _located(bare: Diagnosed, rng: np.random.Generator) -> Diagnosed:
+def _locate_forces(bare: SearchResult, rng: np.random.Generator) -> SearchResult:
     """Return the diagnosis with the missing force located: found terms taken out first, then with them."""
     after, shown = bare.after, bare.shown
-    honest = stepped(after.problem, after.theta).on((shown,))
-    model, plays, limits = after.problem.system.model, plays_of(honest, after.theta), bare.settings.locate
+    honest = choose_steps(after.problem, after.theta).on((shown,))
+    model, plays, limits = after.problem.system.model, list_half_gaps(honest, after.theta), bare.settings.locate
     of_left, of_all = rng, rng.spawn(1)[0]
 
-    def placed(problem: Problem, theta: Array, chance: np.random.Generator, fit: Fit) -> Located:
-        missing = missing_force(problem, theta)
-        return locate(model, shown, missing, plays=plays, rng=chance, odds=lambda: log_odds(fit), limits=limits)
+    def placed(problem: Problem, theta: Array, chance: np.random.Generator, fit: Fit) -> ForceLocation:
+        missing = smooth_latent_force(problem, theta)
+        return locate(
+            model, shown, missing, plays=plays, rng=chance, odds=lambda: compute_log_ratios(fit), limits=limits
+        )
 
     if not bare.found:
         return replace(bare, located=placed(honest, after.theta, of_left, after))
     single = replace(honest, jobs=1)
-    asked = [(single, after.theta, of_left, after), (*taken_out(single, after.theta), of_all, bare.before)]
+    asked = [(single, after.theta, of_left, after), (*remove_terms(single, after.theta), of_all, bare.before)]
     left, located = each(lambda one: placed(*one), asked, honest.jobs)
-    laws = {key: law_of(after, shown, left.missing.states, key) for key in bare.found}
+    laws = {key: compute_force(after, shown, left.missing.states, key) for key in bare.found}
     law = np.sum(list(laws.values()), axis=0)
-    table = covariates(model, shown, left.missing)
-    curves = {k: curve(v, law, edges_of(table[k])) for k, v in table.items()}
+    table = list_covariates(model, shown, left.missing)
+    curves = {k: average_curve(v, law, choose_edges(table[k])) for k, v in table.items()}
     return replace(bare, located=located, left=left, law=law, laws=laws, law_curves=curves)
 
 
-def taken_out(problem: Problem, theta: Array) -> tuple[Problem, Array]:
+def remove_terms(problem: Problem, theta: Array) -> tuple[Problem, Array]:
     """Return a problem with its terms switched off and all else as it is, and its coordinates."""
     kept = [i for i, f in enumerate(problem.free) if "." not in f.parameter]
     return replace(problem, free=tuple(problem.free[i] for i in kept), active=frozenset()), theta[kept]
 
 
-def plays_of(problem: Problem, theta: Array) -> dict[str, float]:
+def list_half_gaps(problem: Problem, theta: Array) -> dict[str, float]:
     """Return the half gap (m or rad) at each place of the model that has one."""
     full, system = problem.full(theta), problem.system
     return {i.name: float(full[system.index[i.play]]) for i in system.model.interfaces if i.play}
@@ -325,55 +343,59 @@ def plays_of(problem: Problem, theta: Array) -> dict[str, float]:
 def locate(
     model: Model,
     observation: Observation,
-    missing: Missing,
+    missing: LatentForce,
     *,
     plays: Mapping[str, float] | None = None,
     rng: np.random.Generator | None = None,
-    odds: Callable[[], Mapping[str, Ratio]] = dict,
+    odds: Callable[[], Mapping[str, LikelihoodRatio]] = dict,
     limits: LocateSettings = DEFAULT.locate,
-) -> Located:
+) -> ForceLocation:
     """Return where a missing force lives; `plays` are the half gaps by place, `rng` draws surrogates of the force.
 
-    `odds` returns log likelihood ratios by covariate, as `log_odds` does.
+    `odds` returns log likelihood ratios by covariate, as `compute_log_ratios` does.
     """
     if not np.all(np.abs(missing.force) < LARGEST):
         raise DataError(
             f"{observation.name}: the model cannot follow this recording at all: check the units and columns of what"
             " went in and came out, the known values and the priors"
         )
-    table = covariates(model, observation, missing)
-    asked = {name: Covariate((values,)) for name, values in table.items()} | further(model, observation, missing, plays)
-    found = shares_of(asked, missing.force, rng)
-    curves = {name: curve(values, missing.force) for name, values in table.items()}
+    table = list_covariates(model, observation, missing)
+    asked = {name: Covariate((values,)) for name, values in table.items()} | list_further_covariates(
+        model, observation, missing, plays
+    )
+    found = compute_shares(asked, missing.force, rng)
+    curves = {name: average_curve(values, missing.force) for name, values in table.items()}
     ratios = {name: value for name, value in odds().items() if name in found}
-    return Located(missing, curves, found, summary(table, missing.force, found, ratios, limits), ratios, limits)
+    return ForceLocation(
+        missing, curves, found, describe_location(table, missing.force, found, ratios, limits), ratios, limits
+    )
 
 
-def law_of(fit: Fit, observation: Observation, states: Array, key: str) -> Array:
+def compute_force(fit: Fit, observation: Observation, states: Array, key: str) -> Array:
     """Return the force (samples,) of one term of a fit along the smoothed `states` of a recording."""
     problem = fit.problem.on((observation,))
     system, drive, full = problem.system, problem.drive(0, fit.theta), problem.full(fit.theta)
     packed = system.pack(full[None], drive.dt / problem.nsub, drive.harmonic)
-    place, beside = _felt(system, key), key in system.channel_terms
+    place, beside = _find_place(system, key), key in system.channel_terms
     other = replace(problem, active=problem.active - {key}).drive(0, fit.theta) if beside else drive
     times = drive.begin + np.arange(len(states)) * drive.dt
     seen = states[:, : problem.dynamics.states]
     inside = (system, problem.active, packed, seen)
-    with_term, _ = derivatives(*inside, drive.inputs[: len(states)], times)
-    without, _ = derivatives(*inside, other.inputs[: len(states)], times, muted=None if beside else key)
+    with_term, _ = compute_derivatives(*inside, drive.inputs[: len(states)], times)
+    without, _ = compute_derivatives(*inside, other.inputs[: len(states)], times, muted=None if beside else key)
     return np.asarray((with_term[:, place.row] - without[:, place.row]) * full[system.index[place.inertia]])
 
 
-def _felt(system: System, key: str) -> Interface:
+def _find_place(system: System, key: str) -> Interface:
     """Return the place where a term acts; what acts beside the machine is felt at the first one."""
     forces = [term for known, term in system.forces if known == key and term.acts == "motion"]
     found = [place_of(system.model, term) for term in forces]
     return found[0] if found else system.model.interfaces[0]
 
 
-def base_keys(fit: Fit) -> list[str]:
+def list_physical_keys(fit: Fit) -> list[str]:
     """Return the keys of the physical parameters of a fit, noise levels and coefficients of learned curves left out."""
     system = fit.problem.system
-    curves = tuple(f"{k}." for k, t in zip(system.keys, system.terms, strict=True) if isinstance(t, Learned))
+    curves = tuple(f"{k}." for k, t in zip(system.keys, system.terms, strict=True) if isinstance(t, LearnedCurve))
     physical = [f.key for f in fit.problem.free if f.level not in LEVELS]
     return [k for k in physical if not (curves and k.startswith(curves))]

@@ -13,15 +13,15 @@ from lostmotion.analysis.period import find_return
 from lostmotion.analysis.quantify import quantify
 from lostmotion.contracts import Array, Series
 from lostmotion.defaults import DIMENSION, EMBEDDER
-from lostmotion.diagnosis.attractors import SectionDistance, distances_between
-from lostmotion.diagnosis.compare import Prediction, exponent_blocks
-from lostmotion.diagnosis.decays import stretches_of
+from lostmotion.diagnosis.attractors import SectionDistance, measure_distances
+from lostmotion.diagnosis.compare import Prediction, average_exponent_blocks
+from lostmotion.diagnosis.decays import find_stretches
 from lostmotion.diagnosis.findings import Outcome
-from lostmotion.diagnosis.show_words import TRANSIENT, behaviour_sentences
+from lostmotion.diagnosis.show_words import TRANSIENT, describe_behaviour
 from lostmotion.errors import LostMotionError
 from lostmotion.inference.fit import Fit
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.predict import Horizon, observed
+from lostmotion.likelihood.predict import Horizon, observe_states
 from lostmotion.registry import Registry
 from lostmotion.results import Estimate
 from lostmotion.results.behaviour import (
@@ -59,7 +59,7 @@ PERIODIC = "The motion repeats itself: it is a closed line, and no dimension is 
 
 
 @dataclass(frozen=True)
-class Seen:
+class ShownMotions:
     """A diagnosed outcome, the motions (samples, n) of recording and models, all recordings, and the plugins."""
 
     outcome: Outcome
@@ -68,17 +68,17 @@ class Seen:
     registry: Registry
 
 
-def shown(seen: Seen, rng: np.random.Generator) -> Behaviour:
+def measure_behaviour(seen: ShownMotions, rng: np.random.Generator) -> Behaviour:
     """Return the measures of the motion: before, after where something was found, and of noise alone."""
     outcome, d = seen.outcome, seen.outcome.diagnosis
     both = {"before": (outcome.before, d.before)}
     if d.found:
         both["after"] = (outcome.after, d.after)
-    dies = bool(stretches_of(d.shown))
-    apart, strobed = (_no_distances(both), False) if dies else distances_between(seen.motions, d.shown, rng)
-    dimensions = _no_dimensions(both) if dies else _dimensions(seen, rng)
+    dies = bool(find_stretches(d.shown))
+    apart, strobed = (_refuse_distances(both), False) if dies else measure_distances(seen.motions, d.shown, rng)
+    dimensions = _refuse_dimensions(both) if dies else _estimate_dimensions(seen, rng)
     models = {
-        name: _behaviour(prediction, outcome.horizon, apart[name], dimensions[name])
+        name: _describe_model(prediction, outcome.horizon, apart[name], dimensions[name])
         for name, (prediction, _) in both.items()
     }
     prediction, fit = both.get("after", both["before"])
@@ -86,8 +86,8 @@ def shown(seen: Seen, rng: np.random.Generator) -> Behaviour:
     floor = NoiseFloor(
         heldout_log_score=prediction.expected_score,
         free_run_error=noise / prediction.scales[0],
-        attractor_distance=_distance(apart["noise_floor"]),
-        d2=_dimension_of(dimensions["recorded"]),
+        attractor_distance=_make_distance(apart["noise_floor"]),
+        d2=_make_dimension(dimensions["recorded"]),
     )
     horizon = HorizonLength(outcome.horizon.number, outcome.horizon.unit)
     last = models.get("after", models["before"])
@@ -97,51 +97,53 @@ def shown(seen: Seen, rng: np.random.Generator) -> Behaviour:
         noise_floor=floor,
         units=replace(UNITS, valid_prediction_time=horizon.unit),
         horizon=horizon,
-        says=behaviour_sentences(last, floor, horizon, strobed, driven=not d.shown.free, white=d.settings.name.white),
+        says=describe_behaviour(last, floor, horizon, strobed, driven=not d.shown.free, white=d.settings.name.white),
     )
 
 
-def _behaviour(prediction: Prediction, horizon: Horizon, apart: SectionDistance, dimension: Estimate) -> ModelBehaviour:
+def _describe_model(
+    prediction: Prediction, horizon: Horizon, apart: SectionDistance, dimension: Estimate
+) -> ModelBehaviour:
     return ModelBehaviour(
         heldout_log_score=prediction.log_score,
         free_run_error=prediction.nrmse,
         valid_prediction_time=ValidTime(
             prediction.valid_time / horizon.unit_time, bool(prediction.valid_time >= prediction.lead[-1])
         ),
-        attractor_distance=_distance(apart),
-        largest_exponent=_exponent(prediction),
-        d2=_dimension_of(dimension),
+        attractor_distance=_make_distance(apart),
+        largest_exponent=_make_exponent(prediction),
+        d2=_make_dimension(dimension),
         whiteness=Chance(prediction.white),
     )
 
 
-def _no_distances(names: Iterable[str]) -> dict[str, SectionDistance]:
+def _refuse_distances(names: Iterable[str]) -> dict[str, SectionDistance]:
     """Return that motions which die away have no attractor to compare."""
     return dict.fromkeys((*names, "noise_floor"), SectionDistance(math.nan, math.nan, TRANSIENT))
 
 
-def _no_dimensions(names: Iterable[str]) -> dict[str, Estimate]:
+def _refuse_dimensions(names: Iterable[str]) -> dict[str, Estimate]:
     return dict.fromkeys((*names, "recorded"), Estimate.refused(TRANSIENT, "The motion dies away."))
 
 
-def _distance(apart: SectionDistance) -> Distance:
+def _make_distance(apart: SectionDistance) -> Distance:
     return Distance(apart.value, apart.chance, apart.status)
 
 
-def _exponent(prediction: Prediction) -> ExponentInterval:
+def _make_exponent(prediction: Prediction) -> ExponentInterval:
     """Return the exponent with an interval from the scatter over blocks of the recording."""
-    value, blocks = prediction.exponent, exponent_blocks(prediction.rates)
+    value, blocks = prediction.exponent, average_exponent_blocks(prediction.rates)
     if not len(blocks) or not math.isfinite(value):
         return ExponentInterval(value, math.nan, math.nan, "too_short")
     half = STUDENT * float(np.std(blocks, ddof=1)) / math.sqrt(len(blocks))
     return ExponentInterval(value, value - half, value + half, "ok")
 
 
-def _dimension_of(estimate: Estimate) -> DimensionInterval:
+def _make_dimension(estimate: Estimate) -> DimensionInterval:
     return DimensionInterval(estimate.value, estimate.low, estimate.high, estimate.status, estimate.says)
 
 
-def _dimensions(seen: Seen, rng: np.random.Generator) -> dict[str, Estimate]:
+def _estimate_dimensions(seen: ShownMotions, rng: np.random.Generator) -> dict[str, Estimate]:
     """Return the correlation dimension of the recording, and of the free run of each model embedded as that is."""
     outcome, d = seen.outcome, seen.outcome.diagnosis
     observation, period = d.shown.part(0, min(d.shown.samples, LONGEST)), d.shown.period
@@ -155,30 +157,30 @@ def _dimensions(seen: Seen, rng: np.random.Generator) -> dict[str, Estimate]:
     except LostMotionError as err:
         return dict.fromkeys(("recorded", *fits), Estimate.refused("failed", str(err)))
     noise = math.sqrt(d.after.problem.measurement(d.after.theta)) / max(float(np.std(finite)), 1e-300)
-    found = {"recorded": _dimension(recorded, seen.registry, rng, noise)}
+    found = {"recorded": _estimate_dimension(recorded, seen.registry, rng, noise)}
     exponents = {"before": outcome.before.exponent, "after": outcome.after.exponent}
     for name, fit in fits.items():
         if not exponents[name] > 0.0:
             found[name] = Estimate.refused("regular", "Near runs of the model do not part: no dimension is estimated.")
             continue
-        found[name] = _of_model(fit, observation, seen.motions[name][:LONGEST], (recorded, seen.registry, rng))
+        found[name] = _estimate_of_model(fit, observation, seen.motions[name][:LONGEST], (recorded, seen.registry, rng))
     return found
 
 
-def _of_model(
+def _estimate_of_model(
     fit: Fit, observation: Observation, states: Array, given: tuple[Series, Registry, np.random.Generator]
 ) -> Estimate:
     recorded, registry, rng = given
-    x = observed(fit.problem.on((observation,)), fit.theta, states)
+    x = observe_states(fit.problem.on((observation,)), fit.theta, states)
     if not np.isfinite(x).all():
         return Estimate.refused("diverged", "The free run leaves all bounds.")
     try:
-        return _dimension(replace(recorded, x=checked(x)), registry, rng, 0.0)
+        return _estimate_dimension(replace(recorded, x=checked(x)), registry, rng, 0.0)
     except LostMotionError as err:
         return Estimate.refused("failed", str(err))
 
 
-def _dimension(series: Series, registry: Registry, rng: np.random.Generator, noise: float) -> Estimate:
+def _estimate_dimension(series: Series, registry: Registry, rng: np.random.Generator, noise: float) -> Estimate:
     """Return the dimension of a series with noise (share of its deviation); of one that repeats itself, a refusal."""
     if series.period and series.n * series.dt < FEWEST * series.period:
         return Estimate.refused("too_short", f"Fewer than {FEWEST} drive periods are too few for a dimension.")

@@ -22,7 +22,7 @@ TRANSIENT = "transient"
 """The status of a measure of attractors where the motion dies away: nothing is said of it."""
 
 
-def behaviour_sentences(
+def describe_behaviour(
     last: ModelBehaviour,
     floor: NoiseFloor,
     horizon: HorizonLength,
@@ -36,17 +36,17 @@ def behaviour_sentences(
     A p-value of whiteness below `white` is told as a finding, and below five times that as a doubt.
     """
     return MeasureTexts(
-        heldout_log_score=_score(last, floor),
-        free_run_error=_error(last, floor, horizon),
-        valid_prediction_time=_valid(last),
-        attractor_distance=_apart(last.attractor_distance, strobed),
-        largest_exponent=_exponent(last.largest_exponent, driven=driven),
-        d2=_dimension(floor.d2, last.d2),
-        whiteness=_white(last.whiteness.p, white),
+        heldout_log_score=_describe_score(last, floor),
+        free_run_error=_describe_error(last, floor, horizon),
+        valid_prediction_time=_describe_valid_time(last),
+        attractor_distance=_describe_distance(last.attractor_distance, strobed),
+        largest_exponent=_describe_exponent(last.largest_exponent, driven=driven),
+        d2=_describe_dimension(floor.d2, last.d2),
+        whiteness=_describe_whiteness(last.whiteness.p, white),
     )
 
 
-def _score(last: ModelBehaviour, floor: NoiseFloor) -> str:
+def _describe_score(last: ModelBehaviour, floor: NoiseFloor) -> str:
     short = floor.heldout_log_score - last.heldout_log_score
     opening = "Log density of held-out samples, one step ahead"
     if short < 0.02:
@@ -54,7 +54,7 @@ def _score(last: ModelBehaviour, floor: NoiseFloor) -> str:
     return f"{opening}: {rounded(short)} per sample below what the last model itself expects."
 
 
-def _error(last: ModelBehaviour, floor: NoiseFloor, horizon: HorizonLength) -> str:
+def _describe_error(last: ModelBehaviour, floor: NoiseFloor, horizon: HorizonLength) -> str:
     ratio = last.free_run_error / max(floor.free_run_error, 1e-300)
     opening = f"Free runs over {span(horizon.value, horizon.unit)}, over the deviation of the response"
     if ratio < 1.2:
@@ -62,14 +62,14 @@ def _error(last: ModelBehaviour, floor: NoiseFloor, horizon: HorizonLength) -> s
     return f"{opening}: {rounded(ratio)} times the measurement noise."
 
 
-def _valid(last: ModelBehaviour) -> str:
+def _describe_valid_time(last: ModelBehaviour) -> str:
     opening = "How long a free run errs by less than 40 % of the motion, median over starts"
     if last.valid_prediction_time.or_longer:
         return f"{opening}: longer than it was followed."
     return f"{opening}."
 
 
-def _apart(entry: Distance, strobed: bool) -> str:
+def _describe_distance(entry: Distance, strobed: bool) -> str:
     where = "Poincaré sections once each drive period" if strobed else "looks at position and velocity"
     opening = f"Energy distance between {where} of recording and free run"
     if entry.status == TRANSIENT:
@@ -86,7 +86,7 @@ def _apart(entry: Distance, strobed: bool) -> str:
     return f"{opening}: no farther apart than chance would have it (p = {rounded(entry.p)}); {closing}."
 
 
-def _exponent(entry: ExponentInterval, *, driven: bool) -> str:
+def _describe_exponent(entry: ExponentInterval, *, driven: bool) -> str:
     opening = f"Of the model {'under the recorded drive' if driven else 'left to itself'}"
     if math.isnan(entry.low):
         return f"{opening}; the recording is too short for an interval."
@@ -96,7 +96,7 @@ def _exponent(entry: ExponentInterval, *, driven: bool) -> str:
     return f"{opening}, with the scatter over ten blocks: {kind} ({rounded(entry.value, 3)} 1/s)."
 
 
-def _dimension(recorded: DimensionInterval, model: DimensionInterval) -> str:
+def _describe_dimension(recorded: DimensionInterval, model: DimensionInterval) -> str:
     opening = "Of the recording (as noise floor) and of free runs without noise"
     if recorded.status == TRANSIENT:
         return ""
@@ -107,7 +107,7 @@ def _dimension(recorded: DimensionInterval, model: DimensionInterval) -> str:
     return f"{opening}: their intervals {'meet' if meet else 'do not meet'}."
 
 
-def _white(p: float, certain: float) -> str:
+def _describe_whiteness(p: float, certain: float) -> str:
     if p < certain:
         return "Ljung-Box test of one-step errors: they still hold something that can be predicted."
     if p < 5.0 * certain:

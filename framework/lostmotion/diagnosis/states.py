@@ -10,47 +10,53 @@ import numpy as np
 
 from lostmotion.contracts import Term
 from lostmotion.diagnosis.compare import Prediction
-from lostmotion.diagnosis.search import Diagnosed
-from lostmotion.inference.natural import term_of
-from lostmotion.inference.prices import related
+from lostmotion.diagnosis.search import SearchResult
+from lostmotion.inference.natural import find_term
+from lostmotion.inference.penalties import are_related
 from lostmotion.quantities import TIME
-from lostmotion.report.words import spoken
-from lostmotion.results import percent, rounded
+from lostmotion.report.words import to_words
 from lostmotion.results.diagnosis import Mechanism, OpenTerm
 from lostmotion.settings import DEFAULT, NameSettings
 
 NAMED, LIKELY, OPEN = "named", "likely", "open"
 
 
-def holds(after: Prediction, floor: float, limits: NameSettings = DEFAULT.name) -> bool:
+def is_valid(after: Prediction, floor: float, limits: NameSettings = DEFAULT.name) -> bool:
     """Return whether a model predicts held-out data, where `floor` is the share of the response that is noise."""
     return math.isfinite(after.nrmse) and not after.nrmse > max(limits.error, limits.error_noise * floor)
 
 
-def probability_of(d: Diagnosed, key: str) -> float:
+def compute_probability(d: SearchResult, key: str) -> float:
     """Return the probability that a term is at work, or one that no recording of this kind can tell from it."""
-    term, _ = term_of(d.after.problem, key)
+    term, _ = find_term(d.after.problem, key)
     kin = [
-        k for k, t in zip(d.before.problem.system.keys, d.before.problem.system.terms, strict=True) if _same(term, t)
+        k
+        for k, t in zip(d.before.problem.system.keys, d.before.problem.system.terms, strict=True)
+        if _are_indistinguishable(term, t)
     ]
     return min(sum(d.selection.inclusion(k) for k in {key, *kin}), 1.0)
 
 
-def _same(term: Term, other: Term) -> bool:
+def _are_indistinguishable(term: Term, other: Term) -> bool:
     return other.name in term.equals or term.name in other.equals
 
 
-def doubts_of(d: Diagnosed, key: str) -> list[str]:
+def list_warnings(d: SearchResult, key: str) -> list[str]:
     """Return why a term that was found is no more than likely, in sentences; none where it is named."""
-    term, _ = term_of(d.after.problem, key)
+    term, _ = find_term(d.after.problem, key)
     imitates = term.unlikely > 0.0 or term.acts != "motion"
-    steady = unsteady(d, key) if imitates else ()
-    weak = [*_less_sure(d, key), *_find_as_good(d, key), *_decided_late(d, key), *_beside(d, key)]
-    return [*weak, *steady, *_unusual(d, key), *_early(d, key)]
+    steady = warn_of_moved_amplitudes(d, key) if imitates else ()
+    weak = [
+        *_warn_of_probability(d, key),
+        *_warn_of_equal_terms(d, key),
+        *_warn_of_heldout_decision(d, key),
+        *_warn_of_rest(d, key),
+    ]
+    return [*weak, *steady, *_warn_of_long_delay(d, key), *_warn_of_early_change(d, key)]
 
 
-def _less_sure(d: Diagnosed, key: str) -> Iterator[str]:
-    p = probability_of(d, key)
+def _warn_of_probability(d: SearchResult, key: str) -> Iterator[str]:
+    p = compute_probability(d, key)
     if d.selection.simplest:
         yield (
             "It explains the fitted data better than any learned curve, and held-out data as well; but a small smooth"
@@ -59,28 +65,32 @@ def _less_sure(d: Diagnosed, key: str) -> Iterator[str]:
         return
     if p > d.settings.name.sure:
         return
-    others = _others(d, key)
+    others = _list_alternatives(d, key)
     rivals = f"; its rivals are {', '.join(others)}" if others else "; its rival is a smooth force without a name"
     yield f"Its probability is {rounded(p)}{rivals}."
 
 
-def _find_as_good(d: Diagnosed, key: str) -> Iterator[str]:
+def _warn_of_equal_terms(d: SearchResult, key: str) -> Iterator[str]:
     """Yield a sentence on other terms that explain the fitted data as well, without the term and without a relative.
 
     Such a set is behind by the penalties of its terms, or by the comparison with a smooth force, not by the data.
     """
     chosen, problem = d.selection.chosen, d.before.problem
     terms = chosen.problem.active
-    if probability_of(d, key) <= d.settings.name.sure:
+    if compute_probability(d, key) <= d.settings.name.sure:
         return
-    barred, own = terms | d.selection.declined | d.selection.withdrawn, term_of(problem, key)[0]
-    for others, visit in d.selection.visits.items():
+    barred, own = terms | d.selection.declined | d.selection.withdrawn, find_term(problem, key)[0]
+    for others, term_set in d.selection.fitted_sets.items():
         fresh = sorted(others - terms)
         if key in others or len(others) > len(terms) or not fresh or (others - terms) & barred:
             continue
-        near = chosen.log_evidence - visit.fit.log_evidence < d.settings.name.related
-        if near and not any(_same(own, t) or related(own, t) for t in (term_of(problem, k)[0] for k in fresh)):
-            names = " and ".join([_called(d, fresh[0]), *(spoken(term_of(problem, k)[0].name) for k in fresh[1:])])
+        near = chosen.log_evidence - term_set.fit.log_evidence < d.settings.name.related
+        if near and not any(
+            _are_indistinguishable(own, t) or are_related(own, t) for t in (find_term(problem, k)[0] for k in fresh)
+        ):
+            names = " and ".join(
+                [_name_term(d, fresh[0]), *(to_words(find_term(problem, k)[0].name) for k in fresh[1:])]
+            )
             yield (
                 f"{names} {'explain' if fresh[1:] else 'explains'} the fitted data as well: only the prior odds of the"
                 " terms, or the comparison with a smooth force, decide against that."
@@ -88,23 +98,23 @@ def _find_as_good(d: Diagnosed, key: str) -> Iterator[str]:
             return
 
 
-def _decided_late(d: Diagnosed, key: str) -> Iterator[str]:
+def _warn_of_heldout_decision(d: SearchResult, key: str) -> Iterator[str]:
     """Yield a sentence where held-out data had to decide between a term and a smooth force."""
     chosen = d.selection.chosen.problem.active
-    if chosen in d.selection.scored and key in d.selection.unbeaten:
+    if chosen in d.selection.heldout_gains and key in d.selection.tied:
         yield (
             "On the data that were fitted a small smooth force without a name explains about as much; held-out data"
-            f" decide, by {rounded(d.selection.scored[chosen])} in log score."
+            f" decide, by {d.selection.heldout_gains[chosen]:.2g} in log score."
         )
 
 
-def _beside(d: Diagnosed, key: str) -> Iterator[str]:
+def _warn_of_rest(d: SearchResult, key: str) -> Iterator[str]:
     """Yield a sentence where much has no name beside a term: as a learned curve, or as a random force."""
     limits = d.settings.name
-    if d.learned and won_by(d, key) < limits.beside * d.learned.gain:
+    if d.learned and compute_gain(d, key) < limits.beside * d.learned.gain:
         yield (
-            f"It wins {rounded(won_by(d, key), 3)} in log evidence, and what has no name beside it"
-            f" wins {rounded(d.learned.gain, 3)}:"
+            f"It wins {compute_gain(d, key):.3g} in log evidence, and what has no name beside it wins"
+            f" {d.learned.gain:.3g}:"
             " it may be a part of that."
         )
     elif d.unexplained and d.left:
@@ -113,25 +123,25 @@ def _beside(d: Diagnosed, key: str) -> Iterator[str]:
             yield f"Of the force that was missing, {percent(share)} is still missing with it."
 
 
-def won_by(d: Diagnosed, key: str) -> float:
+def compute_gain(d: SearchResult, key: str) -> float:
     """Return the log weight that a found term adds to the other found ones; to the nominal model where no one knows."""
-    visits, terms = d.selection.visits, frozenset(d.named)
-    here, less = visits.get(terms), visits.get(terms - {key})
+    fitted_sets, terms = d.selection.fitted_sets, frozenset(d.named)
+    here, less = fitted_sets.get(terms), fitted_sets.get(terms - {key})
     return here.weight - less.weight if here and less else d.selection.gain(key)
 
 
-def _others(d: Diagnosed, key: str) -> list[str]:
+def _list_alternatives(d: SearchResult, key: str) -> list[str]:
     """Return the terms of other sets without this one that have a share of the posterior, in words."""
     found = d.selection.chosen.problem.active
     sets = [terms for terms, p in d.selection.probabilities().items() if key not in terms and p > d.settings.name.rival]
     names = dict.fromkeys(k for terms in sets for k in sorted(terms - found))
-    return [spoken(term_of(d.before.problem, k)[0].name) for k in names]
+    return [to_words(find_term(d.before.problem, k)[0].name) for k in names]
 
 
-def unsteady(d: Diagnosed, key: str) -> Iterator[str]:
+def warn_of_moved_amplitudes(d: SearchResult, key: str) -> Iterator[str]:
     """Yield a sentence for each level of another found term that moves far when this one comes in."""
     chosen = d.selection.chosen
-    without = d.selection.visits.get(chosen.problem.active - {key})
+    without = d.selection.fitted_sets.get(chosen.problem.active - {key})
     if without is None:
         return
     sds, limits = without.fit.sd, d.settings.name
@@ -142,21 +152,20 @@ def unsteady(d: Diagnosed, key: str) -> Iterator[str]:
         old, new = without.fit.values[f.key], chosen.values[f.key]
         if abs(new - old) > max(limits.moved * sds[f.key], limits.moved_share * abs(old)):
             yield (
-                f"{_called(d, owner)} has a {name} of {rounded(old, 3)} {f.unit} without"
-                f" {spoken(key.partition('@')[0])} and of"
-                f" {rounded(new, 3)} {f.unit} with it: a level that moves so far was not known, or"
-                " the further term is wrong."
+                f"{_name_term(d, owner)} has a {name} of {old:.3g} {f.unit} without {to_words(key.partition('@')[0])}"
+                " and of"
+                f" {new:.3g} {f.unit} with it: a level that moves so far was not known, or the further term is wrong."
             )
 
 
-def _called(d: Diagnosed, key: str) -> str:
-    name = spoken(term_of(d.before.problem, key)[0].name)
+def _name_term(d: SearchResult, key: str) -> str:
+    name = to_words(find_term(d.before.problem, key)[0].name)
     return name[:1].upper() + name[1:]
 
 
-def _unusual(d: Diagnosed, key: str) -> Iterator[str]:
+def _warn_of_long_delay(d: SearchResult, key: str) -> Iterator[str]:
     """Yield a sentence on a delay that is longer than acquisition systems have, or that one frequency cannot show."""
-    term, slots = term_of(d.after.problem, key)
+    term, slots = find_term(d.after.problem, key)
     late = [s for s in slots if s.param.dimension == TIME and s.key in d.after.values]
     if term.acts == "motion" or not late:
         return
@@ -169,10 +178,10 @@ def _unusual(d: Diagnosed, key: str) -> Iterator[str]:
         )
 
 
-def _early(d: Diagnosed, key: str) -> Iterator[str]:
+def _warn_of_early_change(d: SearchResult, key: str) -> Iterator[str]:
     """Yield a sentence on a change that is over when the recording has hardly begun."""
     problem = d.after.problem
-    for slot in term_of(problem, key)[1]:
+    for slot in find_term(problem, key)[1]:
         if not slot.param.lasting or slot.param.dimension != TIME or slot.key not in d.after.values:
             continue
         fitted = problem.observations[0]
@@ -185,27 +194,27 @@ def _early(d: Diagnosed, key: str) -> Iterator[str]:
             )
 
 
-def doubted(entry: Mechanism, sure: float = DEFAULT.name.sure) -> Mechanism:
+def limit_confidence(entry: Mechanism, sure: float = DEFAULT.name.sure) -> Mechanism:
     """Return an entry of what was found: with a doubt it is likely, with a probability of `sure` at most."""
     if not entry.doubts or entry.state not in (NAMED, LIKELY):
         return entry
     return replace(entry, state=LIKELY, probability=min(entry.probability, sure))
 
 
-def in_order(found: Sequence[Mechanism]) -> tuple[Mechanism, ...]:
+def sort_findings(found: Sequence[Mechanism]) -> tuple[Mechanism, ...]:
     """Return the entries of what was found, what is named first and what is open last."""
     order = (NAMED, LIKELY, OPEN)
     return tuple(sorted(found, key=lambda entry: order.index(entry.state)))
 
 
-def open_of(d: Diagnosed) -> tuple[OpenTerm, ...]:
+def list_open_terms(d: SearchResult) -> tuple[OpenTerm, ...]:
     """Return the terms that stay open: they would raise the likelihood, and something speaks against a name.
 
     What was found and taken back comes first: it came closest.
     """
     reasons = [
         (set(d.withdrawn), "held-out data are predicted worse with it, or more force is missing with it"),
-        (d.selection.unbeaten, "a small smooth force that nobody has named explains as much"),
+        (d.selection.tied, "a small smooth force that nobody has named explains as much"),
         (d.selection.declined, "what is left over has a memory, so that this gain is not believed"),
     ]
     rows: dict[str, OpenTerm] = {}
@@ -213,8 +222,8 @@ def open_of(d: Diagnosed) -> tuple[OpenTerm, ...]:
         for key in sorted(keys - set(d.found) - set(rows)):
             if key not in d.before.problem.system.keys:
                 continue
-            term, _ = term_of(d.before.problem, key)
+            term, _ = find_term(d.before.problem, key)
             p = d.selection.inclusion(key) if key not in d.withdrawn else 0.0
-            says = f"{_called(d, key)} would raise the likelihood, but {why}."
+            says = f"{_name_term(d, key)} would raise the likelihood, but {why}."
             rows[key] = OpenTerm(term.name, term.at, p, says)
     return tuple(rows.values())

@@ -11,21 +11,21 @@ from scipy.ndimage import maximum_filter
 
 from lostmotion.codec import Cells
 from lostmotion.contracts import Array, place_of
-from lostmotion.diagnosis.search import Diagnosed, Located
+from lostmotion.diagnosis.search import ForceLocation, SearchResult
 from lostmotion.diagnosis.states import OPEN
-from lostmotion.inference.curves import Band, band_of, motions_of
-from lostmotion.inference.learned import names_of
-from lostmotion.inference.likeness import likeness
-from lostmotion.inference.locate import listed
-from lostmotion.inference.natural import term_of
-from lostmotion.inference.odds import p_values
-from lostmotion.inference.proposal import Axis, proposed
+from lostmotion.inference.curves import Band, compute_band, smooth_motions
+from lostmotion.inference.learned import list_covariates
+from lostmotion.inference.likeness import find_likeness
+from lostmotion.inference.locate import join_names
+from lostmotion.inference.natural import find_term
+from lostmotion.inference.odds import compute_p_values
+from lostmotion.inference.proposal import Axis, propose_formula
 from lostmotion.inference.shares import SURROGATES
 from lostmotion.inference.surfaces import OverHistory, Surface
 from lostmotion.inference.unexplained import UnknownForce
 from lostmotion.quantities import LENGTH, NUMBER, SPEED, TIME, Dimension
-from lostmotion.report.words import spoken
-from lostmotion.results import Interval, percent, rounded
+from lostmotion.report.words import to_words
+from lostmotion.results import Interval
 from lostmotion.results.diagnosis import LearnedCurve, LookAlike, Mechanism, ProposedFormula
 from lostmotion.results.mismatch import ForceDependence
 
@@ -44,21 +44,21 @@ BAND = 1.96
 RATIO = "the robust likelihood ratio of a curve over each covariate in the filter"
 
 
-def learned_entry(d: Diagnosed) -> Mechanism:
+def make_learned_entry(d: SearchResult) -> Mechanism:
     """Return the entry of a mismatch that learned curves explain where the library does not."""
     unknown = d.learned
     if unknown is None:
         raise ValueError("a diagnosis without learned curves has no entry for them")
-    bands = [band_of(unknown.fit, key) for key in unknown.keys]
-    curves = tuple(_curve(d, key, band) for key, band in zip(unknown.keys, bands, strict=True))
-    rms, sd = _size(d, unknown.keys, bands)
-    unit = _unit_of(d, Dimension(1, 0, 0))
+    bands = [compute_band(unknown.fit, key) for key in unknown.keys]
+    curves = tuple(_make_curve(d, key, band) for key, band in zip(unknown.keys, bands, strict=True))
+    rms, sd = _compute_size(d, unknown.keys, bands)
+    unit = _find_unit(d, Dimension(1, 0, 0))
     size = Interval(rms, max(rms - BAND * sd, 0.0), rms + BAND * sd, unit)
-    depends = names_of(unknown.terms)
+    depends = list_covariates(unknown.terms)
     share = rms / d.after.problem.scales.force
-    size_of = f"{rounded(rms, 3)} {unit} rms, {percent(share)} of {d.yardstick}"
-    alike, share_of_likeness, looks = _looks(d)
-    text = f"A force of {size_of}, is missing {_why_unnamed(d, unknown)}"
+    size_of = f"{rms:.3g} {unit} rms, {share:.2%} of {d.yardstick}"
+    alike, share_of_likeness, looks = _compare_with_library(d)
+    text = f"A force of {size_of}, is missing {_explain_missing_name(d, unknown)}"
     return Mechanism(
         mechanism="unknown",
         at=unknown.terms[0].at,
@@ -69,27 +69,27 @@ def learned_entry(d: Diagnosed) -> Mechanism:
         parameters={"rms": size},
         curve=curves[0],
         curves=curves,
-        proposal=_proposal(d, bands),
+        proposal=_make_proposal(d, bands),
         looks_like=alike,
         share_of_likeness=share_of_likeness,
         share_of_drive=share,
-        says=f"{text}: it depends on {listed(depends)}{looks} and is modelled by a learned curve.",
+        says=f"{text}: it depends on {join_names(depends)}{looks} and is modelled by a learned curve.",
     )
 
 
-def _why_unnamed(d: Diagnosed, unknown: UnknownForce) -> str:
+def _explain_missing_name(d: SearchResult, unknown: UnknownForce) -> str:
     """Return why a learned force has no name: none explains it, or a smooth force explains as much as the best one."""
     selection = d.selection
-    as_good = [key for key in selection.unbeaten if selection.gain(key) > unknown.gain - d.settings.select.decisive]
+    as_good = [key for key in selection.tied if selection.gain(key) > unknown.gain - d.settings.select.decisive]
     if not as_good:
         return "that no term of the library explains"
-    term, _ = term_of(d.before.problem, max(as_good, key=selection.gain))
+    term, _ = find_term(d.before.problem, max(as_good, key=selection.gain))
     place = f" at {term.at}" if len(d.before.problem.system.model.interfaces) > 1 else ""
-    name = spoken(term.name) + place
+    name = to_words(term.name) + place
     return f"that has no certain name, since {name} explains it and a smooth force explains as much"
 
 
-def _looks(d: Diagnosed) -> tuple[tuple[LookAlike, ...], float | None, str]:
+def _compare_with_library(d: SearchResult) -> tuple[tuple[LookAlike, ...], float | None, str]:
     """Return which terms a learned force looks like along the motion, their share of its variance, and both in words.
 
     Where it looks like none there is no share either.
@@ -98,25 +98,25 @@ def _looks(d: Diagnosed) -> tuple[tuple[LookAlike, ...], float | None, str]:
         return (), None, ""
     force = np.sum([d.laws[key] for key in d.learned.keys], axis=0)
     problem = d.after.problem.on((d.shown,))
-    found = likeness(problem, d.after.theta, d.left.missing.states, force)
+    found = find_likeness(problem, d.after.theta, d.left.missing.states, force)
     if found is None:
         return (), None, ""
-    terms = [term_of(problem, key)[0] for key in found.keys]
+    terms = [find_term(problem, key)[0] for key in found.keys]
     several = len(problem.system.model.interfaces) > 1
-    names = [spoken(term.name) + (f" at {term.at}" if several else "") for term in terms]
+    names = [to_words(term.name) + (f" at {term.at}" if several else "") for term in terms]
     alike = tuple(LookAlike(term.name, term.at) for term in terms)
     return alike, found.share, f", looks like {' and '.join(names)} ({percent(found.share)} of its variance)"
 
 
-def unnamed_entry(d: Diagnosed) -> Mechanism:
+def make_unnamed_entry(d: SearchResult) -> Mechanism:
     """Return the entry of a force that neither a term nor a curve explains: structured ("unknown") or not."""
     located = d.left or d.located
     depends = [] if d.found else located.structure
     rms = float(np.std(located.missing.force))
-    unit = _unit_of(d, Dimension(1, 0, 0))
+    unit = _find_unit(d, Dimension(1, 0, 0))
     share = rms / d.after.problem.scales.force
-    size = f"{rounded(rms, 3)} {unit} rms, {percent(share)} of {d.yardstick}"
-    on = f"depends on {listed(depends)}" if depends else "depends on nothing that was recorded"
+    size = f"{rms:.3g} {unit} rms, {share:.1%} of {d.yardstick}"
+    on = f"depends on {join_names(depends)}" if depends else "depends on nothing that was recorded"
     return Mechanism(
         mechanism="unknown" if depends else "random_force",
         probability=1.0 - math.exp(-d.random_gain),
@@ -127,41 +127,41 @@ def unnamed_entry(d: Diagnosed) -> Mechanism:
     )
 
 
-def _unit_of(d: Diagnosed, dimension: Dimension) -> str:
+def _find_unit(d: SearchResult, dimension: Dimension) -> str:
     return dimension.unit(d.after.problem.system.model.motion)
 
 
-def _size(d: Diagnosed, keys: Sequence[str], bands: Sequence[Band]) -> tuple[float, float]:
+def _compute_size(d: SearchResult, keys: Sequence[str], bands: Sequence[Band]) -> tuple[float, float]:
     """Return the rms of the learned force along the recording, and its standard error: that of the least sure curve."""
     law = np.sum([d.laws[key] for key in keys], axis=0)
     rms = float(np.sqrt(np.mean(law**2)))
-    return rms, rms * max(_doubt(band) for band in bands)
+    return rms, rms * max(_compute_relative_error(band) for band in bands)
 
 
-def _doubt(band: Band) -> float:
+def _compute_relative_error(band: Band) -> float:
     """Return the relative standard error of the size of a curve: of its projection onto itself."""
     norm = max(float(np.linalg.norm(band.mean)), 1e-300)
     direction = band.mean / norm
     return math.sqrt(max(float(direction @ band.covariance @ direction), 0.0)) / norm
 
 
-def _curve(d: Diagnosed, key: str, band: Band) -> LearnedCurve:
+def _make_curve(d: SearchResult, key: str, band: Band) -> LearnedCurve:
     """Return a learned curve with its band of 95 %; of a surface, tables. One with a memory tells when it forgets."""
     term, half = band.term, BAND * band.sd
     curve = LearnedCurve(
         over=term.over,
         at_place=term.at,
-        unit=_unit_of(d, OVER[term.over][1]),
-        force_unit=_unit_of(d, term.params[0].dimension),
+        unit=_find_unit(d, OVER[term.over][1]),
+        force_unit=_find_unit(d, term.params[0].dimension),
         times=term.times,
         at=tuple(band.at.tolist()),
-        force=_cells(band, band.mean),
-        low=_cells(band, band.mean - half),
-        high=_cells(band, band.mean + half),
+        force=_make_cells(band, band.mean),
+        low=_make_cells(band, band.mean - half),
+        high=_make_cells(band, band.mean + half),
     )
     if band.beside is not None and isinstance(term, Surface):
-        unit, at_too = _unit_of(d, OVER[term.beside][1]), tuple(band.beside.tolist())
-        seen = tuple(map(tuple, _visited(d, band, term).tolist()))
+        unit, at_too = _find_unit(d, OVER[term.beside][1]), tuple(band.beside.tolist())
+        seen = tuple(map(tuple, _mark_visited(d, band, term).tolist()))
         curve = replace(curve, over_too=term.beside, unit_too=unit, at_too=at_too, visited=seen)
     if isinstance(term, OverHistory):
         problem = d.after.problem
@@ -169,19 +169,19 @@ def _curve(d: Diagnosed, key: str, band: Band) -> LearnedCurve:
     return curve
 
 
-def _cells(band: Band, values: Array) -> tuple[Cells, ...]:
+def _make_cells(band: Band, values: Array) -> tuple[Cells, ...]:
     """Return the values of a curve (points,), or those of a surface in rows over its first axis."""
     if band.beside is None:
         return tuple(values.tolist())
     return tuple(map(tuple, values.reshape(len(band.at), -1).tolist()))
 
 
-def _visited(d: Diagnosed, band: Band, term: Surface) -> Array:
+def _mark_visited(d: SearchResult, band: Band, term: Surface) -> Array:
     """Return which cells (points, points) of the grid of a surface the motion came to, and their neighbours."""
     problem, beside = d.after.problem, np.asarray(band.beside)
     place = place_of(problem.system.model, term)
     seen = np.zeros((len(band.at), len(beside)), dtype=bool)
-    for motion, observation in zip(motions_of(d.after, [place])[place.name], problem.observations, strict=True):
+    for motion, observation in zip(smooth_motions(d.after, [place])[place.name], problem.observations, strict=True):
         second = (
             motion[1] if term.beside == "velocity" else observation.time * observation.harmonic.omega / math.tau % 1.0
         )
@@ -193,11 +193,11 @@ def _visited(d: Diagnosed, band: Band, term: Surface) -> Array:
     return np.asarray(maximum_filter(seen, size=3))
 
 
-def _proposal(d: Diagnosed, bands: list[Band]) -> ProposedFormula:
+def _make_proposal(d: SearchResult, bands: list[Band]) -> ProposedFormula:
     """Return the formula that a sparse regression proposes for each curve, marked as no more than that."""
     parts, shares = [], []
     for band in bands:
-        formula = _formula(d, band)
+        formula = _find_formula(d, band)
         if formula is None:
             return ProposedFormula(formula=None, says=NONE_FITS)
         parts.append(formula[0])
@@ -205,17 +205,17 @@ def _proposal(d: Diagnosed, bands: list[Band]) -> ProposedFormula:
     return ProposedFormula(formula=" + ".join(parts), share_of_curve=min(shares), says=NOT_FOUND)
 
 
-def _formula(d: Diagnosed, band: Band) -> tuple[str, float] | None:
+def _find_formula(d: SearchResult, band: Band) -> tuple[str, float] | None:
     if band.beside is not None or band.term.over == "history":
         return None
     axis = Axis(*OVER[band.term.over], band.term.params[0].dimension, d.after.problem.system.model.motion)
-    found = proposed(band.at, band.mean, band.covariance, axis, d.settings.unknown.formula)
+    found = propose_formula(band.at, band.mean, band.covariance, axis, d.settings.unknown)
     if found is None:
         return None
     return (f"{band.term.times} ({found.text})" if band.term.times else found.text), found.share
 
 
-def unknown_odds(d: Diagnosed) -> tuple[float, float]:
+def compute_unknown_odds(d: SearchResult) -> tuple[float, float]:
     """Return the probability that something is at work which the library does not have, and the log evidence for it."""
     if d.learned:
         return d.learned.probability, d.learned.gain
@@ -226,11 +226,12 @@ def unknown_odds(d: Diagnosed) -> tuple[float, float]:
     return 1.0 - math.exp(-d.random_gain), d.random_gain
 
 
-def where(located: Located, learned: UnknownForce | None = None) -> ForceDependence:
+def describe_dependence(located: ForceLocation, learned: UnknownForce | None = None) -> ForceDependence:
     """Return what a force depends on: a sentence, shares of its variance, and which covariates are beyond chance."""
     explained, summary = located.explained, located.summary
     if learned:
-        summary = f"a function of {listed(names_of(learned.terms))}, as the learned curve has it; by itself: {summary}"
+        names = join_names(list_covariates(learned.terms))
+        summary = f"a function of {names}, as the learned curve has it; by itself: {summary}"
     by_share = {name: share.p for name, share in explained.items()}
     against = RATIO if located.odds else f"{SURROGATES} phase-randomised surrogates"
     return ForceDependence(
@@ -239,7 +240,7 @@ def where(located: Located, learned: UnknownForce | None = None) -> ForceDepende
         standard_error={name: share.error for name, share in explained.items()},
         log_likelihood_ratio={name: ratio.log for name, ratio in located.odds.items()},
         robust_log_likelihood_ratio={name: ratio.robust for name, ratio in located.odds.items()},
-        p_value=p_values(located.odds) if located.odds else by_share,
+        p_value=compute_p_values(located.odds) if located.odds else by_share,
         p_value_of_share=by_share,
         significant=tuple(located.significant),
         against=f"{against}, at {percent(located.limits.level)} over all covariates together",

@@ -9,18 +9,25 @@ import numpy as np
 
 from lostmotion.case import CaseFile
 from lostmotion.diagnosis.compare import Prediction
-from lostmotion.diagnosis.findings import Outcome, elsewhere, intervals, noise_floor, shown, why_withheld
-from lostmotion.diagnosis.notes import drowned
-from lostmotion.diagnosis.search import Diagnosed, fitted_keys
+from lostmotion.diagnosis.findings import (
+    Outcome,
+    compute_intervals,
+    compute_noise_floor,
+    explain_withheld,
+    list_other_places,
+    withhold_intervals,
+)
+from lostmotion.diagnosis.notes import note_large_noise
+from lostmotion.diagnosis.search import SearchResult, list_fitted_keys
 from lostmotion.diagnosis.states import LIKELY
-from lostmotion.diagnosis.unknowns import unknown_odds
+from lostmotion.diagnosis.unknowns import compute_unknown_odds
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.natural import term_of
-from lostmotion.inference.prices import price_of
+from lostmotion.inference.natural import find_term
+from lostmotion.inference.penalties import compute_penalty
 from lostmotion.likelihood.system import key_of
 from lostmotion.quantities import unit_of
-from lostmotion.report.words import chance, span, spoken
-from lostmotion.results import percent, rounded
+from lostmotion.report.words import chance, span, to_words
+from lostmotion.results import rounded
 from lostmotion.results.diagnosis import (
     Both,
     BothTrue,
@@ -47,49 +54,49 @@ MOST_OPEN = 2
 """So many of the terms that stay open are told in the opening; the others stand in the report."""
 
 
-def label(fit: Fit) -> str:
+def label_model(fit: Fit) -> str:
     """Return the model with its terms as people write it: its name, or its equations."""
     model = fit.problem.system.model
     name = f"({'; '.join(model.equations)})" if isinstance(model, Written) else model.name
     return " + ".join([name, *sorted(fit.problem.active)])
 
 
-def labels(d: Diagnosed) -> Labels:
+def label_models(d: SearchResult) -> Labels:
     """Return both models in words."""
-    return Labels(label(d.before), label(d.after))
+    return Labels(label_model(d.before), label_model(d.after))
 
 
-def angle_of(case: CaseFile) -> str:
+def find_angle_unit(case: CaseFile) -> str:
     """Return the unit in which a case gives angles: deg where a column is in degrees, else rad."""
     columns = [c for recording in case.recordings for c in (*recording.inputs, *recording.sensors)]
     return "deg" if any(c.unit.startswith(("deg", "°")) for c in columns) else "rad"
 
 
-def units_of(d: Diagnosed) -> Units:
+def list_units(d: SearchResult) -> Units:
     """Return the units of the arrays."""
     if d.after.problem.system.model.motion == "rotation":
         return Units("rad", "rad/s", "N m", "s")
     return Units("m", "m/s", "N", "s")
 
 
-def drive_of(d: Diagnosed) -> DriveFacts:
+def describe_drive(d: SearchResult) -> DriveFacts:
     """Return what moves the machine."""
     period = d.shown.period
     return DriveFacts(
         amplitude=d.after.problem.scales.force,
-        unit=units_of(d).force,
+        unit=list_units(d).force,
         of=d.yardstick,
         frequency=1.0 / (period * d.shown.dt) if period else None,
         free=d.shown.free,
     )
 
 
-def exponents_of(outcome: Outcome) -> Exponents:
+def list_exponents(outcome: Outcome) -> Exponents:
     """Return the largest Lyapunov exponents of both models."""
     return Exponents(outcome.before.exponent, outcome.after.exponent, "1/s")
 
 
-def valid_times(outcome: Outcome) -> ValidTimes:
+def list_valid_times(outcome: Outcome) -> ValidTimes:
     """Return how long free runs of both models stay near the recording, in s and in the unit of the horizon."""
     before, after, horizon = outcome.before, outcome.after, outcome.horizon
     scaled = Both(before.valid_time / horizon.unit_time, after.valid_time / horizon.unit_time)
@@ -104,14 +111,16 @@ def valid_times(outcome: Outcome) -> ValidTimes:
     )
 
 
-def whiteness_of(outcome: Outcome) -> BothWhite:
+def describe_whiteness(outcome: Outcome) -> BothWhite:
     """Return the tests of whiteness of the one-step errors of both models."""
     certain = outcome.diagnosis.settings.name.white
     before, after = outcome.before.white, outcome.after.white
-    return BothWhite(Whiteness(before, _white(before, certain)), Whiteness(after, _white(after, certain)))
+    return BothWhite(
+        Whiteness(before, _describe_p_value(before, certain)), Whiteness(after, _describe_p_value(after, certain))
+    )
 
 
-def _white(p: float, certain: float) -> str:
+def _describe_p_value(p: float, certain: float) -> str:
     if p < certain:
         return (
             f"One-step errors are not white (Ljung-Box {chance(p)}): they still hold something that can be predicted."
@@ -121,58 +130,60 @@ def _white(p: float, certain: float) -> str:
     return f"One-step errors cannot be told from white noise (Ljung-Box p = {rounded(p)})."
 
 
-def sensors_of(d: Diagnosed) -> tuple[SensorFacts, ...]:
+def list_sensors(d: SearchResult) -> tuple[SensorFacts, ...]:
     """Return name, channel, unit, standard deviation and kind of noise of each sensor."""
     motion = d.after.problem.system.model.motion
     rows = []
-    for i, (sensor, name, noise) in enumerate(zip(d.shown.sensors, names_of(d), noises_of(d), strict=True)):
+    for i, (sensor, name, noise) in enumerate(
+        zip(d.shown.sensors, list_sensor_names(d), list_noise_levels(d), strict=True)
+    ):
         kind: str = sensor.noise.kind
         if d.after.problem.ar1(d.after.theta, 0, i)[0]:
             kind = "ar1"
-        elif any(term_of(d.before.problem, key)[0].at == sensor.place for key in d.quantised):
+        elif any(find_term(d.before.problem, key)[0].at == sensor.place for key in d.quantised):
             kind = "quantised"
         rows.append(SensorFacts(name, sensor.channel, unit_of(sensor.channel, motion), noise, kind))
     return tuple(rows)
 
 
-def names_of(d: Diagnosed) -> list[str]:
+def list_sensor_names(d: SearchResult) -> list[str]:
     """Return the names of the sensors: the channel of one that was given none."""
     return [sensor.label for sensor in d.shown.sensors]
 
 
-def noises_of(d: Diagnosed) -> list[float]:
+def list_noise_levels(d: SearchResult) -> list[float]:
     """Return the standard deviation of all measurement noise of each sensor, after."""
     fit = d.after
     return [math.sqrt(fit.problem.measurement(fit.theta, 0, i)) for i in range(len(d.shown.sensors))]
 
 
-def scores_of(outcome: Outcome) -> HeldOutScores:
+def list_scores(outcome: Outcome) -> HeldOutScores:
     """Return what both models predict of held-out data."""
     horizon = outcome.horizon
     return HeldOutScores(
-        before=_score(outcome, outcome.before),
-        after=_score(outcome, outcome.after),
-        noise_floor_nrmse=noise_floor(outcome),
+        before=_make_score(outcome, outcome.before),
+        after=_make_score(outcome, outcome.after),
+        noise_floor_nrmse=compute_noise_floor(outcome),
         horizon_unit=horizon.unit,
         horizon_unit_time=horizon.unit_time,
     )
 
 
-def _score(outcome: Outcome, p: Prediction) -> HeldOutScore:
-    by_sensor = dict(zip(names_of(outcome.diagnosis), p.by_sensor, strict=True))
+def _make_score(outcome: Outcome, p: Prediction) -> HeldOutScore:
+    by_sensor = dict(zip(list_sensor_names(outcome.diagnosis), p.by_sensor, strict=True))
     return HeldOutScore(p.log_score, p.nrmse, by_sensor, outcome.horizon.number)
 
 
-def parameters_of(outcome: Outcome) -> ParameterSets:
+def list_parameters(outcome: Outcome) -> ParameterSets:
     """Return the parameters of both models, without intervals where these are withheld."""
-    d, why = outcome.diagnosis, why_withheld(outcome)
+    d, why = outcome.diagnosis, explain_withheld(outcome)
     return ParameterSets(
-        before=shown(intervals(d.before, outcome.draws_before), "" if d.found else why),
-        after=shown(intervals(d.after, outcome.draws_after), why),
+        before=withhold_intervals(compute_intervals(d.before, outcome.draws_before), "" if d.found else why),
+        after=withhold_intervals(compute_intervals(d.after, outcome.draws_after), why),
     )
 
 
-def ranking_of(d: Diagnosed, found: Sequence[Mechanism], *, failed: bool) -> tuple[Candidate, ...]:
+def rank_candidates(d: SearchResult, found: Sequence[Mechanism], *, failed: bool) -> tuple[Candidate, ...]:
     """Return every candidate with its evidence, price and probability, beside them "nothing missing" and "unknown".
 
     A term that was found has the probability that is told of it. Where the model has `failed` on held-out data,
@@ -180,11 +191,11 @@ def ranking_of(d: Diagnosed, found: Sequence[Mechanism], *, failed: bool) -> tup
     learned, or, when nothing was found, a force beyond the usual.
     """
     selection = d.selection
-    unknown, gain = unknown_odds(d)
+    unknown, gain = compute_unknown_odds(d)
     unknown = 1.0 if failed and not d.found else unknown
     told = {(entry.mechanism, entry.at): entry.probability for entry in found}
     rows: list[Candidate] = []
-    many = len(fitted_keys(selection.nominal.problem.system))
+    many = len(list_fitted_keys(selection.nominal.problem.system))
     for term in selection.nominal.problem.system.terms:
         key = key_of(term)
         rest = 1.0 if selection.simplest else 1.0 - unknown
@@ -195,8 +206,8 @@ def ranking_of(d: Diagnosed, found: Sequence[Mechanism], *, failed: bool) -> tup
                 at=term.at,
                 log_evidence_gain=selection.gain(key),
                 probability=p,
-                price=price_of(term, many, d.settings),
-                fitted=frozenset({key}) in selection.visits,
+                price=compute_penalty(term, many, d.settings),
+                fitted=frozenset({key}) in selection.fitted_sets,
             )
         )
     nothing = selection.probabilities().get(frozenset(), 0.0) * (1.0 - unknown)
@@ -208,57 +219,60 @@ def ranking_of(d: Diagnosed, found: Sequence[Mechanism], *, failed: bool) -> tup
     return tuple(sorted(rows, key=lambda row: (-row.probability, -row.log_evidence_gain)))
 
 
-def confusions_of(d: Diagnosed) -> list[Confusion]:
+def list_confusions(d: SearchResult) -> list[Confusion]:
     """Return the terms that are in other sets of some weight, and relatives of what was found."""
     rows = []
     for term in d.selection.nominal.problem.system.terms:
         key = key_of(term)
         p = 0.0 if d.learned else d.selection.inclusion(key)
         if key not in d.found and p > d.settings.name.worth:
-            says = f"This recording gives {spoken(term.name)} a probability of {p:.2f}: {other_level(d)} would decide."
+            says = (
+                f"This recording gives {to_words(term.name)} a probability of {p:.2f}: {name_other_recording(d)} would"
+                " decide."
+            )
             rows.append(Confusion(mechanism=term.name, at=term.at, probability=p, says=says))
-    return rows + [row for key in d.named for row in _equal(d, key)]
+    return rows + [row for key in d.named for row in _list_indistinguishable(d, key)]
 
 
-def bodies_of(d: Diagnosed) -> int:
+def count_bodies(d: SearchResult) -> int:
     """Return on how many bodies of the model a force may act."""
     return len({place.row for place in d.after.problem.system.model.interfaces})
 
 
-def _taken_as(d: Diagnosed) -> str:
+def _describe_body(d: SearchResult) -> str:
     """Return how the unexplained force is to be read where what was found acts on another body than the first."""
-    at = {term_of(d.after.problem, key)[0].at for key in d.named}
-    others = elsewhere(d.after.problem.system.model)
+    at = {find_term(d.after.problem, key)[0].at for key in d.named}
+    others = list_other_places(d.after.problem.system.model)
     return ", taken as one that acts on the first body," if at & others else ""
 
 
-def other_level(d: Diagnosed) -> str:
+def name_other_recording(d: SearchResult) -> str:
     """Return what recording may tell two laws apart that are alike at one size of the motion."""
     return "a decay from a larger or smaller start" if d.shown.free else "another drive level"
 
 
-def _equal(d: Diagnosed, key: str) -> list[Confusion]:
+def _list_indistinguishable(d: SearchResult, key: str) -> list[Confusion]:
     """Return the terms that no recording of a machine that does not age can tell from a term that was found."""
-    term, _ = term_of(d.after.problem, key)
+    term, _ = find_term(d.after.problem, key)
     if len(d.shown.sensors) > 1:  # what delays one sensor delays no other
         return []
     says = (
-        f"No recording of this machine can tell {{}} from {spoken(term.name)}: measure the time lag of the channels by"
-        " itself."
+        f"No recording of this machine can tell {{}} from {to_words(term.name)}: measure the time lag of the"
+        " channels by itself."
     )
     p = d.selection.inclusion(key)
-    return [Confusion(mechanism=n, at="", probability=p, says=says.format(spoken(n))) for n in term.equals]
+    return [Confusion(mechanism=n, at="", probability=p, says=says.format(to_words(n))) for n in term.equals]
 
 
-def unexplained_of(d: Diagnosed, *, after: bool) -> UnexplainedForce:
+def measure_unexplained(d: SearchResult, *, after: bool) -> UnexplainedForce:
     """Return the force that the model with what was found, or the nominal model, leaves unexplained."""
     located = d.left if after and d.left else d.located
     rms = float(np.std(located.missing.force))
     significant = d.unexplained if after else bool(d.found or d.unexplained)
-    return UnexplainedForce(significant, rms, units_of(d).force, rms / d.after.problem.scales.force)
+    return UnexplainedForce(significant, rms, list_units(d).force, rms / d.after.problem.scales.force)
 
 
-def _finding_sentences(found: Sequence[Mechanism]) -> Iterator[str]:
+def _list_finding_sentences(found: Sequence[Mechanism]) -> Iterator[str]:
     """Yield the sentences on what was found; what is no more than likely is told so, each doubt once."""
     told: set[str] = set()
     for entry in found:
@@ -270,41 +284,40 @@ def _finding_sentences(found: Sequence[Mechanism]) -> Iterator[str]:
         yield " ".join([f"Likely, not certain: {entry.says}", *doubts])
 
 
-def says(outcome: Outcome, found: Sequence[Mechanism], rest: Sequence[OpenTerm] = ()) -> tuple[str, ...]:
+def summarise(outcome: Outcome, found: Sequence[Mechanism], rest: Sequence[OpenTerm] = ()) -> tuple[str, ...]:
     """Return the opening sentences of the report, from what was found and the `rest` that stays open."""
     d = outcome.diagnosis
-    horizon, floor = outcome.horizon, noise_floor(outcome)
+    horizon, floor = outcome.horizon, compute_noise_floor(outcome)
     time = span(horizon.number, horizon.unit)
     if not found:
         return (
             "Nothing is missing that this recording can show.",
-            f"The nominal model predicts held-out data over {time} to {percent(outcome.before.nrmse)}"
-            " of the response; the"
-            f" noise alone is {percent(floor)}.",
-            *drowned(outcome),
+            f"The nominal model predicts held-out data over {time} to {outcome.before.nrmse:.1%} of the response; the"
+            f" noise alone is {floor:.1%}.",
+            *note_large_noise(outcome),
         )
     left = [f"Open: {row.says}" for row in rest[:MOST_OPEN]]
     if not d.found:
         return (*(entry.says for entry in found), *left)
-    opening = list(_finding_sentences(found))
+    opening = list(_list_finding_sentences(found))
     if len(found) == 1 and found[0].state != LIKELY:
         opening[0] = f"{opening[0][:-1]}, and the model leaves it out."
     elif len(found) > 1:
         opening.append(f"The model leaves out {'both' if len(found) == 2 else f'all {len(found)} of them'}.")
-    old, new = unexplained_of(d, after=False), unexplained_of(d, after=True)
+    old, new = measure_unexplained(d, after=False), measure_unexplained(d, after=True)
     errors = [outcome.before.nrmse, outcome.after.nrmse]
     sizes = [rounded(one.rms, 3) for one in (old, new)]
     verbs = ["rises" if new.rms > old.rms else "falls", " rises" if errors[1] > errors[0] else " falls"]
     if verbs[1].strip() == verbs[0]:
         verbs[1] = ""
     opening.append(
-        f"With {'it' if len(found) == 1 else 'them'} the unexplained force{_taken_as(d)} {verbs[0]} from"
+        f"With {'it' if len(found) == 1 else 'them'} the unexplained force{_describe_body(d)} {verbs[0]} from"
         f" {sizes[0]} to {sizes[1]} {new.unit} (rms), and the free-running prediction error of held-out"
         f" data over {time}{verbs[1]} from {percent(errors[0])} to {percent(errors[1])} of the"
         " response; the noise alone is"
         f" {percent(floor)}."
     )
-    opening += drowned(outcome)
+    opening += note_large_noise(outcome)
     if d.unexplained:
         opening.append(f"A force of {sizes[1]} {new.unit} rms remains that no term of the library explains.")
     return (*opening, *left)

@@ -1,8 +1,8 @@
-"""A machine written down as equations, `m*x'' + c*x' + k*x = force`: read, checked and solved for accelerations.
+"""Equations of motion as text, `m*x'' + c*x' + k*x = force`: read, checked and solved for the accelerations.
 
-Names that are neither a coordinate, an input nor a known function are parameters. A coordinate is what a second
-derivative stands of; each equation holds that of one coordinate, times one parameter, its mass. Inputs are `force`,
-`torque`, names that end so, such as `second_force`, and `base_position`, `base_velocity` and `base_acceleration`.
+Names that are neither a coordinate, an input nor a known function are parameters. A coordinate is a name with a second
+derivative; each equation contains that of one coordinate, times one parameter, its mass. Inputs are `force`, `torque`,
+names with these endings, such as `second_force`, and `base_position`, `base_velocity` and `base_acceleration`.
 """
 
 from lostmotion.equations.read import FUNCTIONS, Node

@@ -1,4 +1,4 @@
-"""An equation solved for the second derivative that it is linear in."""
+"""Solution of an equation for a second derivative in which it is linear."""
 
 from __future__ import annotations
 
@@ -9,31 +9,31 @@ ONE = Node("number", 0, "1", value=1.0)
 
 
 def contains(node: Node, wanted: str) -> bool:
-    """Return whether a name with its primes, such as `x''`, stands in an expression."""
+    """Return whether an expression contains a name with its primes, such as `x''`."""
     return any(part.plain == wanted for part in node.nodes())
 
 
-def parted(text: str, node: Node, wanted: str) -> tuple[Node, Node]:
-    """Return `a` and `b` of a node that is `a * wanted + b`; an error shows where it is not linear."""
+def split_linear(text: str, node: Node, wanted: str) -> tuple[Node, Node]:
+    """Return `a` and `b` of a node that is `a * wanted + b`; raise an error at the place where it is not linear."""
     if node.plain == wanted:
         return ONE, ZERO
     if not contains(node, wanted):
         return ZERO, node
     if node.kind == "negative":
-        a, b = parted(text, node.args[0], wanted)
+        a, b = split_linear(text, node.args[0], wanted)
         return negative(a), negative(b)
     if node.kind in ("+", "-"):
-        (a, b), (c, d) = (parted(text, part, wanted) for part in node.args)
+        (a, b), (c, d) = (split_linear(text, part, wanted) for part in node.args)
         combine = plus if node.kind == "+" else minus
         return combine(a, c), combine(b, d)
     if node.kind in ("*", "/") and sum(contains(part, wanted) for part in node.args) == 1:
         first, second = node.args
         if contains(first, wanted):
-            a, b = parted(text, first, wanted)
+            a, b = split_linear(text, first, wanted)
             combine = times if node.kind == "*" else over
             return combine(a, second), combine(b, second)
         if node.kind == "*":
-            a, b = parted(text, second, wanted)
+            a, b = split_linear(text, second, wanted)
             return times(first, a), times(first, b)
     raise error(text, node.at, f"is not linear in {wanted}: write mass * {wanted} as a term of the sum")
 

@@ -1,4 +1,4 @@
-"""The text of an equation as a tree: names with primes, numbers, arithmetic and known functions. Nothing is executed.
+"""Parsing of an equation to a tree of names with primes, numbers, operators and known functions. No code is executed.
 
 Grammar: `a + b`, `a - b`, `a * b`, `a / b`, `a ^ b` (or `**`), `-a`, `f(a, b)`, parentheses, and one `=`. A prime is a
 derivative with respect to time: `x'` is the velocity of `x`.
@@ -20,18 +20,18 @@ FUNCTIONS = {
 }  # fmt: skip
 """The functions that an equation may use, each with its arguments.
 
-`gap(x, k, x0)` is the force of a spring k that acts beyond a half gap x0 on either side, `stop(x, k, x0)` the same on
-the positive side alone; `sat(x, limit)` is x between -limit and limit.
+`gap(x, k, x0)` is the force of a spring k beyond a half gap x0 on both sides, `stop(x, k, x0)` that on the positive
+side only; `sat(x, limit)` is x limited to the range from -limit to limit.
 """
 CONSTANTS = {"pi": 3.141592653589793}
 LONGEST, DEEPEST = 2000, 50
-"""Characters of an equation, and parentheses within each other, at most."""
+"""The greatest number of characters of an equation, and of nested parentheses."""
 _TOKEN = re.compile(
     r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)|(?P<name>[^\W\d]\w*)(?P<primes>['’′]*)"
     r"|(?P<sign>\*\*|[-+*/^(),=])|(?P<end>$))"
 )
-_BINDS = {"+": 1, "-": 1, "*": 2, "/": 2, "^": 4}
-_UNARY = 3
+_PRECEDENCE = {"+": 1, "-": 1, "*": 2, "/": 2, "^": 4}
+_UNARY_PRECEDENCE = 3
 
 
 @dataclass(frozen=True)
@@ -49,19 +49,19 @@ class Node:
     value: float = 0.0
 
     def nodes(self) -> Iterator[Node]:
-        """Yield the node itself and all below it."""
+        """Yield the node itself and all its parts."""
         yield self
         for part in self.args:
             yield from part.nodes()
 
     @property
     def begin(self) -> int:
-        """The character at which the first part of it stands."""
+        """The position of the first character of the node."""
         return min(node.at for node in self.nodes())
 
     @property
     def plain(self) -> str:
-        """The name as it was written, with its primes; empty for all else."""
+        """The name with its primes; empty for other nodes."""
         return f"{self.text}{self.primes * chr(39)}" if self.kind == "name" else ""
 
 
@@ -76,20 +76,20 @@ class Token:
 
     @property
     def shown(self) -> str:
-        """The token as messages call it."""
+        """The token in the form used in messages."""
         return "the end" if self.kind == "end" else repr(self.text + self.primes * "'")
 
 
 def error(text: str, at: int, says: str) -> CaseError:
-    """Return an error on an equation that shows the place: character `at` of the text, counted from 0."""
+    """Return an error on an equation that shows the place `at` in the text, counted from 0."""
     return CaseError(f"the equation {text!r} {says}, at character {at + 1}: {text[:at]} >>> {text[at:]}")
 
 
 def read(text: str) -> tuple[Node, Node]:
-    """Return the left and the right side of an equation; `CaseError` where it cannot be read, with the place."""
+    """Return the left and the right side of an equation; raise `CaseError` with the place of an error."""
     if len(text) > LONGEST:
         raise CaseError(f"an equation has {len(text)} characters: {LONGEST} are allowed; use shorter names")
-    parser = _Parser(text, tuple(_tokens(text)))
+    parser = _Parser(text, tuple(_tokenize(text)))
     left = parser.expression()
     parser.take("=", "an operator or '='")
     right = parser.expression()
@@ -97,13 +97,13 @@ def read(text: str) -> tuple[Node, Node]:
     return left, right
 
 
-def _tokens(text: str) -> Iterator[Token]:
+def _tokenize(text: str) -> Iterator[Token]:
     at = 0
     while True:
         found = _TOKEN.match(text, at)
         if found is None:
             place = at + len(text[at:]) - len(text[at:].lstrip())
-            raise error(text, place, f"has {text[place]!r}, which means nothing in an equation")
+            raise error(text, place, f"has {text[place]!r}, which is not allowed in an equation")
         kind = str(found.lastgroup if found.lastgroup != "primes" else "name")
         word = found[kind]
         yield Token(kind, "^" if word == "**" else word, found.start(kind), len(found["primes"] or ""))
@@ -113,7 +113,7 @@ def _tokens(text: str) -> Iterator[Token]:
 
 
 class _Parser:
-    """Reads tokens by precedence, the way of Pratt (1973)."""
+    """Parses tokens by operator precedence (Pratt 1973)."""
 
     def __init__(self, text: str, tokens: tuple[Token, ...]) -> None:
         self.text, self.tokens, self.place, self.depth = text, tokens, 0, 0
@@ -123,7 +123,7 @@ class _Parser:
         return self.tokens[self.place]
 
     def take(self, wanted: str, words: str) -> Token:
-        """Return the token that is wanted and go on, or raise an error that says what was found."""
+        """Return the expected token and move on; raise an error if another token is found."""
         token = self.here
         if token.kind != wanted and not (token.kind == "sign" and token.text == wanted):
             raise error(self.text, token.at, f"has {token.shown} where {words} is wanted")
@@ -131,16 +131,16 @@ class _Parser:
         return token
 
     def expression(self, least: int = 0) -> Node:
-        """Return all that binds at least as strongly as `least`."""
+        """Return the expression of operators with a precedence of at least `least`."""
         self.depth += 1
         if self.depth > DEEPEST:
             raise error(self.text, self.here.at, f"nests more than {DEEPEST} parentheses or signs")
         left = self._operand()
-        while self.here.kind == "sign" and _BINDS.get(self.here.text, -1) >= max(least, 1):
+        while self.here.kind == "sign" and _PRECEDENCE.get(self.here.text, -1) >= max(least, 1):
             operator = self.here
             self.place += 1
-            strength = _BINDS[operator.text]
-            right = self.expression(_UNARY if operator.text == "^" else strength + 1)
+            strength = _PRECEDENCE[operator.text]
+            right = self.expression(_UNARY_PRECEDENCE if operator.text == "^" else strength + 1)
             left = Node(operator.text, operator.at, args=(left, right))
         self.depth -= 1
         return left
@@ -150,14 +150,14 @@ class _Parser:
         if token.kind == "number":
             self.place += 1
             if not isfinite(value := float(token.text)):
-                raise error(self.text, token.at, f"has {token.shown}, which is no finite number")
+                raise error(self.text, token.at, f"has {token.shown}, which is not a finite number")
             return Node("number", token.at, token.text, value=value)
         if token.kind == "name":
             self.place += 1
-            return self._call(token) if self.here.text == "(" else _named(token)
+            return self._call(token) if self.here.text == "(" else _name_node(token)
         if token.text in ("-", "+") and token.kind == "sign":
             self.place += 1
-            inner = self.expression(_UNARY)
+            inner = self.expression(_UNARY_PRECEDENCE)
             return Node("negative", token.at, args=(inner,)) if token.text == "-" else inner
         self.take("(", "a name, a number or '('")
         inner = self.expression()
@@ -182,7 +182,7 @@ class _Parser:
         return Node("call", token.at, token.text, tuple(args))
 
 
-def _named(token: Token) -> Node:
+def _name_node(token: Token) -> Node:
     if token.text in CONSTANTS and not token.primes:
         return Node("number", token.at, token.text, value=CONSTANTS[token.text])
     return Node("name", token.at, token.text, primes=token.primes)

@@ -79,7 +79,7 @@ def _predict_blocks(
     edges, picked = where
     terms, replicates = [], []
     for first in range(0, len(thetas), POINTS_PER_CALL):
-        seen = problem.many(thetas[first : first + POINTS_PER_CALL])
+        seen = problem.filter_many(thetas[first : first + POINTS_PER_CALL])
         each = -0.5 * (seen.errors**2 / seen.variances + np.log(2.0 * np.pi * seen.variances))
         terms.append(np.add.reduceat(each, edges, axis=1))
         spread = np.sqrt(seen.variances[:, picked])

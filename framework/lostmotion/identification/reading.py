@@ -83,7 +83,7 @@ def read_levels(
 ) -> tuple[ReadLevel, ...]:
     """Return the levels read from the recordings of a case, one for each recording."""
     streams = rng.spawn(len(case.recordings))
-    loaded = (load_recording(spec, case.folder) for spec in case.recordings)
+    loaded = (load_recording(spec, case.folder, settings.recording) for spec in case.recordings)
     return tuple(
         read_level(extract_signals(one), registry, own, settings) for one, own in zip(loaded, streams, strict=True)
     )

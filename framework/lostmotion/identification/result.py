@@ -11,7 +11,7 @@ from lostmotion.case.levels import Measured
 from lostmotion.contracts import Array
 from lostmotion.identification.levels import compute_derived
 from lostmotion.identification.sampling import NOISES, SampledPosterior
-from lostmotion.likelihood.space import parted
+from lostmotion.likelihood.space import split_key
 from lostmotion.maps.inversion import Inversion, Predicted
 from lostmotion.results import Interval
 from lostmotion.results.background import Origin
@@ -32,7 +32,7 @@ SENSOR_PARAMETERS = (*NOISES.values(), "offset")
 def make_result(found: SampledPosterior, route: RouteName, case: CaseFile, origin: Origin) -> Identification:
     """Return the result of the draws, without notes and without the parts that belong to one route only."""
     rows = _make_parameter_rows(found)
-    noise = {name for name in rows if parted(name)[0] in SENSOR_PARAMETERS}
+    noise = {name for name in rows if split_key(name)[0] in SENSOR_PARAMETERS}
     return Identification(
         route=route,
         converged=found.converged,

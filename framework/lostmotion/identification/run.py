@@ -24,11 +24,11 @@ from lostmotion.identification.report.page import write_identification
 from lostmotion.identification.result import compute_derived_intervals, make_drive_level, make_result, write_mode_notes
 from lostmotion.identification.sampling import SampledPosterior, SamplingPlan, Task, Watch, identify
 from lostmotion.identification.trajectory import choose_terms, find_best_fits, make_trajectory_task, write_warnings
-from lostmotion.inference.contacts import short_contacts
+from lostmotion.inference.contacts import list_short_contacts
 from lostmotion.likelihood.space import FreeParameter
 from lostmotion.maps.inversion import Inversion, predict_levels
-from lostmotion.preparation.prepare import Prepared, case_of, prepared_of
-from lostmotion.preparation.vetting import within_numbers
+from lostmotion.preparation.prepare import Prepared, case_of, prepare_case
+from lostmotion.preparation.vetting import catch_divergence
 from lostmotion.provenance import origin_of
 from lostmotion.registry import Registry
 from lostmotion.results.background import Origin
@@ -80,7 +80,7 @@ class Route:
     make_result: Callable[[SampledPosterior], Identification]
 
 
-@within_numbers()
+@catch_divergence()
 def run_identification(
     path: Path, out: Path, registry: Registry, order: IdentificationRequest, watch: Watch = lambda _steps, _says: None
 ) -> Identified:
@@ -107,7 +107,7 @@ def identify_case(
     rng = np.random.default_rng(order.seed)
     asked = (order, rng, watch)
     if prepared or choose_route(case, order) == "trajectory":
-        way = _prepare_trajectory(prepared or prepared_of(case, registry), out, registry, asked)
+        way = _prepare_trajectory(prepared or prepare_case(case, registry, order.settings), out, registry, asked)
     else:
         way = _prepare_quantifiers(case, out, registry, asked)
     if order.fresh:
@@ -142,7 +142,7 @@ def _prepare_trajectory(prepared: Prepared, out: Path, registry: Registry, asked
     problem = fits[0].problem
     settings = {"terms": sorted(problem.active), "steps_between_samples": problem.nsub, "sensor": asdict(case.sensor)}
     origin = _make_origin(case, order, settings, prepared.inputs)
-    notes = (*prepared.notes, *write_mode_notes(len(fits)), *short_contacts(fits[0]), *write_warnings(fits[0]))
+    notes = (*prepared.notes, *write_mode_notes(len(fits)), *list_short_contacts(fits[0]), *write_warnings(fits[0]))
     model = " + ".join([case.model, *sorted(problem.active)])
 
     def complete(found: SampledPosterior) -> Identification:

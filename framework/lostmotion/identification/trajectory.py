@@ -12,13 +12,20 @@ from lostmotion.case import CaseFile
 from lostmotion.contracts import Term
 from lostmotion.errors import CaseError, nearest
 from lostmotion.identification.sampling import SampledPosterior, SamplingPlan, Task, identify, make_task
-from lostmotion.inference.candidates import fit_with, screen, slopes_of
-from lostmotion.inference.fit import Fit, maximise, restarted
-from lostmotion.inference.leftovers import significant_random_force
-from lostmotion.inference.setup import SHARED, frees_for, modes, polished, problem_of, separated
+from lostmotion.inference.candidates import compute_slopes, fit_term, run_score_test
+from lostmotion.inference.fit import Fit, maximise, restart
+from lostmotion.inference.random_force import compute_random_force_gain
+from lostmotion.inference.setup import (
+    SHARED,
+    find_modes,
+    make_case_parameters,
+    make_problem,
+    polish_modes,
+    separate_levels,
+)
 from lostmotion.likelihood.system import System, key_of
 from lostmotion.preparation.prepare import Prepared
-from lostmotion.preparation.vetting import sound
+from lostmotion.preparation.vetting import make_plugin
 from lostmotion.registry import Registry
 from lostmotion.settings import DEFAULT, Settings
 
@@ -56,7 +63,7 @@ def choose_terms(prepared: Prepared, asked: tuple[str, ...], registry: Registry)
     named = [key.rpartition(".")[0] for key in (*prepared.case.known, *prepared.case.estimate) if "." in key]
     keys = dict.fromkeys(text.removesuffix("@ground") for text in (*asked, *named))
     for key in keys:
-        sound(registry, "term", key.partition("@")[0])
+        make_plugin(registry, "term", key.partition("@")[0])
         if key not in offered:
             raise CaseError(
                 f"the term {key!r} has no place in {prepared.case.model}{nearest(key, offered)}:"
@@ -74,28 +81,28 @@ def find_best_fits(
     """
     case = prepared.case
     bare = replace(case, estimate={k: v for k, v in case.estimate.items() if "." not in k})
-    problem = problem_of(System(prepared.model, terms), bare, prepared.observations, jobs=jobs, settings=settings)
-    found = modes(problem, rng, sensor=SHARED if terms else case.sensor)
-    return polished([_add_terms(fit, terms, case) for fit in found])
+    problem = make_problem(System(prepared.model, terms), bare, prepared.observations, jobs=jobs, settings=settings)
+    found = find_modes(problem, rng, sensor=SHARED if terms else case.sensor)
+    return polish_modes([_add_terms(fit, terms, case) for fit in found])
 
 
 def _add_terms(fit: Fit, terms: tuple[Term, ...], case: CaseFile) -> Fit:
     """Return the fit with the terms, and with the priors and the sensor of the case."""
     for term in terms:
-        fit = fit_with(fit, screen(fit, slopes_of(fit), key_of(term)))
+        fit = fit_term(fit, run_score_test(fit, compute_slopes(fit), key_of(term)))
     if any("." in key for key in (*case.known, *case.estimate)):
         fit = _apply_case_priors(fit, case)
-    return separated(fit, case.sensor)
+    return separate_levels(fit, case.sensor)
 
 
 def _apply_case_priors(fit: Fit, case: CaseFile) -> Fit:
     """Return the fit with the priors and the known values of the case for parameters of terms."""
-    problem = restarted(fit)
+    problem = restart(fit)
     names = [observation.name for observation in problem.observations]
     frees = []
     for free in problem.free:
         if free.key in case.estimate and "." in free.key:
-            given = frees_for(problem.system.slot(free.key), case.estimate[free.key], names)
+            given = make_case_parameters(problem.system.slot(free.key), case.estimate[free.key], names)
             frees += [replace(one, start=one.coordinate(free.value(free.start))) for one in given]
         elif free.key not in case.known:
             frees.append(free)
@@ -104,7 +111,7 @@ def _apply_case_priors(fit: Fit, case: CaseFile) -> Fit:
 
 def write_warnings(fit: Fit) -> list[str]:
     """Return a warning where the intervals are too narrow although the chain has converged."""
-    if significant_random_force(fit) <= fit.problem.settings.locate.significant:
+    if compute_random_force_gain(fit) <= fit.problem.settings.locate.significant:
         return []
     return [
         "A force remains that this model does not explain. The intervals assume that the model is right: here they are"

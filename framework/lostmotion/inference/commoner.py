@@ -1,21 +1,21 @@
-"""A law that is the sum of two commoner laws is told as these, where its values make that the likelier story."""
+"""A law that equals the sum of two more common laws is replaced by these, where its values make that more probable."""
 
 from __future__ import annotations
 
 from collections.abc import Collection
 
-from lostmotion.inference.candidates import joined
-from lostmotion.inference.fit import Fit, maximise, restarted
-from lostmotion.inference.late import onset
-from lostmotion.inference.natural import term_of
+from lostmotion.inference.candidates import join_term
+from lostmotion.inference.fit import Fit, maximise, restart
+from lostmotion.inference.late import find_onset
+from lostmotion.inference.natural import find_term
 from lostmotion.likelihood.problem import Problem
-from lostmotion.likelihood.system import key_of, since_of
+from lostmotion.likelihood.system import key_of, onset_key
 
 
-def in_commoner_terms(fit: Fit, candidates: Collection[str]) -> Fit:
-    """Return a fit in which commoner terms stand for one that is their sum; the fit itself where none is."""
+def rewrite_in_commoner_terms(fit: Fit, candidates: Collection[str]) -> Fit:
+    """Return a fit in which more common terms replace one that is their sum; the fit itself where there is none."""
     for key in sorted(fit.problem.active):
-        problem = _rewritten(fit, key, candidates)
+        problem = _rewrite_term(fit, key, candidates)
         told = maximise(problem) if problem else fit
         least = fit.log_evidence - fit.problem.settings.select.commoner
         if told is not fit and told.status != "diverged" and told.log_evidence > least:
@@ -23,9 +23,9 @@ def in_commoner_terms(fit: Fit, candidates: Collection[str]) -> Fit:
     return fit
 
 
-def _rewritten(fit: Fit, key: str, candidates: Collection[str]) -> Problem | None:
-    """Return the problem with commoner terms in place of one, begun at the same force; None where it is no sum."""
-    term, slots = term_of(fit.problem, key)
+def _rewrite_term(fit: Fit, key: str, candidates: Collection[str]) -> Problem | None:
+    """Return the problem with more common terms in place of one, at the same force; None where it is no sum."""
+    term, slots = find_term(fit.problem, key)
     values = fit.values
     if not all(slot.key in values for slot in slots):
         return None
@@ -33,8 +33,8 @@ def _rewritten(fit: Fit, key: str, candidates: Collection[str]) -> Problem | Non
     keys = {t.name: key_of(t) for t in fit.problem.system.terms if t.at == term.at and t.name in commoner}
     if not commoner or len(keys) < len(commoner) or not set(keys.values()) <= set(candidates) - fit.problem.active:
         return None
-    since, problem = onset(fit.problem, key), restarted(fit).reduced(key, values)
+    since, problem = find_onset(fit.problem, key), restart(fit).remove_term(key, values)
     for name, own in commoner.items():
         start = {f"{keys[name]}.{param}": value for param, value in own.items()}
-        problem = joined(problem, keys[name], {**start, since_of(keys[name]): since})
+        problem = join_term(problem, keys[name], {**start, onset_key(keys[name]): since})
     return problem

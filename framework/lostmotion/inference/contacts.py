@@ -8,8 +8,8 @@ from lostmotion.inference.fit import Fit
 from lostmotion.results import rounded
 
 
-def short_contacts(fit: Fit) -> list[str]:
-    """Return a note for each contact that is so stiff that a bounce falls between two samples."""
+def list_short_contacts(fit: Fit) -> list[str]:
+    """Return a note for each contact that is so stiff that a bounce is shorter than a sample."""
     problem, notes = fit.problem, []
     for place in problem.system.model.interfaces:
         for i, observation in enumerate(problem.observations):
@@ -18,8 +18,8 @@ def short_contacts(fit: Fit) -> list[str]:
             lasts = np.pi * np.sqrt(problem.system.inertia(full, place) / stiff) if stiff > 0.0 else np.inf
             if lasts < observation.dt:
                 notes.append(
-                    f"{observation.name}: a bounce at the {place.name} lasts {rounded(lasts)} s and samples are"
-                    f" {rounded(observation.dt)} s apart. What happens between them is guessed, so intervals may be too"
+                    f"{observation.name}: a bounce at the {place.name} lasts {lasts:.2g} s and samples are"
+                    f" {observation.dt:.2g} s apart. The motion between them is not measured, so intervals may be too"
                     " narrow and findings wrong:"
                     f" sample at {rounded(2.0 / lasts)} Hz or more."
                 )

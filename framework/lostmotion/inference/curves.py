@@ -1,7 +1,7 @@
-"""Learned curves in a fit: their smoothness by marginal likelihood, their coefficients by the fit, their bands.
+"""Learned curves in a fit: smoothness by marginal likelihood, coefficients by the fit, and their bands.
 
-One score test of all coefficients gives the marginal likelihood of any smoothness in closed form, for the likelihood of
-one-step errors is close to normal in them.
+One score test of all coefficients gives the marginal likelihood of any smoothness in closed form, because the
+likelihood of the innovations is close to normal in the coefficients.
 """
 
 from __future__ import annotations
@@ -14,10 +14,10 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from lostmotion.contracts import Array, Interface, place_of
-from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted, robust_covariance, solved
-from lostmotion.inference.learned import Learned, spread
-from lostmotion.inference.natural import term_of
-from lostmotion.inference.surfaces import RICHER, OverHistory, Surface, curves_for
+from lostmotion.inference.fit import Fit, Sensitivity, compute_robust_covariance, maximise, restart, solve_scaled
+from lostmotion.inference.learned import LearnedCurve, compute_spread
+from lostmotion.inference.natural import find_term
+from lostmotion.inference.surfaces import RICHER, OverHistory, Surface, list_all_curves
 from lostmotion.likelihood.problem import FreeParameter, Problem
 from lostmotion.likelihood.system import System, key_of
 
@@ -26,30 +26,30 @@ SIZES = (0.002, 0.006, 0.02, 0.06, 0.2)
 LENGTHS = (0.06, 0.12, 0.25, 0.5, 1.0)
 """Correlation lengths that are tried, in half widths of the range."""
 CHOICES = math.log(len(SIZES) * len(LENGTHS))
-"""The log price of a smoothness that was chosen."""
+"""The log prior penalty of the choice of a smoothness."""
 ROUNDS = 6
-"""A curve is nearly linear in its coefficients and begins at a score estimate: a few rounds of scoring settle it."""
+"""Rounds of scoring: a curve is nearly linear in its coefficients and begins at a score estimate."""
 EDGE, BEYOND = 0.02, 0.15
-"""How far beyond what was visited a curve goes, over its range: a richer one farther, for a motion leaves a plane, or
-the range of a hidden state, sooner."""
+"""The margin of a curve beyond the visited range, as a share of it: larger for one over two variables or a hidden
+state, because a motion leaves a plane, or the range of a hidden state, sooner."""
 GRID = (41, 31)
-"""Places along both axes at which a surface is told."""
+"""Points along both axes of the grid on which a surface is evaluated."""
 TIMES = (0.3, 1.0, 3.0, 10.0)
-"""Times in which a learned force forgets that are tried, in units of the natural time of the recording."""
+"""Memory times of a learned force that are tried, in units of the natural time of the recording."""
 TOLD = 0.1
-"""The information of the data over that of the prior from which on a coefficient is fitted."""
+"""A coefficient is fitted when the information of the data exceeds this share of that of its prior."""
 COVERED = 1e-2
-"""A direction of which less than this share of its information is left is covered by what is free anyway."""
+"""A direction with less than this share of its information left is explained by the other free parameters."""
 NUDGE = 3e-4
 """Finite-difference step of a coefficient in units of the drive."""
 
 
 @dataclass(frozen=True)
-class Shape:
-    """What a score test says of a curve: the log evidence it promises, its prior widths and where to start (count,).
+class CurveTest:
+    """The score test of a curve: predicted gain in log evidence, prior widths and starting values (count,).
 
-    A coefficient of which the data tell next to nothing beside its prior has width zero: it is left out. `known` are
-    values of the curve that were chosen with it.
+    A coefficient with almost no information in the data has width zero: it is left out. `known` are values of the curve
+    that were chosen with it.
     """
 
     key: str
@@ -59,21 +59,21 @@ class Shape:
     known: Mapping[str, float] = field(default_factory=dict)
 
 
-def transplanted(fit: Fit) -> Fit:
-    """Return a fit in a system that has every curve beside its terms, with the ranges that the motion visited.
+def add_all_curves(fit: Fit) -> Fit:
+    """Return a fit in a system that has every curve in addition to its terms, with the ranges that the motion visited.
 
-    All terms stay, so that one kernel serves whatever is active. A system that has them is left as it is.
+    All terms stay, so one kernel serves any active set. A system that has the curves is returned unchanged.
     """
     problem, old = fit.problem, fit.problem.system
-    if any(isinstance(term, Learned) for term in old.terms):
+    if any(isinstance(term, LearnedCurve) for term in old.terms):
         return fit
     driven = all(observation.harmonic.omega > 0.0 for observation in problem.observations)
-    curves = curves_for(old.model, driven=driven)
+    curves = list_all_curves(old.model, driven=driven)
     system = System(old.model, (*old.terms, *curves))
     known = system.vector({key: problem.known[old.index[key]] for key in system.index if key in old.index})
-    moved = motions_of(fit, [place_of(old.model, curve) for curve in curves])
+    moved = smooth_motions(fit, [place_of(old.model, curve) for curve in curves])
     for curve in curves:
-        for key, value in _ranges(fit, curve, moved).items():
+        for key, value in _find_ranges(fit, curve, moved).items():
             known[system.index[f"{key_of(curve)}.{key}"]] = value
     return replace(fit, problem=replace(problem, system=system, known=known))
 
@@ -82,8 +82,8 @@ Motions = dict[str, list[Array]]
 """Position and velocity (2, samples) in each recording, by the names of places of a model."""
 
 
-def motions_of(fit: Fit, places: Sequence[Interface]) -> Motions:
-    """Return the motion at places of the model as a fit sees it in each recording; each is smoothed once."""
+def smooth_motions(fit: Fit, places: Sequence[Interface]) -> Motions:
+    """Return the filtered motion at places of the model in each recording; each recording is filtered once."""
     problem, distinct = fit.problem, {place.name: place for place in places}
     found: Motions = {name: [] for name in distinct}
     for observation in problem.observations:
@@ -94,23 +94,23 @@ def motions_of(fit: Fit, places: Sequence[Interface]) -> Motions:
     return found
 
 
-def _ranges(fit: Fit, curve: Learned, moved: Motions) -> dict[str, float]:
-    """Return middle and half width of the range of what a curve runs over, of a surface of both things."""
+def _find_ranges(fit: Fit, curve: LearnedCurve, moved: Motions) -> dict[str, float]:
+    """Return middle and half width of the range of a curve's variable, for a surface of both variables."""
     time = fit.problem.scales.time
-    found = _middled(*_range(fit, curve, curve.over, moved, time))
+    found = _centre_range(*_find_range(fit, curve, curve.over, moved, time))
     if isinstance(curve, Surface):
-        found |= {f"{k}2": v for k, v in _middled(*_range(fit, curve, curve.beside, moved, time)).items()}
+        found |= {f"{k}2": v for k, v in _centre_range(*_find_range(fit, curve, curve.beside, moved, time)).items()}
     return found | ({"time": time} if isinstance(curve, OverHistory) else {})
 
 
-def _middled(low: float, high: float) -> dict[str, float]:
+def _centre_range(low: float, high: float) -> dict[str, float]:
     return {"middle": 0.5 * (low + high), "half": 0.5 * (high - low)}
 
 
-def _range(fit: Fit, curve: Learned, over: str, moved: Motions, time: float) -> tuple[float, float]:
-    """Return the least and the greatest value of something that moves, in all recordings, with a narrow margin.
+def _find_range(fit: Fit, curve: LearnedCurve, over: str, moved: Motions, time: float) -> tuple[float, float]:
+    """Return the least and the greatest value of a variable in all recordings, with a narrow margin.
 
-    A hidden state forgets in a `time` (s).
+    `time` (s) is the memory time of a hidden state.
     """
     problem = fit.problem
     if over in ("time", "phase"):
@@ -121,80 +121,80 @@ def _range(fit: Fit, curve: Learned, over: str, moved: Motions, time: float) -> 
         values = [OverHistory.followed(motion[1], observation.dt, time) for motion, observation in steps]
     else:
         values = [motion[int(over == "velocity")] for motion in seen]
-    ends = [_ends(value) for value in values]
+    ends = [_find_ends(value) for value in values]
     low, high = min(e[0] for e in ends), max(e[1] for e in ends)
     margin = (BEYOND if isinstance(curve, RICHER) else EDGE) * (high - low)
     return low - margin, high + margin
 
 
-def _ends(moved: Array) -> tuple[float, float]:
+def _find_ends(moved: Array) -> tuple[float, float]:
     low, high = np.quantile(moved[len(moved) // 50 :], [1e-3, 1.0 - 1e-3])
     return float(low), float(high)
 
 
-def size_of(term: Learned, problem: Problem) -> float:
-    """Return the natural size of the coefficients of a curve: the drive, in the dimension they have."""
+def compute_coefficient_size(term: LearnedCurve, problem: Problem) -> float:
+    """Return the natural size of the coefficients of a curve: the drive, in their dimension."""
     scales = problem.scales
     return term.params[0].dimension.scale(scales.force, scales.length, scales.time)
 
 
-def shape_of(fit: Fit, slopes: Sensitivity, key: str) -> Shape:
-    """Return what a curve promises; one with a memory is asked at each of some `TIMES`, for which it pays."""
-    problem, term = fit.problem, _learned(fit.problem, key)
+def run_curve_test(fit: Fit, slopes: Sensitivity, key: str) -> CurveTest:
+    """Return the score test of a curve; one with a memory is tested at each of `TIMES`, at a price for the choice."""
+    problem, term = fit.problem, _find_curve(fit.problem, key)
     if not isinstance(term, OverHistory):
-        return _smoothest(fit, slopes, key)
-    moved, found = motions_of(fit, [place_of(problem.system.model, term)]), []
+        return _choose_smoothness(fit, slopes, key)
+    moved, found = smooth_motions(fit, [place_of(problem.system.model, term)]), []
     for share in TIMES:
         time = share * problem.scales.time
-        held = {"time": time, **_middled(*_range(fit, term, "history", moved, time))}
+        held = {"time": time, **_centre_range(*_find_range(fit, term, "history", moved, time))}
         known = {f"{key}.{name}": value for name, value in held.items()}
-        best = _smoothest(replace(fit, problem=problem.knowing(known)), slopes, key)
+        best = _choose_smoothness(replace(fit, problem=problem.hold_values(known)), slopes, key)
         found.append(replace(best, gain=best.gain - math.log(len(TIMES)), known=known))
     return max(found, key=lambda shape: shape.gain)
 
 
-def _smoothest(fit: Fit, slopes: Sensitivity, key: str) -> Shape:
-    """Return what a curve promises at its best smoothness, the free parameters of the fit moving along.
+def _choose_smoothness(fit: Fit, slopes: Sensitivity, key: str) -> CurveTest:
+    """Return the score test of a curve at its best smoothness, with the free parameters of the fit adjusted.
 
-    With gradient g and information H of its coefficients, prior widths D: the evidence gains
-    (g'D (I + D H D)^-1 D g - log det(I + D H D)) / 2.
+    With gradient g and information H of its coefficients, prior widths D: the evidence gains (g'D (I + D H D)^-1 D g -
+    log det(I + D H D)) / 2.
     """
     problem = fit.problem
-    term = _learned(problem, key)
-    gradient, information = projected(fit, slopes, key)
+    term = _find_curve(problem, key)
+    gradient, information = project_score(fit, slopes, key)
     options = []
     for size, length in itertools.product(SIZES, LENGTHS):
-        widths = size * size_of(term, problem) * spread(term, length)
+        widths = size * compute_coefficient_size(term, problem) * compute_spread(term, length)
         inner = np.eye(term.count) + information * np.outer(widths, widths)
         pull = np.linalg.solve(inner, widths * gradient)
         gain = 0.5 * float(widths * gradient @ pull) - 0.5 * float(np.linalg.slogdet(inner)[1])
         told = widths**2 * np.diag(information) > TOLD
-        options.append(Shape(key, gain, np.where(told, widths, 0.0), np.where(told, widths * pull, 0.0)))
+        options.append(CurveTest(key, gain, np.where(told, widths, 0.0), np.where(told, widths * pull, 0.0)))
     return max(options, key=lambda s: s.gain)
 
 
-def _learned(problem: Problem, key: str) -> Learned:
-    term, _ = term_of(problem, key)
-    if not isinstance(term, Learned):
+def _find_curve(problem: Problem, key: str) -> LearnedCurve:
+    term, _ = find_term(problem, key)
+    if not isinstance(term, LearnedCurve):
         raise TypeError(f"{key} is no learned curve")
     return term
 
 
-def projected(fit: Fit, slopes: Sensitivity, key: str) -> tuple[Array, Array]:
+def project_score(fit: Fit, slopes: Sensitivity, key: str) -> tuple[Array, Array]:
     """Return gradient (count,) and information (count, count) of the coefficients of a curve at zero.
 
-    What the free parameters of the fit explain as well is taken out.
+    What the free parameters of the fit explain as well is projected out.
     """
-    return projection(fit, joint_of(fit, slopes, key), len(slopes.theta))[:2]
+    return project_from(fit, join_curve(fit, slopes, key), len(slopes.theta))[:2]
 
 
-def joint_of(fit: Fit, slopes: Sensitivity, key: str) -> Sensitivity:
-    """Return the sensitivities of a fit with those of the coefficients of a curve at zero behind them."""
-    problem, term = fit.problem, _learned(fit.problem, key)
-    width = NUDGE * size_of(term, problem)
-    wider = with_curve(problem, key, np.full(term.count, math.inf), np.zeros(term.count))
+def join_curve(fit: Fit, slopes: Sensitivity, key: str) -> Sensitivity:
+    """Return the sensitivities of a fit, followed by those of the coefficients of a curve at zero."""
+    problem, term = fit.problem, _find_curve(fit.problem, key)
+    width = NUDGE * compute_coefficient_size(term, problem)
+    wider = add_curve(problem, key, np.full(term.count, math.inf), np.zeros(term.count))
     zero = np.concatenate([slopes.theta, np.zeros(term.count)])
-    seen = wider.many(np.vstack([zero[None], zero + width * np.eye(len(zero))[len(slopes.theta) :]]))
+    seen = wider.filter_many(np.vstack([zero[None], zero + width * np.eye(len(zero))[len(slopes.theta) :]]))
     above = np.where(seen.finite[1:], np.arange(1, len(seen)), 0)
     de = (seen.errors[above] - seen.errors[0]) / width
     dv = (seen.variances[above] - seen.variances[0]) / width
@@ -203,26 +203,27 @@ def joint_of(fit: Fit, slopes: Sensitivity, key: str) -> Sensitivity:
     )
 
 
-def projection(fit: Fit, joint: Sensitivity, k: int) -> tuple[Array, Array, Array]:
-    """Return gradient, information, and what the first `k` parameters take of the score of each coefficient (k, count).
+def project_from(fit: Fit, joint: Sensitivity, k: int) -> tuple[Array, Array, Array]:
+    """Return gradient, information, and the projection of each score on the first `k` parameters (k, count).
 
-    They are those of `projected`, from the sensitivities of `joint_of`.
+    They are those of `project_score`, from the sensitivities of `join_curve`.
     """
     problem = fit.problem
     gradient, information = joint.gradient(), joint.information()
-    pull = np.array([f.pull for f in problem.free])
+    pull = np.array([f.prior_information for f in problem.free])
     gradient[:k] -= pull * (joint.theta[:k] - np.array([f.mean for f in problem.free]))
-    pulled = solved(information[:k, :k] + np.diag(pull), information[:k, k:])
+    pulled = solve_scaled(information[:k, :k] + np.diag(pull), information[:k, k:])
     own = information[k:, k:]
-    told = _independent_part(gradient[k:] - pulled.T @ gradient[:k], own - information[k:, :k] @ pulled, own)
+    told = _keep_independent(gradient[k:] - pulled.T @ gradient[:k], own - information[k:, :k] @ pulled, own)
     return *told, pulled
 
 
-def _independent_part(gradient: Array, left: Array, own: Array) -> tuple[Array, Array]:
-    """Return gradient and information without the directions that the free parameters of the fit cover already.
+def _keep_independent(gradient: Array, left: Array, own: Array) -> tuple[Array, Array]:
+    """Return gradient and information without the directions that the free parameters of the fit explain already.
 
-    Of the information `own` nothing is `left` there but errors of the differences, by which the rest of a gradient that
-    is not quite zero would be divided: a curve over velocity would then promise what a change of damping does.
+    In those directions nothing is `left` of the information `own` but errors of the differences. Dividing by them would
+    amplify the rest of a gradient that is not quite zero: a curve over velocity would then predict the gain of a change
+    of damping.
     """
     values, vectors = np.linalg.eigh(own)
     root = vectors * np.sqrt(np.maximum(values, 1e-9 * values[-1]))
@@ -233,32 +234,32 @@ def _independent_part(gradient: Array, left: Array, own: Array) -> tuple[Array, 
     return turned @ (kept.T @ np.linalg.solve(root, gradient)), turned * shares[shares > COVERED] @ turned.T
 
 
-def with_curve(problem: Problem, key: str, widths: Array, start: Array) -> Problem:
+def add_curve(problem: Problem, key: str, widths: Array, start: Array) -> Problem:
     """Return a problem with one more curve: coefficients normal about zero with `widths` > 0, begun at `start`."""
-    term = _learned(problem, key)
-    reach = np.where(np.isfinite(widths), 30.0 * widths, 1e3 * size_of(term, problem))
+    term = _find_curve(problem, key)
+    reach = np.where(np.isfinite(widths), 30.0 * widths, 1e3 * compute_coefficient_size(term, problem))
     unit = term.params[0].dimension.unit(problem.system.model.motion)
     rows = [(int(i), *(float(row[i]) for row in (start, reach, widths))) for i in np.flatnonzero(widths > 0.0)]
-    frees = [FreeParameter(f"{key}.v{i}", unit, at, -far, far, sd=wide, straight=True) for i, at, far, wide in rows]
-    return problem.extended(frees, {key})
+    frees = [FreeParameter(f"{key}.v{i}", unit, at, -far, far, sd=wide, linear=True) for i, at, far, wide in rows]
+    return problem.extend(frees, {key})
 
 
-def fit_curve(fit: Fit, shape: Shape) -> Fit:
-    """Return the fit with one more curve, begun where its score test points, or with less of it, and fitted again."""
-    base = restarted(fit).knowing(shape.known)
-    problems = [with_curve(base, shape.key, shape.widths, f * shape.start) for f in (1.0, 0.5, 0.2)]
+def fit_curve(fit: Fit, shape: CurveTest) -> Fit:
+    """Return the fit with one more curve, started at the estimate of its score test or at a share of it."""
+    base = restart(fit).hold_values(shape.known)
+    problems = [add_curve(base, shape.key, shape.widths, f * shape.start) for f in (1.0, 0.5, 0.2)]
     log_densities = [p.log_posterior(p.clip(p.start)) for p in problems]
     return maximise(problems[int(np.argmax(log_densities))], rounds=ROUNDS, tolerance=0.3)
 
 
 @dataclass(frozen=True)
 class Band:
-    """A learned curve at places `at` (points,): mean, and covariance (points, points) of mean; what it is times.
+    """A learned curve at places `at` (points,): mean, and covariance (points, points) of the mean.
 
-    A surface is given on the grid of `at` and `beside`, of which the values (points of both) stand in rows.
+    A surface is given on the grid of `at` and `beside`, with the values (points of both) in rows.
     """
 
-    term: Learned
+    term: LearnedCurve
     at: Array
     mean: Array
     covariance: Array
@@ -270,25 +271,28 @@ class Band:
         return np.sqrt(np.maximum(np.diag(self.covariance), 0.0))
 
 
-def band_of(fit: Fit, key: str, points: int = 161) -> Band:
+def compute_band(fit: Fit, key: str, points: int = 161) -> Band:
     """Return a learned curve over the range of the data, with the robust covariance of its coefficients."""
-    problem, term = fit.problem, _learned(fit.problem, key)
+    problem, term = fit.problem, _find_curve(fit.problem, key)
     places = {name: i for i, name in enumerate(problem.keys)}
     used = [i for i in range(term.count) if f"{key}.v{i}" in places]
     columns = [places[f"{key}.v{i}"] for i in used]
     beside = None
     if isinstance(term, Surface):
-        (z, at), (w, beside) = _axis(problem, key, term.over, GRID[0]), _axis(problem, key, term.beside, GRID[1], "2")
+        (z, at), (w, beside) = (
+            _make_axis(problem, key, term.over, GRID[0]),
+            _make_axis(problem, key, term.beside, GRID[1], "2"),
+        )
         basis = term.grid(z, w).reshape(len(z) * len(w), -1)[:, used]
     else:
-        z, at = _axis(problem, key, term.over, points)
+        z, at = _make_axis(problem, key, term.over, points)
         basis = term.basis(z)[:, used]
-    covariance = robust_covariance(fit)[np.ix_(columns, columns)]
+    covariance = compute_robust_covariance(fit)[np.ix_(columns, columns)]
     return Band(term, at, basis @ fit.theta[columns], basis @ covariance @ basis.T, beside)
 
 
-def _axis(problem: Problem, key: str, over: str, points: int, which: str = "") -> tuple[Array, Array]:
-    """Return places (points,) in half widths (half periods) of a range, and what is there in its unit (periods)."""
+def _make_axis(problem: Problem, key: str, over: str, points: int, which: str = "") -> tuple[Array, Array]:
+    """Return places (points,) in half widths (half periods) of a range, and their values in its unit (periods)."""
     if over == "phase":
         z = np.linspace(0.0, 2.0, points)
         return z, 0.5 * z

@@ -1,4 +1,4 @@
-"""Marginal likelihoods checked by sampling: Laplace's method assumes a normal posterior."""
+"""Marginal likelihoods checked by importance sampling: Laplace's method assumes a normal posterior."""
 
 from __future__ import annotations
 
@@ -12,23 +12,23 @@ from lostmotion.inference.fit import MANY, Fit
 from lostmotion.results.diagnosis import SampledEvidence
 
 HEAVY = 5.0
-"""Degrees of freedom of the t density that is sampled from: its tails must be heavier than those of the posterior."""
+"""Degrees of freedom of the t proposal density: its tails must be heavier than those of the posterior."""
 WIDER = 1.2
 
 
-def checked(fit: Fit, rng: np.random.Generator, draws: int = 150) -> SampledEvidence:
+def sample_evidence(fit: Fit, rng: np.random.Generator, draws: int = 150) -> SampledEvidence:
     """Return the log evidence of a fit by importance sampling about its maximum.
 
-    Geweke, Econometrica 57 (1989) 1317-1339. Coordinates that press against a bound are drawn beyond it as well; such
-    draws have no weight, so the cut is counted. The noise of a filter through kinks counts as well. Beyond `MANY`
-    coordinates the weights would fall on a few draws, and nothing is sampled.
+    Geweke, Econometrica 57 (1989) 1317-1339. Coordinates at a bound are drawn beyond it as well; such draws have weight
+    zero, so the truncation is included. So is the roughness of a filter through kinks. Beyond `MANY` coordinates a few
+    draws would have all the weight, and nothing is sampled.
     """
     if len(fit.theta) > MANY:
         return SampledEvidence(fit.log_evidence, -math.inf, math.inf, 0.0)
     theta, covariance = fit.theta, fit.local.covariance
     sd = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
     shape = covariance / np.outer(sd, sd) * WIDER**2 + 1e-10 * np.eye(len(sd))
-    raw, told = _drawn(shape, draws, rng)
+    raw, told = _draw_t(shape, draws, rng)
     points, log_densities = theta + raw * sd, told - float(np.sum(np.log(sd)))
     weights = fit.problem.log_posteriors(points) - log_densities
     if not np.isfinite(weights).any():
@@ -39,7 +39,7 @@ def checked(fit: Fit, rng: np.random.Generator, draws: int = 150) -> SampledEvid
     return SampledEvidence(fit.log_evidence, total - math.log(draws), error, 1.0 / crowd)
 
 
-def _drawn(shape: Array, draws: int, rng: np.random.Generator) -> tuple[Array, Array]:
+def _draw_t(shape: Array, draws: int, rng: np.random.Generator) -> tuple[Array, Array]:
     """Return draws (draws, n) of a t density about zero, and its logarithm (draws,) there.
 
     SciPy has both, in a module that takes longer to import than this takes to compute.

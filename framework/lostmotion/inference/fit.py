@@ -1,8 +1,8 @@
-"""Fits by Fisher scoring on the innovations, and the evidence they leave.
+"""Fits by Fisher scoring on the innovations, and their evidence by Laplace's method.
 
 The expected information of a prediction-error likelihood needs first derivatives only (Schweppe 1965; Gupta, Mehra,
-IEEE Trans. Automatic Control 19 (1974) 774-783), so it is positive and survives the roughness of a filter through
-a kink, where a finite-difference Hessian does not.
+IEEE Trans. Automatic Control 19 (1974) 774-783), so it is positive and robust against the roughness of a filter through
+a kink, unlike a finite-difference Hessian.
 """
 
 from __future__ import annotations
@@ -19,18 +19,18 @@ BLOCKS = 40
 STRIDE = 0.3
 """Finite-difference step in conditional standard deviations: small against the posterior, large against roughness."""
 MANY = 20
-"""Beyond so many parameters derivatives cost more than all else, and are kept while steps along them gain."""
-COASTING = 8
+"""Beyond this number of parameters derivatives dominate the cost, and are reused while steps along them gain."""
+REUSES = 8
 STEEPEST = 4.0
-"""So many times the expected curvature is believed along a step that gained less than half of what it promised."""
-COARSELY = 3.0
-"""Derivatives are taken anew where the first steps were wrong by more than this factor."""
-LADDER = (1.0, 8.0, 64.0, 512.0)
-"""Steps with so many times the damping are tried at once."""
+"""The largest correction of the expected curvature along a step that gained less than half of the prediction."""
+STEP_FACTOR = 3.0
+"""Derivatives are computed again where the first finite-difference steps were wrong by more than this factor."""
+DAMPINGS = (1.0, 8.0, 64.0, 512.0)
+"""Steps with these multiples of the damping are tried at once."""
 
 
 @dataclass(frozen=True)
-class Local:
+class Expansion:
     """Value, gradient and expected information of the log posterior at a point, with the steps that were used."""
 
     theta: Array
@@ -43,7 +43,7 @@ class Local:
     @property
     def covariance(self) -> Array:
         """The covariance of the normal approximation to the posterior, in coordinates."""
-        return solved(self.information, np.eye(len(self.theta)))
+        return solve_scaled(self.information, np.eye(len(self.theta)))
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ class Fit:
     """The maximum of a posterior: coordinates, local expansion, log evidence by Laplace's method, and a status."""
 
     problem: Problem
-    local: Local
+    local: Expansion
     status: str
     rounds: int
 
@@ -84,10 +84,10 @@ class Fit:
         return dict(zip(self.problem.keys, np.sqrt(np.maximum(np.diag(self.local.covariance), 0.0)), strict=True))
 
 
-def solved(information: Array, right: Array) -> Array:
-    """Return the solution of `information @ x = right`, each coordinate first scaled to unit information.
+def solve_scaled(information: Array, right: Array) -> Array:
+    """Return the solution of `information @ x = right`, with each coordinate scaled to unit information.
 
-    Parameters differ by many powers of ten, and a cut at small eigenvalues would drop the large ones.
+    Parameters differ by many orders of magnitude, and a cut at small eigenvalues would drop some of them.
     """
     unit = 1.0 / np.sqrt(np.maximum(np.diag(information), 1e-300))
     scaled = information * np.outer(unit, unit)
@@ -95,8 +95,8 @@ def solved(information: Array, right: Array) -> Array:
     return np.asarray(tall * np.linalg.lstsq(scaled, tall * right, rcond=1e-12)[0], dtype=float)
 
 
-def first_steps(problem: Problem) -> Array:
-    """Return finite-difference steps to begin with: a thousandth of a logarithm, or of the prior width."""
+def choose_first_steps(problem: Problem) -> Array:
+    """Return the first finite-difference steps: a thousandth of a logarithm, or of the prior width."""
     return np.array(
         [1e-3 if f.log or f.key.startswith("log_") else 1e-3 * min(f.sd, f.high - f.low) for f in problem.free]
     )
@@ -118,7 +118,7 @@ class Sensitivity:
         return np.asarray(self.errors @ (-e / v) + self.variances @ (0.5 * (e * e / v - 1.0) / v))
 
     def scores(self) -> Array:
-        """Return what each sample contributes to the gradient, (parameters, samples)."""
+        """Return the score of each sample: its contribution to the gradient, (parameters, samples)."""
         e, v = self.here.errors, self.here.variances
         return np.asarray(self.errors * (-e / v) + self.variances * (0.5 * (e * e / v - 1.0) / v))
 
@@ -128,33 +128,33 @@ class Sensitivity:
         return np.asarray((self.errors / v) @ self.errors.T + 0.5 * (self.variances / v**2) @ self.variances.T)
 
 
-def stencil(problem: Problem, theta: Array, steps: Array) -> tuple[Array, Array]:
-    """Return coordinates above and below `theta`, (n,) each: equal where one side is enough, or a bound forbids it.
+def make_stencil(problem: Problem, theta: Array, steps: Array) -> tuple[Array, Array]:
+    """Return coordinates above and below `theta`, (n,) each: equal to it where one side is enough or a bound is met.
 
-    Differences are central, but for coordinates in which errors are straight.
+    Differences are central, except for coordinates in which the innovations are linear.
     """
     space = problem.space
-    straight = np.array([f.straight for f in problem.free], dtype=bool)
+    straight = np.array([f.linear for f in problem.free], dtype=bool)
     return np.minimum(theta + steps, space.high), np.where(straight, theta, np.maximum(theta - steps, space.low))
 
 
-def around(theta: Array, up: Array, down: Array) -> Array:
-    """Return the points (count, n) of a stencil: the middle, those above, those below that differ from the middle."""
+def list_stencil_points(theta: Array, up: Array, down: Array) -> Array:
+    """Return the points (count, n) of a stencil: the centre, those above, and those below that differ from it."""
     above = theta + np.diag(up - theta)
     below = theta + np.diag(down - theta)
     return np.vstack([theta[None], above, below[down != theta]])
 
 
-def sensitivity(problem: Problem, theta: Array, steps: Array) -> Sensitivity:
-    """Return innovations and their derivatives at `theta`, by differences that stay within the bounds."""
-    up, down = stencil(problem, theta, steps)
-    return differenced(theta, (up, down), problem.many(around(theta, up, down)), steps)
+def compute_sensitivity(problem: Problem, theta: Array, steps: Array) -> Sensitivity:
+    """Return innovations and their derivatives at `theta`, by differences within the bounds."""
+    up, down = make_stencil(problem, theta, steps)
+    return compute_differences(theta, (up, down), problem.filter_many(list_stencil_points(theta, up, down)), steps)
 
 
-def differenced(theta: Array, ends: tuple[Array, Array], seen: Innovations, steps: Array) -> Sensitivity:
+def compute_differences(theta: Array, ends: tuple[Array, Array], seen: Innovations, steps: Array) -> Sensitivity:
     """Return the derivatives from the innovations `seen` at the points of a stencil.
 
-    Where the filter does not get through on one side, the other has to do.
+    Where the filter diverges on one side, the difference is one-sided.
     """
     (up, down), count = ends, len(theta)
     below = np.zeros(count, dtype=np.intp)
@@ -168,28 +168,30 @@ def differenced(theta: Array, ends: tuple[Array, Array], seen: Innovations, step
     return Sensitivity(theta, seen[0], de, dv, steps)
 
 
-def expand(problem: Problem, theta: Array, steps: Array) -> Local:
+def expand(problem: Problem, theta: Array, steps: Array) -> Expansion:
     """Return the log posterior at `theta` with its gradient and its expected information.
 
-    A uniform prior counts with its variance: where the recording tells nothing of a parameter, its posterior is as wide
-    as its prior, and the evidence by Laplace's method neither gains nor loses by it.
+    A uniform prior contributes the information of its variance: where the recording does not inform a parameter, its
+    posterior is as wide as its prior, and it does not change the evidence by Laplace's method.
     """
-    return _local(problem, sensitivity(problem, theta, steps))
+    return _expand_from(problem, compute_sensitivity(problem, theta, steps))
 
 
-def _local(problem: Problem, slopes: Sensitivity) -> Local:
+def _expand_from(problem: Problem, slopes: Sensitivity) -> Expansion:
     theta = slopes.theta
     with np.errstate(over="ignore", divide="ignore", invalid="ignore"):  # where the filter does not get through
         gradient, information = slopes.gradient(), slopes.information()
     for i, f in enumerate(problem.free):
-        gradient[i] -= f.pull * (theta[i] - f.mean)
-        information[i, i] += f.told
+        gradient[i] -= f.prior_information * (theta[i] - f.mean)
+        information[i, i] += f.evidence_information
     log_likelihood = slopes.here.log_likelihood
-    return Local(theta, log_likelihood, log_likelihood + problem.log_prior(theta), gradient, information, slopes.steps)
+    return Expansion(
+        theta, log_likelihood, log_likelihood + problem.log_prior(theta), gradient, information, slopes.steps
+    )
 
 
-def _tuned(local: Local, problem: Problem) -> Array:
-    """Return steps of `STRIDE` conditional standard deviations, within reason."""
+def _tune_steps(local: Expansion, problem: Problem) -> Array:
+    """Return steps of `STRIDE` conditional standard deviations, within bounds."""
     widths = np.array([min(f.sd, f.high - f.low) for f in problem.free])
     curvature = np.maximum(np.diag(local.information), 1e-300)
     return np.clip(STRIDE / np.sqrt(curvature), 1e-9 * widths, 0.05 * widths)
@@ -205,42 +207,42 @@ def maximise(
 ) -> Fit:
     """Return the maximum of the log posterior near `theta`, by damped Fisher scoring within the bounds.
 
-    It has converged when a full step promises a gain of less than `tolerance` in log posterior, and is abandoned
-    when after a few rounds five times the promise would not reach `hopeless`.
+    It has converged when a full step predicts a gain of less than `tolerance` in log posterior. It is abandoned when
+    after a few rounds five times the predicted gain would not reach `hopeless`.
     """
     point = problem.clip(problem.start if theta is None else theta)
-    local = expand(problem, point, first_steps(problem))
+    local = expand(problem, point, choose_first_steps(problem))
     if not math.isfinite(local.log_posterior):
         return Fit(problem, local, "diverged", 0)
     if len(point) > MANY:
-        return _coasted(problem, local, rounds, tolerance)
-    steps = _tuned(local, problem)
-    if np.any((steps > COARSELY * local.steps) | (local.steps > COARSELY * steps)):
+        return _maximise_many(problem, local, rounds, tolerance)
+    steps = _tune_steps(local, problem)
+    if np.any((steps > STEP_FACTOR * local.steps) | (local.steps > STEP_FACTOR * steps)):
         local = expand(problem, point, steps)
     damping, curved = 1e-3, local
     for turn in range(rounds):
-        promise = _step(problem, curved, damping)[1]
+        promise = _compute_step(problem, curved, damping)[1]
         if promise < tolerance:
             return Fit(problem, local, "converged", turn)
         if turn >= 3 and local.log_posterior + 5.0 * promise < hopeless:
             return Fit(problem, local, "abandoned", turn)
-        better = _climbed(problem, curved, damping)
+        better = _climb(problem, curved, damping)
         if better is not None:
             good = better.log_posterior - local.log_posterior > 0.5 * promise
             damping = max(damping * (0.2 if good else 1.0), 1e-6)
-            local, curved = better, better if good else _curved(better, local)
+            local, curved = better, better if good else _correct_curvature(better, local)
         else:
-            damping *= LADDER[-1] * 8.0
+            damping *= DAMPINGS[-1] * 8.0
             if damping > 1e6:
                 return Fit(problem, local, "rough", turn)
     return Fit(problem, local, "not converged", rounds)
 
 
-def _curved(local: Local, before: Local) -> Local:
-    """Return the expansion with the curvature that was met along the last step, where the expected one is too small.
+def _correct_curvature(local: Expansion, before: Expansion) -> Expansion:
+    """Return the expansion with the curvature found along the last step, where the expected one is too small.
 
-    Where something is left over, the expected information of the noise levels is too small: steps overshoot by nearly
-    their own length, again and again.
+    Where the model does not explain the data, the expected information of the noise levels is too small: steps
+    overshoot repeatedly by nearly their own length.
     """
     step = local.theta - before.theta
     pulled = local.information @ step
@@ -249,16 +251,16 @@ def _curved(local: Local, before: Local) -> Local:
     return replace(local, information=local.information + more / max(expected, 1e-300) * np.outer(pulled, pulled))
 
 
-def _climbed(problem: Problem, local: Local, damping: float) -> Local | None:
-    """Return the expansion at the best of several steps, the more damped the shorter, or None where none gains.
+def _climb(problem: Problem, local: Expansion, damping: float) -> Expansion | None:
+    """Return the expansion at the best of several steps with different damping, or None where none gains.
 
-    They are computed together with the stencil of the longest step, which is the one to be taken as a rule.
+    They are computed together with the stencil of the longest step, which is usually accepted.
     """
-    trials = [problem.clip(local.theta + _step(problem, local, factor * damping)[0]) for factor in LADDER]
-    steps = _tuned(local, problem)
-    ends = stencil(problem, trials[0], steps)
-    points = around(trials[0], *ends)
-    seen = problem.many(np.vstack([points, *(t[None] for t in trials[1:])]))
+    trials = [problem.clip(local.theta + _compute_step(problem, local, factor * damping)[0]) for factor in DAMPINGS]
+    steps = _tune_steps(local, problem)
+    ends = make_stencil(problem, trials[0], steps)
+    points = list_stencil_points(trials[0], *ends)
+    seen = problem.filter_many(np.vstack([points, *(t[None] for t in trials[1:])]))
     log_densities = [
         seen[k].log_likelihood + problem.log_prior(t)
         for k, t in zip((0, *range(len(points), len(seen))), trials, strict=True)
@@ -267,32 +269,32 @@ def _climbed(problem: Problem, local: Local, damping: float) -> Local | None:
     if not log_densities[best] > local.log_posterior:
         return None
     if best == 0:
-        return _local(problem, differenced(trials[0], ends, seen[: len(points)], steps))
+        return _expand_from(problem, compute_differences(trials[0], ends, seen[: len(points)], steps))
     return expand(problem, trials[best], steps)
 
 
-def _coasted(problem: Problem, local: Local, rounds: int, tolerance: float) -> Fit:
+def _maximise_many(problem: Problem, local: Expansion, rounds: int, tolerance: float) -> Fit:
     """Return the maximum near a point in many coordinates: several steps with each set of derivatives."""
     for turn in range(rounds):
-        slopes = sensitivity(problem, local.theta, _tuned(local, problem))
-        local = _local(problem, slopes)
-        if _step(problem, local, 1e-3)[1] < tolerance:
+        slopes = compute_sensitivity(problem, local.theta, _tune_steps(local, problem))
+        local = _expand_from(problem, slopes)
+        if _compute_step(problem, local, 1e-3)[1] < tolerance:
             return Fit(problem, local, "converged", turn)
-        point = _coast(problem, slopes, local)
+        point = _reuse_derivatives(problem, slopes, local)
         if np.array_equal(point, local.theta):
             return Fit(problem, local, "rough", turn)
         local = replace(local, theta=point)
     return Fit(problem, expand(problem, local.theta, local.steps), "not converged", rounds)
 
 
-def _coast(problem: Problem, slopes: Sensitivity, local: Local) -> Array:
-    """Return where steps along derivatives that are held lead, as long as they gain; one filter run for each."""
+def _reuse_derivatives(problem: Problem, slopes: Sensitivity, local: Expansion) -> Array:
+    """Return the end of steps with the same derivatives, as long as they gain; one filter run for each."""
     damping = 1e-3
-    for _ in range(COASTING):
-        step, promise = _step(problem, local, damping)
+    for _ in range(REUSES):
+        step, promise = _compute_step(problem, local, damping)
         trial = problem.clip(local.theta + step)
         held = replace(slopes, theta=trial, here=problem.innovations(trial))
-        there = _local(problem, held)
+        there = _expand_from(problem, held)
         gain = there.log_posterior - local.log_posterior
         if gain > 0.0:
             local = there
@@ -303,8 +305,8 @@ def _coast(problem: Problem, slopes: Sensitivity, local: Local) -> Array:
     return local.theta
 
 
-def _step(problem: Problem, local: Local, damping: float) -> tuple[Array, float]:
-    """Return the damped step and the gain it promises; coordinates that press against a bound stay there."""
+def _compute_step(problem: Problem, local: Expansion, damping: float) -> tuple[Array, float]:
+    """Return the damped step and its predicted gain; coordinates at a bound with an outward gradient stay there."""
     low, high = problem.space.low, problem.space.high
     pressed = ((local.theta <= low) & (local.gradient < 0)) | ((local.theta >= high) & (local.gradient > 0))
     loose = np.flatnonzero(~pressed)
@@ -312,24 +314,24 @@ def _step(problem: Problem, local: Local, damping: float) -> tuple[Array, float]
     if not len(loose):
         return step, 0.0
     info = local.information[np.ix_(loose, loose)]
-    step[loose] = solved(info + damping * np.diag(np.diag(info)), local.gradient[loose])
+    step[loose] = solve_scaled(info + damping * np.diag(np.diag(info)), local.gradient[loose])
     limit = np.array([2.0 if f.log or f.key.startswith("log_") else math.inf for f in problem.free])
     step = np.clip(step, -limit, limit)
     clipped = problem.clip(local.theta + step) - local.theta
     return clipped, 0.5 * float(local.gradient @ clipped)
 
 
-def alone(fit: Fit) -> Fit:
-    """Return the fit with its problem on one core, for work that is spread over the cores already."""
+def use_one_core(fit: Fit) -> Fit:
+    """Return the fit with its problem on one core, for work that is divided over the cores already."""
     return replace(fit, problem=replace(fit.problem, jobs=1))
 
 
-def together(fit: Fit, jobs: int) -> Fit:
-    """Return the fit with its problem on so many cores."""
+def use_cores(fit: Fit, jobs: int) -> Fit:
+    """Return the fit with its problem on this number of cores."""
     return replace(fit, problem=replace(fit.problem, jobs=jobs))
 
 
-def restarted(fit: Fit) -> Problem:
+def restart(fit: Fit) -> Problem:
     """Return the problem of a fit with its maximum as the starting point."""
     problem = fit.problem
     return replace(
@@ -337,13 +339,13 @@ def restarted(fit: Fit) -> Problem:
     )
 
 
-def robust_covariance(fit: Fit) -> Array:
-    """Return the covariance of the estimate that holds when something is left over that the model does not explain.
+def compute_robust_covariance(fit: Fit) -> Array:
+    """Return the covariance of the estimate that is valid where the model leaves correlated residuals.
 
-    The sandwich of Huber (1967) and White, Econometrica 50 (1982) 1-25, with scores added up over contiguous blocks,
-    so that leftovers with a memory count for as little as they should. Never smaller than the usual covariance.
+    The sandwich of Huber (1967) and White, Econometrica 50 (1982) 1-25, with scores summed over contiguous blocks, so
+    that correlated residuals reduce the information. Never smaller than the usual covariance.
     """
-    scores = sensitivity(fit.problem, fit.theta, fit.local.steps).scores()
+    scores = compute_sensitivity(fit.problem, fit.theta, fit.local.steps).scores()
     edges = np.linspace(0, scores.shape[1], BLOCKS + 1).astype(int)[:-1]
     sums = np.add.reduceat(scores, edges, axis=1)
     sums -= sums.mean(axis=1, keepdims=True)
@@ -353,8 +355,8 @@ def robust_covariance(fit: Fit) -> Array:
     return np.asarray(usual * np.outer(factor, factor))
 
 
-def warmed(problem: Problem, theta: Array, by: float) -> Array:
-    """Return the coordinates with the random force raised, so that a fit begins where the posterior is smooth."""
+def raise_random_force(problem: Problem, theta: Array, by: float) -> Array:
+    """Return the coordinates with a larger random force, where the posterior is smoother."""
     warm = theta.copy()
     warm[[f.parameter == RANDOM for f in problem.free]] += by
     return problem.clip(warm)

@@ -1,4 +1,4 @@
-"""Since when a term acts: how a recording tells it at first sight, and how it is estimated."""
+"""The onset of a term: its first estimate from score tests, its fit, and its interval."""
 
 from __future__ import annotations
 
@@ -8,55 +8,54 @@ from collections.abc import Iterator
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted
-from lostmotion.inference.natural import term_of
-from lostmotion.inference.standing import standing
+from lostmotion.inference.fit import Fit, Sensitivity, maximise, restart
+from lostmotion.inference.natural import find_term
+from lostmotion.inference.significance import measure_significance
 from lostmotion.likelihood.problem import FreeParameter, Problem
-from lostmotion.likelihood.system import ALWAYS, since_of
+from lostmotion.likelihood.system import ALWAYS, onset_key
 from lostmotion.quantities import TIME
 from lostmotion.results import Interval
 
 TIMES = 24
-"""So many onsets are tried, evenly over a recording."""
-FIRST, LAST = 0.04, 0.9
-"""Shares of a recording between which an onset is told: before, a term was there from the beginning."""
+"""The number of onsets that are tried, evenly over a recording."""
 AROUND, GRID, DEPTH = 0.1, 96, 12.0
-"""An interval of an onset is sought over this share of a recording to either side, at so many places at once, and among
-those whose log-likelihood is this much lower at the most."""
+"""The interval of an onset is sought over this share of a recording to either side, on this many grid points, where the
+log-likelihood is at most this much lower."""
 PRICE = math.log(TIMES)
-"""The log price of an onset that was chosen."""
+"""The log prior penalty of the choice of an onset."""
 
 
-def can_be_late(problem: Problem, key: str) -> bool:
+def can_have_onset(problem: Problem, key: str) -> bool:
     """Return whether an onset of a term can be estimated: from one recording.
 
     A term whose own parameters say when it acts (a change at a time, a warming up) has no second time beside that.
     """
-    if len(problem.observations) > 1 or since_of(key) not in problem.system.index:
+    if len(problem.observations) > 1 or onset_key(key) not in problem.system.index:
         return False
-    term, _ = term_of(problem, key)
+    term, _ = find_term(problem, key)
     return not any(param.lasting and param.dimension == TIME for param in term.params)
 
 
-def onset(problem: Problem, key: str) -> float:
-    """Return since when (s) a term acts by what is known, `ALWAYS` if from the beginning."""
+def find_onset(problem: Problem, key: str) -> float:
+    """Return the time (s) from which a term acts in a problem, `ALWAYS` if from the beginning."""
     return problem.system.onset(problem.known, key)
 
 
-def times_of(problem: Problem) -> Array:
+def list_onsets(problem: Problem) -> Array:
     """Return the onsets (TIMES,) that are tried, in s."""
-    observation = problem.observations[0]
+    observation, limits = problem.observations[0], problem.settings.select
     duration = observation.samples * observation.dt
-    return np.asarray(observation.time[0] + duration * np.linspace(FIRST, LAST, TIMES), dtype=float)
+    shares = np.linspace(limits.onset_first, limits.onset_last, TIMES)
+    return np.asarray(observation.time[0] + duration * shares, dtype=float)
 
 
-def cut(problem: Problem, joint: Sensitivity, k: int) -> Iterator[tuple[float, Array, Array]]:
+def cut_at_onsets(problem: Problem, joint: Sensitivity, k: int) -> Iterator[tuple[float, Array, Array]]:
     """Yield each onset (s) with gradient and information where the last `k` coordinates act from it on alone.
 
-    What came before is forgotten by a filter within a few cycles, so that the sensitivity behind an onset is that of a
-    term which was always there: sums over its part of the samples.
+    A filter forgets earlier samples within a few cycles. So the sensitivity after an onset is that of a term that acts
+    from the beginning, summed over the samples after it.
     """
-    observation, times = problem.observations[0], times_of(problem)
+    observation, times = problem.observations[0], list_onsets(problem)
     width = len(observation.sensors)
     edges = np.searchsorted(observation.time, times) * width
     gradient, information, scores = joint.gradient(), joint.information(), joint.scores()[-k:]
@@ -70,50 +69,50 @@ def cut(problem: Problem, joint: Sensitivity, k: int) -> Iterator[tuple[float, A
         yield time, g, h
 
 
-def at_any_time(problem: Problem, key: str, start: float) -> FreeParameter:
+def make_onset_parameter(problem: Problem, key: str, start: float) -> FreeParameter:
     """Return the onset of a term as a free parameter, uniform over the recording."""
     observation = problem.observations[0]
     begin = float(observation.time[0])
-    return FreeParameter(since_of(key), "s", start, begin, begin + observation.samples * observation.dt)
+    return FreeParameter(onset_key(key), "s", start, begin, begin + observation.samples * observation.dt)
 
 
-def refined(fit: Fit, key: str) -> Fit:
-    """Return the fit with the onset of a term held where the likelihood is highest nearby; as it is without one."""
-    if not onset(fit.problem, key) > ALWAYS:
+def refine_onset(fit: Fit, key: str) -> Fit:
+    """Return the fit with the onset of a term held at the nearest maximum; unchanged for a term without one."""
+    if not find_onset(fit.problem, key) > ALWAYS:
         return fit
-    wider = restarted(fit).extended((at_any_time(fit.problem, key, onset(fit.problem, key)),), ())
-    found = maximise(wider, np.append(fit.theta, onset(fit.problem, key)))
-    held = restarted(fit).knowing({since_of(key): float(found.theta[-1])})
+    wider = restart(fit).extend((make_onset_parameter(fit.problem, key, find_onset(fit.problem, key)),), ())
+    found = maximise(wider, np.append(fit.theta, find_onset(fit.problem, key)))
+    held = restart(fit).hold_values({onset_key(key): float(found.theta[-1])})
     late = maximise(held, found.theta[:-1])
     return late if late.local.log_posterior > fit.local.log_posterior else fit
 
 
-def believed(fit: Fit) -> Fit:
-    """Return a fit in which only those onsets are left that are believed; all other terms act from the beginning.
+def drop_weak_onsets(fit: Fit) -> Fit:
+    """Return a fit with only those onsets that the evidence supports; all other terms act from the beginning.
 
-    Few machines change while they are recorded; and where what is left over has a memory, a change wins more than
-    independent samples would let it, by the square of how much wider errors are than usual.
+    Few machines change during a recording. Where residuals are correlated, an onset gains more evidence than with
+    independent samples, by the square of the ratio of robust to usual standard deviations.
     """
     for key in sorted(fit.problem.active):
-        if onset(fit.problem, key) > ALWAYS and fit.status != "diverged":
-            ever = maximise(restarted(fit).knowing({since_of(key): ALWAYS}), fit.theta)
-            needed = (PRICE + fit.problem.settings.select.onset) * standing(fit)[1] ** 2
+        if find_onset(fit.problem, key) > ALWAYS and fit.status != "diverged":
+            ever = maximise(restart(fit).hold_values({onset_key(key): ALWAYS}), fit.theta)
+            needed = (PRICE + fit.problem.settings.select.onset) * measure_significance(fit)[1] ** 2
             if ever.status != "diverged" and not fit.log_evidence - ever.log_evidence > needed:
                 fit = ever
     return fit
 
 
-def since(fit: Fit, key: str) -> Interval | None:
-    """Return median and central 95 % interval of the onset of a term, all else as it is; None where it has none.
+def estimate_onset(fit: Fit, key: str) -> Interval | None:
+    """Return median and central 95 % interval of the onset of a term, other parameters held; None where it has none.
 
     A likelihood over onsets has kinks, and is flat where the term does nothing, so it is summed over a grid: first over
-    a part of the recording about the onset, then over where it is high.
+    a part of the recording about the onset, then over the region of high likelihood.
     """
-    problem, at = fit.problem, onset(fit.problem, key)
+    problem, at = fit.problem, find_onset(fit.problem, key)
     if not at > ALWAYS:
         return None
-    free = at_any_time(problem, key, at)
-    wider, reach = problem.extended((free,), ()), AROUND * (free.high - free.low)
+    free = make_onset_parameter(problem, key, at)
+    wider, reach = problem.extend((free,), ()), AROUND * (free.high - free.low)
     low, high = max(at - reach, free.low), min(at + reach, free.high)
     grid, heights = np.zeros(0), np.zeros(0)
     for _ in range(2):
@@ -128,6 +127,6 @@ def since(fit: Fit, key: str) -> Interval | None:
     return Interval(median, low, high, "s")
 
 
-def price_of_onsets(problem: Problem) -> float:
-    """Return the log price of the onsets of the terms at work."""
-    return PRICE * sum(onset(problem, key) > ALWAYS for key in problem.active)
+def compute_onset_price(problem: Problem) -> float:
+    """Return the log prior penalty of the onsets of the active terms."""
+    return PRICE * sum(find_onset(problem, key) > ALWAYS for key in problem.active)

@@ -1,8 +1,8 @@
-"""Curves that are learned where no term of the library explains what is missing: smooth functions that act as terms.
+"""Learned curves: smooth functions that act as terms where no term of the library explains the missing force.
 
-A curve is a sum of sines over an interval wider than what was visited; their coefficients are normal, with the spectrum
-of a Matern process: a Gaussian process of reduced rank (Solin, Särkkä, Statistics and Computing 30 (2020) 419-446).
-So it is smooth, its band widens where data are few, and how rough it is can be chosen by marginal likelihood.
+A curve is a sum of sines over an interval wider than the visited range; their coefficients are normal, with the
+spectrum of a Matern process: a Gaussian process of reduced rank (Solin, Särkkä, Statistics and Computing 30 (2020)
+419-446). So it is smooth, its band widens where data are few, and its roughness is chosen by marginal likelihood.
 """
 
 from __future__ import annotations
@@ -22,20 +22,21 @@ WIDER = 1.25
 FINE, COARSE = 40, 16
 HARMONICS = 8
 CELLS = 128
-"""Cells of the table of a coarse curve, twice as many of a fine one: cubics are off by less than 1e-3 of a function."""
+"""Cells of the table of a coarse curve, twice as many for a fine one: the error of the cubics is less than 1e-3 of a
+function."""
 POSITION, VELOCITY, TIME_PASSED, PHASE = range(4)
 ONE, AGAINST_MOTION, DRAG = range(3)
 
 
-def params_of(count: int, dimension: Dimension, over: Dimension) -> tuple[Param, ...]:
-    """Return the parameters of a curve: its coefficients, then the middle and the half width of what was visited."""
+def make_params(count: int, dimension: Dimension, over: Dimension) -> tuple[Param, ...]:
+    """Return the parameters of a curve: its coefficients, then the middle and the half width of the visited range."""
     weights = tuple(Param(f"v{i}", "coefficient of a learned curve", dimension, null=0.0) for i in range(count))
     middle = Param("middle", "middle of the range of a learned curve", over)
     return (*weights, middle, Param("half", "half width of the range", over, low=0.0, scale="log"))
 
 
-def looked_up(p: Values, z: float, cells: int) -> float:
-    """Return a curve at `z`, in cells from its begin: a cubic from node to node of the table behind `p[2]`."""
+def look_up(p: Values, z: float, cells: int) -> float:
+    """Return a curve at `z`, in cells from its begin: a cubic between the nodes of the table after `p[2]`."""
     z = min(z, cells) if z > 0.0 else 0.0
     cell = min(int(z), cells - 1)
     z -= cell
@@ -44,18 +45,18 @@ def looked_up(p: Values, z: float, cells: int) -> float:
     return low + z * (first + z * (high - low - first - bent + z * bent))
 
 
-def spread_of(waves: Array, length: float) -> Array:
-    """Return the standard deviation of each coefficient of functions with these `waves` (rad per half width)."""
+def compute_spectrum(waves: Array, length: float) -> Array:
+    """Return the prior standard deviation of each coefficient of functions with these `waves` (rad per half width)."""
     power = (5.0 / length**2 + waves**2) ** -3.0
     return np.asarray(np.sqrt(2.0 * power / power.sum()))
 
 
 @dataclass(frozen=True)
-class Learned(Term):
-    """A force that is learned as a curve: a sum of `count` sines of what it runs over.
+class LearnedCurve(Term):
+    """A force that is learned as a curve: a sum of `count` sines of one variable.
 
-    `depends` names the covariates on which the force depends, `times` what the curve is multiplied with. The kernel
-    reads the curve from a table of so many `cells`, over the `source`, and multiplies it with the `factor`.
+    `depends` names the covariates of the force, `times` the factor of the curve. The kernel reads the curve from a
+    table of so many `cells`, over the variable `source`, and multiplies it by the `factor`.
     """
 
     at: str = "ground"
@@ -75,7 +76,7 @@ class Learned(Term):
 
         `length` is the correlation length in half widths of the range, of a Matern process of order 5/2.
         """
-        return spread_of(cls.waves(), length)
+        return compute_spectrum(cls.waves(), length)
 
     @classmethod
     def waves(cls) -> Array:
@@ -93,7 +94,7 @@ class Learned(Term):
         return np.asarray(cls.waves() * np.cos(np.outer(z + WIDER, cls.waves())), dtype=float)
 
     def prepared(self, p: Array) -> Array:
-        """Return begin and cells per unit of the table, what the law needs, then value and slope at each node."""
+        """Return begin and cells per unit of the table, the need of the law, then value and slope at each node."""
         middle, half = p[:, self.count], p[:, self.count + 1]
         need = p[:, self.count + 2] if p.shape[1] > self.count + 2 else np.zeros(len(p))
         begin, per = middle - half, 0.5 * self.cells / half
@@ -107,7 +108,7 @@ class Learned(Term):
         return np.column_stack([begin, per, need, nodes.reshape(len(p), -1)])
 
     def force(self, t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:  # type: ignore[override]
-        """Return the curve, by a cubic from node to node of its table, times its factor."""
+        """Return the curve, by a cubic between the nodes of its table, times its factor."""
         seen = t
         if self.source == POSITION:
             seen = x
@@ -116,7 +117,7 @@ class Learned(Term):
         z = (seen - p[0]) * p[1]
         if self.source == PHASE:
             z -= self.cells * math.floor(z / self.cells)
-        size = looked_up(p, z, self.cells)
+        size = look_up(p, z, self.cells)
         if self.factor == DRAG:
             return -size * v
         if self.factor == AGAINST_MOTION:
@@ -128,7 +129,7 @@ class Learned(Term):
 
 
 @dataclass(frozen=True)
-class OverPosition(Learned):
+class OverPosition(LearnedCurve):
     """A force that depends on the position."""
 
     cells: int = 2 * CELLS
@@ -137,11 +138,11 @@ class OverPosition(Learned):
     count: ClassVar[int] = FINE
     over: ClassVar[str] = "position"
     depends: ClassVar[tuple[str, ...]] = ("position",)
-    params = params_of(FINE, FORCE, LENGTH)
+    params = make_params(FINE, FORCE, LENGTH)
 
 
 @dataclass(frozen=True)
-class OverVelocity(Learned):
+class OverVelocity(LearnedCurve):
     """A force that depends on the velocity."""
 
     source: int = VELOCITY
@@ -149,11 +150,11 @@ class OverVelocity(Learned):
     formula: ClassVar[str] = "f(v)"
     over: ClassVar[str] = "velocity"
     depends: ClassVar[tuple[str, ...]] = ("velocity",)
-    params = params_of(COARSE, FORCE, SPEED)
+    params = make_params(COARSE, FORCE, SPEED)
 
 
 @dataclass(frozen=True)
-class FrictionOverPosition(Learned):
+class FrictionOverPosition(LearnedCurve):
     """Friction of a size that depends on the position; it sticks as `coulomb_friction` does."""
 
     factor: int = AGAINST_MOTION
@@ -162,12 +163,12 @@ class FrictionOverPosition(Learned):
     over: ClassVar[str] = "position"
     depends: ClassVar[tuple[str, ...]] = ("position", "sign of velocity")
     times: ClassVar[str] = "-sign(v)"
-    params = params_of(COARSE, FORCE, LENGTH)
+    params = make_params(COARSE, FORCE, LENGTH)
     needs = ("mobility",)
 
 
 @dataclass(frozen=True)
-class DragOverPosition(Learned):
+class DragOverPosition(LearnedCurve):
     """A viscous drag of which the coefficient depends on the position."""
 
     factor: int = DRAG
@@ -176,24 +177,24 @@ class DragOverPosition(Learned):
     over: ClassVar[str] = "position"
     depends: ClassVar[tuple[str, ...]] = ("position", "velocity")
     times: ClassVar[str] = "-v"
-    params = params_of(COARSE, DAMPING, LENGTH)
+    params = make_params(COARSE, DAMPING, LENGTH)
 
 
 @dataclass(frozen=True)
-class OverTime(Learned):
-    """A force that changes slowly in the course of a recording; after its end it stays what it is there."""
+class OverTime(LearnedCurve):
+    """A force that changes slowly during a recording; after its end it keeps its last value."""
 
     source: int = TIME_PASSED
     name: ClassVar[str] = "unknown_over_time"
     formula: ClassVar[str] = "f(t)"
     over: ClassVar[str] = "time"
     depends: ClassVar[tuple[str, ...]] = ("time",)
-    params = params_of(COARSE, FORCE, TIME)
+    params = make_params(COARSE, FORCE, TIME)
 
 
 @dataclass(frozen=True)
-class OverPhase(Learned):
-    """A force that repeats with each period of the drive; `middle` and `half` have no part in it."""
+class OverPhase(LearnedCurve):
+    """A force that repeats with each period of the drive; `middle` and `half` are not used."""
 
     source: int = PHASE
     name: ClassVar[str] = "unknown_over_phase"
@@ -201,7 +202,7 @@ class OverPhase(Learned):
     count: ClassVar[int] = 2 * HARMONICS
     over: ClassVar[str] = "phase"
     depends: ClassVar[tuple[str, ...]] = ("phase",)
-    params = params_of(2 * HARMONICS, FORCE, TIME)
+    params = make_params(2 * HARMONICS, FORCE, TIME)
     needs = ("omega",)
 
     @classmethod
@@ -212,29 +213,29 @@ class OverPhase(Learned):
     @classmethod
     def basis(cls, z: Array) -> Array:
         """Return the functions (points, count) at places `z` (points,), in half periods from the start."""
-        return np.asarray(np.sin(np.outer(z, cls.waves()) + _turned(cls.count)), dtype=float)
+        return np.asarray(np.sin(np.outer(z, cls.waves()) + _make_phases(cls.count)), dtype=float)
 
     @classmethod
     def slopes(cls, z: Array) -> Array:
         """Return the derivatives (points, count) of the functions."""
-        return np.asarray(cls.waves() * np.cos(np.outer(z, cls.waves()) + _turned(cls.count)), dtype=float)
+        return np.asarray(cls.waves() * np.cos(np.outer(z, cls.waves()) + _make_phases(cls.count)), dtype=float)
 
 
-def _turned(count: int) -> Array:
-    """Return phases (count,) that make every other sine a cosine."""
+def _make_phases(count: int) -> Array:
+    """Return phases (count,) that turn every other sine into a cosine."""
     return np.asarray(np.tile([0.5 * math.pi, 0.0], count // 2), dtype=float)
 
 
-def spread(term: Learned | type[Learned], length: float) -> Array:
+def compute_spread(term: LearnedCurve | type[LearnedCurve], length: float) -> Array:
     """Return the prior standard deviation (count,) of each coefficient of a curve, for a force of unit deviation."""
     return term.spread(length)
 
 
-def names_of(terms: Sequence[Learned]) -> list[str]:
+def list_covariates(terms: Sequence[LearnedCurve]) -> list[str]:
     """Return the covariates on which the sum of some curves depends, each once."""
-    return list(dict.fromkeys(_placed(name, term) for term in terms for name in term.depends))
+    return list(dict.fromkeys(_name_at_place(name, term) for term in terms for name in term.depends))
 
 
-def _placed(name: str, term: Learned) -> str:
+def _name_at_place(name: str, term: LearnedCurve) -> str:
     moving = name not in ("time", "phase") and term.at != "ground"
     return f"{name} at {term.at}" if moving else name

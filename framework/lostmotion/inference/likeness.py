@@ -1,7 +1,7 @@
-"""What a learned force looks like: laws of the library, at any shape, that come close to it along the recorded motion.
+"""Similar laws: laws of the library, at any shape, that approximate a learned force along the recorded motion.
 
-It is a proposal in words. The likelihood has refused these laws: at the shapes it tried, or since a smooth force
-explains as much.
+It is a proposal in words. The likelihood has rejected these laws, at the shapes that were tried, or because a smooth
+force explains as much.
 """
 
 from __future__ import annotations
@@ -12,79 +12,81 @@ from dataclasses import dataclass
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.inference.learned import Learned
-from lostmotion.inference.natural import sorted_slots, term_of, tried_of
-from lostmotion.inference.shape_scan import MOST_SAMPLES, SmoothedMotion, shapes_of
+from lostmotion.inference.learned import LearnedCurve
+from lostmotion.inference.natural import find_term, list_tried_values, sort_slots
+from lostmotion.inference.shape_scan import MOST_SAMPLES, SmoothedMotion, list_shapes
 from lostmotion.likelihood.problem import Problem
 
 MOST_SHAPES = 40
 KEPT = 6
-"""So many laws that come closest alone are tried two by two."""
+"""The number of best single laws that are tried in pairs."""
 
 
 @dataclass(frozen=True)
 class Likeness:
-    """Laws of the library by key that come close to a learned force together, and their share of its variance."""
+    """Laws of the library by key that together approximate a learned force, and their share of its variance."""
 
     keys: tuple[str, ...]
     share: float
 
 
-def likeness(problem: Problem, theta: Array, states: Array, force: Array) -> Likeness | None:
-    """Return the law, or the sum of two, that a learned force (samples,) along `states` (samples, n) looks like.
+def find_likeness(problem: Problem, theta: Array, states: Array, force: Array) -> Likeness | None:
+    """Return the law, or the pair of laws, that approximates a learned force (samples,) along `states` (samples, n).
 
-    None where nothing comes close. The problem is of the one recording along which the force is given.
+    None where there is none. The problem is of the one recording along which the force is given.
     """
     kept = slice(0, MOST_SAMPLES)
     whole = problem.observations[0]
     short = problem.on((whole.part(0, min(whole.samples, MOST_SAMPLES)),))
     moved = np.ascontiguousarray(states[kept, : len(problem.system.model.states)])
-    track, aim = SmoothedMotion(short, theta, moved, np.zeros(0)), force[kept] - np.mean(force[kept])
+    motion, aim = SmoothedMotion(short, theta, moved, np.zeros(0)), force[kept] - np.mean(force[kept])
     if not float(aim @ aim) > 0.0:
         return None
-    alone = {key: _closest(track, key, aim) for key in _static(short)}
+    alone = {key: _find_closest(motion, key, aim) for key in _list_static(short)}
     ranked = sorted(alone, key=lambda key: -alone[key][0])[:KEPT]
     if not ranked:
         return None
     if alone[ranked[0]][0] > problem.settings.unknown.alike:
         return Likeness((ranked[0],), alone[ranked[0]][0])
-    pairs = {(a, b): _share(np.hstack([alone[a][1], alone[b][1]]), aim) for a, b in itertools.combinations(ranked, 2)}
+    pairs = {
+        (a, b): _compute_share(np.hstack([alone[a][1], alone[b][1]]), aim) for a, b in itertools.combinations(ranked, 2)
+    }
     best = max(pairs, key=lambda pair: pairs[pair], default=None)
     return Likeness(best, pairs[best]) if best and pairs[best] > problem.settings.unknown.alike_two else None
 
 
-def _static(problem: Problem) -> list[str]:
+def _list_static(problem: Problem) -> list[str]:
     """Return the keys of the forces of the library without states, which are functions of the motion alone."""
     found = []
     for key in problem.system.keys:
-        term = term_of(problem, key)[0]
+        term = find_term(problem, key)[0]
         if (
             term.acts == "motion"
             and not term.states
-            and not isinstance(term, Learned)
+            and not isinstance(term, LearnedCurve)
             and "acceleration" not in term.needs
         ):
             found.append(key)
     return found
 
 
-def _closest(track: SmoothedMotion, key: str, aim: Array) -> tuple[float, Array]:
-    """Return the largest share of a force that a law has at any shape, and its columns (samples, amplitudes) there."""
+def _find_closest(motion: SmoothedMotion, key: str, aim: Array) -> tuple[float, Array]:
+    """Return the largest share of a force that a law explains at any shape, and its columns (samples, amplitudes)."""
     best, columns = 0.0, np.zeros((len(aim), 0))
-    problem = track.problem
-    shapes = sorted_slots(problem, key)[1]
-    usual = {s.key: float(tried_of(s.param, problem.scales)[0]) for s in shapes}
-    tried = shapes_of(problem, key) or [usual]
+    problem = motion.problem
+    shapes = sort_slots(problem, key)[1]
+    usual = {s.key: float(list_tried_values(s.param, problem.scales)[0]) for s in shapes}
+    tried = list_shapes(problem, key) or [usual]
     for shape in tried[:: max(1, len(tried) // MOST_SHAPES)]:
-        law = track.columns(key, shape)
-        share = _share(law, aim) if np.all(np.isfinite(law)) else 0.0
+        law = motion.compute_columns(key, shape)
+        share = _compute_share(law, aim) if np.all(np.isfinite(law)) else 0.0
         if share > best:
             best, columns = share, law
     return best, columns
 
 
-def _share(columns: Array, aim: Array) -> float:
-    """Return the share of the variance of a force that columns have, means apart."""
+def _compute_share(columns: Array, aim: Array) -> float:
+    """Return the share of the variance of a force that columns explain, after subtraction of the means."""
     centred = columns - columns.mean(axis=0)
     size = np.sqrt(np.sum(centred**2, axis=0))
     centred = centred[:, size > 0.0] / size[size > 0.0]

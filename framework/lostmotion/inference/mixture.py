@@ -1,8 +1,8 @@
-"""Draws from a posterior whose one awkward direction, the level of the random force, is integrated on a grid.
+"""Draws from a posterior with the level of the random force integrated on a grid.
 
-At the maximum the random force often lies at its lower bound, where a normal approximation is too narrow for
-everything else: more random force means a shorter memory and wider intervals. Conditional on it the posterior is
-close to normal, so a mixture over a grid of it is good (Rue, Martino, Chopin, J. R. Statist. Soc. B 71 (2009) 319-392).
+At the maximum the random force is often at its lower bound, where a normal approximation is too narrow for all other
+parameters: more random force means a shorter memory and wider intervals. Conditional on it the posterior is close to
+normal, so a mixture over a grid of it is accurate (Rue, Martino, Chopin, J. R. Statist. Soc. B 71 (2009) 319-392).
 """
 
 from __future__ import annotations
@@ -13,38 +13,37 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.inference.fit import Fit, Local, maximise, robust_covariance
+from lostmotion.inference.fit import Expansion, Fit, compute_robust_covariance, maximise
 from lostmotion.likelihood.problem import RANDOM
 
 STRIDE = 0.8
 MOST = 7
 FAINT = 5.0
-"""Nodes are this far apart in log intensity, at most so many to each side, as long as their log weight is within this
-of the best."""
+"""Spacing of the nodes in log intensity, greatest number to each side, and range of log weights below the best."""
 MANY = 24
-"""With more free parameters, as learned curves bring, a grid takes minutes: draws are then from the maximum alone."""
+"""With more free parameters, as with learned curves, a grid takes minutes: draws are then from the maximum alone."""
 
 
 @dataclass(frozen=True)
 class MixtureNode:
     """The posterior at one level of the random force: its expansion there and its log weight."""
 
-    local: Local
+    local: Expansion
     weight: float
 
 
-def draws(fit: Fit, rng: np.random.Generator, count: int) -> Array:
+def draw_posterior(fit: Fit, rng: np.random.Generator, count: int) -> Array:
     """Return draws (count, free parameters) of the coordinates from the posterior about a fit.
 
-    Spreads are those of the robust covariance where that is wider, so that leftovers with a memory widen them.
-    Where each recording has a random force of its own, all are drawn from the normal approximation at the maximum.
+    Standard deviations are those of the robust covariance where that is wider, because of correlated residuals. Where
+    each recording has a random force of its own, all are drawn from the normal approximation at the maximum.
     """
-    nodes = nodes_of(fit)
+    nodes = compute_nodes(fit)
     weights = np.exp([n.weight - max(m.weight for m in nodes) for n in nodes])
     which = rng.choice(len(nodes), size=count, p=weights / weights.sum())
-    wider = np.sqrt(np.diag(robust_covariance(fit)) / np.maximum(np.diag(fit.local.covariance), 1e-300))
+    wider = np.sqrt(np.diag(compute_robust_covariance(fit)) / np.maximum(np.diag(fit.local.covariance), 1e-300))
     noise = rng.standard_normal((count, len(fit.theta)))
-    roots = [root_of(node.local) for node in nodes]
+    roots = [compute_root(node.local) for node in nodes]
     theta = np.array([nodes[k].local.theta + wider * (roots[k] @ z) for k, z in zip(which, noise, strict=True)])
     if len(nodes) > 1:
         at = fit.problem.keys.index(RANDOM)
@@ -52,21 +51,21 @@ def draws(fit: Fit, rng: np.random.Generator, count: int) -> Array:
     return fit.problem.clip(theta)
 
 
-def root_of(local: Local) -> Array:
-    """Return a square root of the covariance of an expansion, each coordinate scaled to unit spread first."""
+def compute_root(local: Expansion) -> Array:
+    """Return a square root of the covariance of an expansion, with each coordinate scaled to unit deviation first."""
     covariance = local.covariance
     sd = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
     values, vectors = np.linalg.eigh(covariance / np.outer(sd, sd))
     return np.asarray(sd[:, None] * vectors * np.sqrt(np.maximum(values, 0.0)))
 
 
-def nodes_of(fit: Fit) -> list[MixtureNode]:
+def compute_nodes(fit: Fit) -> list[MixtureNode]:
     """Return the nodes from the maximum outwards, each started from its neighbour."""
     if RANDOM not in fit.problem.keys or len(fit.theta) > MANY:
         return [MixtureNode(fit.local, 0.0)]
     at = fit.problem.keys.index(RANDOM)
     free = fit.problem.free[at]
-    centre = _node(fit, fit.theta, at)
+    centre = _compute_node(fit, fit.theta, at)
     nodes = [centre]
     for direction in (1.0, -1.0):
         near = centre
@@ -75,7 +74,7 @@ def nodes_of(fit: Fit) -> list[MixtureNode]:
             theta[at] += direction * STRIDE
             if not free.low <= theta[at] <= free.high:
                 break
-            near = _node(fit, theta, at)
+            near = _compute_node(fit, theta, at)
             if not near.weight > max(n.weight for n in nodes) - FAINT:
                 break
             nodes.append(near)
@@ -83,8 +82,8 @@ def nodes_of(fit: Fit) -> list[MixtureNode]:
     return heavy or [MixtureNode(fit.local, 0.0)]
 
 
-def _node(fit: Fit, theta: Array, at: int) -> MixtureNode:
-    """Return the node at the random force of `theta`, all else at its best there."""
+def _compute_node(fit: Fit, theta: Array, at: int) -> MixtureNode:
+    """Return the node at the random force of `theta`, with all other parameters at their conditional maximum."""
     frees = list(fit.problem.free)
     frees[at] = replace(frees[at], start=theta[at], low=theta[at], high=theta[at])
     local = maximise(replace(fit.problem, free=tuple(frees)), theta, rounds=4, tolerance=0.1).local

@@ -1,4 +1,4 @@
-"""Which maxima of a posterior are one hill, and which are modes of their own."""
+"""Modes of a posterior: which of its maxima belong together, and which are separate."""
 
 from __future__ import annotations
 
@@ -11,48 +11,44 @@ import numpy as np
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit
 
-NEAR = 3.0
-"""Maxima that are closer than this many standard deviations in each coordinate are one."""
-DIP = 3.0
-"""Between two modes the log posterior falls by more than this: two normal hills five deviations apart leave 3.1."""
 LOOKS = 9
 NEIGHBOURS = 4
 
 
-def one_hill(a: Fit, b: Fit) -> bool:
-    """Return whether two maxima belong to one hill: close by, or no dip on the straight line between them.
+def is_same_mode(a: Fit, b: Fit) -> bool:
+    """Return whether two maxima belong to one mode: close by, or without a dip on the straight line between them.
 
-    A filter through a kink leaves a posterior rough, so that fits stop at several places of one hill; a dip that
-    roughness makes is shallower than one between modes.
+    A filter through a kink leaves a posterior rough, so fits stop at several places of one mode; a dip from roughness
+    is shallower than one between modes.
     """
-    width = np.maximum(_sd(a), _sd(b))
-    if np.all(np.abs(a.theta - b.theta) < NEAR * width):
+    width, limits = np.maximum(_list_sd(a), _list_sd(b)), a.problem.settings.mode
+    if np.all(np.abs(a.theta - b.theta) < limits.near * width):
         return True
     problem = max(a.problem, b.problem, key=lambda p: p.nsub)
     along = np.linspace(0.0, 1.0, LOOKS)[:, None]
     log_densities = problem.log_posteriors(problem.clip(a.theta + along * (b.theta - a.theta)))
-    return bool(np.min(log_densities[1:-1]) > min(log_densities[0], log_densities[-1]) - DIP)
+    return bool(np.min(log_densities[1:-1]) > min(log_densities[0], log_densities[-1]) - limits.dip)
 
 
-def _sd(fit: Fit) -> Array:
+def _list_sd(fit: Fit) -> Array:
     return np.array(list(fit.sd.values()))
 
 
-def distinct(fits: Iterable[Fit], within: float) -> list[Fit]:
-    """Return one fit of each hill, best first by log posterior, down to `within` below the best."""
+def select_modes(fits: Iterable[Fit], within: float) -> list[Fit]:
+    """Return one fit of each mode, best first by log posterior, down to `within` below the best."""
     ranked = sorted((f for f in fits if math.isfinite(f.local.log_posterior)), key=lambda f: -f.local.log_posterior)
     kept: list[Fit] = []
     for fit in ranked:
         if fit.local.log_posterior < ranked[0].local.log_posterior - within:
             break
-        if not any(one_hill(fit, other) for other in kept):
+        if not any(is_same_mode(fit, other) for other in kept):
             kept.append(fit)
     return kept
 
 
 @dataclass(frozen=True)
-class Tried:
-    """Starting points: their places `unit` (points, parameters) in the unit cube, coordinates, and scores (points,)."""
+class StartingPoints:
+    """Starting points: places `unit` (points, parameters) in the unit cube, coordinates, and scores (points,)."""
 
     unit: Array
     starts: Array
@@ -63,9 +59,9 @@ class Tried:
         return [int(i) for i in np.argsort(self.scores)[::-1][:count]]
 
     def peaks(self, count: int) -> list[int]:
-        """Return up to `count` points, those first that are better than their nearest neighbours.
+        """Return up to `count` points, first those that are better than their nearest neighbours.
 
-        The best points alone would often lie all on the widest hill.
+        The best points alone would often be all in the widest mode.
         """
         apart = np.abs(self.unit[:, None] - self.unit[None]).max(axis=2)
         near = np.argsort(apart, axis=1)[:, 1 : NEIGHBOURS + 1]

@@ -14,26 +14,26 @@ from lostmotion.likelihood.system import Slot
 from lostmotion.quantities import FORCE, LENGTH, SPEED, Dimension, quantity_of
 
 SCANNED = 8
-"""So many values of a parameter with a scan are tried by score tests, evenly over the logarithm of its range."""
+"""The number of values of a parameter with a scan that score tests try, evenly over the logarithm of its range."""
 REACH = 4.0
-"""A shape without a scan may be anything up to this logarithm from its typical value."""
+"""The bounds of a shape without a scan, as a logarithm from its typical value."""
 SHAPES = (0.3, 1.0, 3.0)
-"""Where a shape parameter is tried, in units of its typical value."""
+"""The values of a shape parameter that are tried, in units of its typical value."""
 
 
-def size_of(param: Param, scales: Scales) -> float:
+def compute_size(param: Param, scales: Scales) -> float:
     """Return the typical size of a term's parameter in the natural scales of the recording."""
     time = scales.span if param.lasting else scales.time
     return param.typical * param.dimension.scale(scales.force, scales.length, time)
 
 
-def frees_of(slots: list[Slot], scales: Scales, start: Mapping[str, float]) -> tuple[FreeParameter, ...]:
-    """Return the free parameters of a term: amplitudes normal about zero (half-normal if signed), shapes log-normal."""
+def make_free_parameters(slots: list[Slot], scales: Scales, start: Mapping[str, float]) -> tuple[FreeParameter, ...]:
+    """Return the free parameters of a term: amplitudes normal about zero (half-normal if bounded), shapes lognormal."""
     open_ = [slot for slot in slots if not slot.param.choices]
-    return tuple(_free(slot, size_of(slot.param, scales), start.get(slot.key)) for slot in open_)
+    return tuple(_make_free(slot, compute_size(slot.param, scales), start.get(slot.key)) for slot in open_)
 
 
-def _free(slot: Slot, size: float, start: float | None) -> FreeParameter:
+def _make_free(slot: Slot, size: float, start: float | None) -> FreeParameter:
     if slot.param.scale == "log":
         middle = math.log(size)
         low, high = (math.log(end) for end in slot.param.scan or (math.exp(-REACH), math.exp(REACH)))
@@ -43,18 +43,18 @@ def _free(slot: Slot, size: float, start: float | None) -> FreeParameter:
     return FreeParameter(slot.key, slot.unit, start or 0.0, low, min(slot.param.high, 30.0 * size), mean=0.0, sd=size)
 
 
-def term_of(problem: Problem, key: str) -> tuple[Term, list[Slot]]:
+def find_term(problem: Problem, key: str) -> tuple[Term, list[Slot]]:
     """Return a term of the problem's system and the slots of its parameters."""
     i = problem.system.keys.index(key)
     term, slots = problem.system.terms[i], [s for s in problem.system.slots if s.term == i]
-    return term, slots if term.acts == "motion" else [_shown(problem, term, slot) for slot in slots]
+    return term, slots if term.acts == "motion" else [_convert_dimension(problem, term, slot) for slot in slots]
 
 
 SHOWN = {"position": LENGTH, "velocity": SPEED, "acceleration": Dimension(0, 1, -2), "force": FORCE}
 
 
-def _shown(problem: Problem, term: Term, slot: Slot) -> Slot:
-    """Return a parameter of a sensor or a drive: a length stands for what the sensor shows, a force for the input."""
+def _convert_dimension(problem: Problem, term: Term, slot: Slot) -> Slot:
+    """Return a parameter of a sensor or drive term: a length stands for the channel, a force for the input."""
     first = problem.observations[0]
     if term.acts == "sensor":
         stands, name = LENGTH, next((s.channel for s in first.sensors if s.place == term.at), "position")
@@ -68,21 +68,21 @@ def _shown(problem: Problem, term: Term, slot: Slot) -> Slot:
     return replace(slot, param=replace(slot.param, dimension=dimension), unit=unit)
 
 
-def sorted_slots(problem: Problem, key: str) -> tuple[list[Slot], list[Slot]]:
+def sort_slots(problem: Problem, key: str) -> tuple[list[Slot], list[Slot]]:
     """Return the slots of the amplitudes of a term, and those of its shapes."""
-    _, slots = term_of(problem, key)
+    _, slots = find_term(problem, key)
     return [s for s in slots if s.param.null is not None], [s for s in slots if s.param.null is None]
 
 
-def star(grids: Sequence[Sequence[float]]) -> list[tuple[float, ...]]:
+def list_star_points(grids: Sequence[Sequence[float]]) -> list[tuple[float, ...]]:
     """Return the points at which shapes are tried: each over its grid while the others stay in the middle of theirs."""
     middle = tuple(grid[len(grid) // 2] for grid in grids)
     points = [(*middle[:i], value, *middle[i + 1 :]) for i, grid in enumerate(grids) for value in grid]
     return list(dict.fromkeys(points)) or [()]
 
 
-def tried_of(param: Param, scales: Scales) -> tuple[float, ...]:
+def list_tried_values(param: Param, scales: Scales) -> tuple[float, ...]:
     """Return the values at which a shape parameter is tried."""
     if param.scan:
-        return tuple((size_of(param, scales) * np.geomspace(*param.scan, SCANNED)).tolist())
-    return param.choices or tuple(f * size_of(param, scales) for f in SHAPES)
+        return tuple((compute_size(param, scales) * np.geomspace(*param.scan, SCANNED)).tolist())
+    return param.choices or tuple(f * compute_size(param, scales) for f in SHAPES)

@@ -20,12 +20,12 @@ import numpy as np
 from scipy.linalg.lapack import dpotrf, dtrtrs
 
 from lostmotion.contracts import Array, Interface, place_of
-from lostmotion.inference.candidates import slopes_of
-from lostmotion.inference.curves import Motions, motions_of, size_of, transplanted, with_curve
-from lostmotion.inference.fit import BLOCKS, Fit, Sensitivity, maximise, restarted, solved
-from lostmotion.inference.gauges import Change, Gauge, gauges_of
-from lostmotion.inference.learned import Learned, OverPhase, OverPosition, OverTime, OverVelocity, spread
-from lostmotion.inference.natural import term_of
+from lostmotion.inference.candidates import compute_slopes
+from lostmotion.inference.channel_errors import Change, ChannelError, list_channel_errors
+from lostmotion.inference.curves import Motions, add_all_curves, add_curve, compute_coefficient_size, smooth_motions
+from lostmotion.inference.fit import BLOCKS, Fit, Sensitivity, maximise, restart, solve_scaled
+from lostmotion.inference.learned import LearnedCurve, OverPhase, OverPosition, OverTime, OverVelocity, compute_spread
+from lostmotion.inference.natural import find_term
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import FreeParameter, Problem
 from lostmotion.likelihood.system import key_of
@@ -41,13 +41,13 @@ NUDGE, STEP = 3e-4, 1e-3
 """Finite-difference steps of a coefficient in units of the drive, and of the logarithm of a known value."""
 SHARES = (1.0, 0.5, 0.2, 0.0)
 """Fits with smooth forces begin with these shares of what was promised."""
-SETTLED, RIGHTING, ALONE = 3, 8, 20
+ROUNDS_SMOOTH, ROUNDS_CORRECTED, ROUNDS_KNOWN = 3, 8, 20
 """Rounds of such a fit, which begins at what slopes promise; of one with channels put right; and of one with known
 values alone: these cost less."""
-USUAL = 3.0
+MOST_CORRECTION = 3.0
 """Flaws of channels are put right as far as they are usual: up to so many of their widths."""
 SWEEPS = 3
-PRICE = math.log(len(SIZES) * len(LENGTHS))
+PENALTY = math.log(len(SIZES) * len(LENGTHS))
 """The log price of the size and the length of a smooth force that were chosen."""
 
 
@@ -74,7 +74,7 @@ class Discrepancy:
 
 
 @dataclass(frozen=True)
-class Expansion:
+class DiscrepancyExpansion:
     """The log posterior of a fit about its maximum, in its own coordinates (first) and those of the discrepancy.
 
     `gradient` (n,) and `information` (n, n) hold the priors of the fit's own coordinates, `own` counts these. `widths`
@@ -88,31 +88,31 @@ class Expansion:
     information: Array
     own: int
     groups: tuple[CoefficientGroup, ...]
-    gauges: tuple[Gauge, ...]
+    channel_errors: tuple[ChannelError, ...]
     widths: Array
-    worse: float
-    _known: dict[tuple[object, ...], Discrepancy] = field(default_factory=dict, init=False, repr=False, compare=False)
+    inflation: float
+    _cache: dict[tuple[object, ...], Discrepancy] = field(default_factory=dict, init=False, repr=False, compare=False)
 
-    def gain(self, dropped: Sequence[int] = (), worse: float = 0.0) -> float:
+    def predict_gain(self, dropped: Sequence[int] = (), inflation: float = 0.0) -> float:
         """Return the log evidence that the discrepancy adds to the fit; see `best`."""
-        return self.best(dropped, worse or self.worse).gain
+        return self.find_best_without(dropped, inflation or self.inflation).gain
 
-    def coordinates_of(self, terms: Collection[str]) -> list[int]:
+    def list_coordinates(self, terms: Collection[str]) -> list[int]:
         """Return the indices of the own coordinates that belong to some terms."""
         return [i for i, key in enumerate(self.fit.problem.keys) if key.rpartition(".")[0] in terms]
 
-    def promise(self, worse: float = 0.0) -> Discrepancy:
+    def find_best(self, inflation: float = 0.0) -> Discrepancy:
         """Return the best discrepancy, looked for from none and from what stands in for all terms of the fit."""
-        worse = worse or self.worse
-        alone = self.best((), worse)
-        terms = self.coordinates_of(self.fit.problem.active)
+        inflation = inflation or self.inflation
+        alone = self.find_best_without((), inflation)
+        terms = self.list_coordinates(self.fit.problem.active)
         if not terms:
             return alone
-        beside = self.best((), worse, self.best(terms, worse).chosen)
+        beside = self.find_best_without((), inflation, self.find_best_without(terms, inflation).chosen)
         return max(alone, beside, key=lambda found: found.gain)
 
-    def best(
-        self, dropped: Sequence[int] = (), worse: float = 1.0, begin: Sequence[tuple[str, int]] = ()
+    def find_best_without(
+        self, dropped: Sequence[int] = (), inflation: float = 1.0, begin: Sequence[tuple[str, int]] = ()
     ) -> Discrepancy:
         """Return the discrepancy of the best smoothness, where likelihoods count by one over `worse`.
 
@@ -120,57 +120,59 @@ class Expansion:
         term, as far as one-step errors are straight in it. The drop of the log posterior is counted. The search begins
         at the options `begin`, of which each smooth force has none if nothing is said.
         """
-        asked = (*dropped, worse, *begin)
-        if asked not in self._known:
-            self._known[asked] = self._best(dropped, worse, [option for _, option in begin] or [-1] * len(self.groups))
-        return self._known[asked]
+        asked = (*dropped, inflation, *begin)
+        if asked not in self._cache:
+            self._cache[asked] = self._optimise(
+                dropped, inflation, [option for _, option in begin] or [-1] * len(self.groups)
+            )
+        return self._cache[asked]
 
-    def bare(self, worse: float) -> float:
+    def compute_fixed_gain(self, inflation: float) -> float:
         """Return the log evidence that known values and channels add alone, which are always free a little."""
-        h, g, _ = self._about((), worse)
-        return evidence_of(h, g, self.widths)
+        h, g, _ = self._project((), inflation)
+        return compute_log_evidence(h, g, self.widths)
 
-    def gauge_information(self) -> Array:
+    def compute_channel_information(self) -> Array:
         """Return the information (gauges, gauges) on the flaws of channels, own coordinates moving along."""
-        first = len(self.widths) - len(self.gauges)
-        return np.asarray(self._about((), 1.0)[0][first:, first:])
+        first = len(self.widths) - len(self.channel_errors)
+        return np.asarray(self._project((), 1.0)[0][first:, first:])
 
-    def moved_by(self, sizes: Array) -> Array:
+    def shift_coordinates(self, sizes: Array) -> Array:
         """Return the own coordinates (own,) where channels have flaws of these `sizes` (gauges,), by slopes."""
-        cross = self.information[: self.own, len(self.gradient) - len(self.gauges) :]
-        return np.asarray(self.fit.theta - solved(self.information[: self.own, : self.own], cross @ sizes))
+        cross = self.information[: self.own, len(self.gradient) - len(self.channel_errors) :]
+        return np.asarray(self.fit.theta - solve_scaled(self.information[: self.own, : self.own], cross @ sizes))
 
-    def _best(self, dropped: Sequence[int], worse: float, begin: list[int]) -> Discrepancy:
-        h, g, more = self._about(dropped, worse)
-        found = self._smoothest(h, g, begin)
+    def _optimise(self, dropped: Sequence[int], inflation: float, begin: list[int]) -> Discrepancy:
+        h, g, more = self._project(dropped, inflation)
+        found = self._optimise_widths(h, g, begin)
         return replace(found, gain=found.gain + more)
 
-    def _about(self, dropped: Sequence[int], worse: float) -> tuple[Array, Array, float]:
+    def _project(self, dropped: Sequence[int], inflation: float) -> tuple[Array, Array, float]:
         """Return information and gradient of the discrepancy, own coordinates moving along, and what these win."""
         kept = np.setdiff1d(np.arange(self.own), np.asarray(dropped, dtype=int))
         more = np.arange(self.own, len(self.gradient))
-        gradient, lost = self._without(dropped)
+        gradient, lost = self._shift_to_zero(dropped)
         cross = self.information[np.ix_(kept, more)]
-        pulled = solved(self.information[np.ix_(kept, kept)], np.column_stack([cross, gradient[kept]]))
+        pulled = solve_scaled(self.information[np.ix_(kept, kept)], np.column_stack([cross, gradient[kept]]))
         information = self.information[np.ix_(more, more)] - cross.T @ pulled[:, :-1]
         force = gradient[more] - cross.T @ pulled[:, -1]
         moved = 0.5 * float(gradient[kept] @ pulled[:, -1]) if len(dropped) else 0.0
-        return 0.5 * (information + information.T) / worse, force / worse, (moved - lost) / worse
+        return 0.5 * (information + information.T) / inflation, force / inflation, (moved - lost) / inflation
 
-    def _without(self, dropped: Sequence[int]) -> tuple[Array, float]:
+    def _shift_to_zero(self, dropped: Sequence[int]) -> tuple[Array, float]:
         """Return the gradient where some own coordinates are zero, and what the log posterior loses on the way."""
         away = np.zeros(len(self.gradient))
         away[list(dropped)] = -self.fit.theta[list(dropped)]
         pulled = self.information @ away
         return self.gradient - pulled, 0.5 * float(away @ pulled) - float(self.gradient @ away)
 
-    def _smoothest(self, h: Array, g: Array, chosen: list[int]) -> Discrepancy:
+    def _optimise_widths(self, h: Array, g: Array, chosen: list[int]) -> Discrepancy:
         """Return the best discrepancy: each smooth force in turn gets the width that pays most, or none."""
         widths = self.widths.copy()
         for group, option in zip(self.groups, chosen, strict=True):
             if option >= 0:
                 widths[group.columns] = group.options[option]
-        best = evidence_of(h, g, widths) - PRICE * sum(option >= 0 for option in chosen)
+        best = compute_log_evidence(h, g, widths) - PENALTY * sum(option >= 0 for option in chosen)
         for _ in range(SWEEPS):
             before = best
             for k, group in enumerate(self.groups):
@@ -179,7 +181,7 @@ class Expansion:
                 for option, wide in itertools.chain([(-1, none)], enumerate(group.options)):
                     trial = widths.copy()
                     trial[group.columns] = wide
-                    value = evidence_of(h, g, trial) - PRICE * (rest + (option >= 0))
+                    value = compute_log_evidence(h, g, trial) - PENALTY * (rest + (option >= 0))
                     if value > best:
                         best, chosen[k], widths = value, option, trial
             if best <= before:
@@ -189,7 +191,7 @@ class Expansion:
         return Discrepancy(best, told, widths, mean)
 
 
-def evidence_of(h: Array, g: Array, widths: Array) -> float:
+def compute_log_evidence(h: Array, g: Array, widths: Array) -> float:
     """Return the log evidence that normal coefficients add, of information `h` (n, n) and gradient `g` (n,) at zero.
 
     With D the prior `widths` (n,): (g'D (I + D h D)^-1 D g - log det(I + D h D)) / 2; zero widths are left out.
@@ -207,42 +209,51 @@ def evidence_of(h: Array, g: Array, widths: Array) -> float:
     return 0.5 * float(pulled @ pulled) - float(np.sum(np.log(np.diag(lower))))
 
 
-def expanded(fit: Fit) -> Expansion:
+def expand_fit(fit: Fit) -> DiscrepancyExpansion:
     """Return the expansion of a fit with its discrepancy."""
-    slopes, problem, own = slopes_of(fit), transplanted(fit).problem, len(fit.theta)
-    known = _known(problem)
+    slopes, problem, own = compute_slopes(fit), add_all_curves(fit).problem, len(fit.theta)
+    known = _free_known_values(problem)
     curves = [(key_of(t), t) for t in problem.system.terms if isinstance(t, SMOOTH)]
     curves = [(key, term) for key, term in curves if key not in problem.active]
     frees, steps = list(known), [STEP] * len(known)
     groups = []
     for key, term in curves:
-        size, count = size_of(term, problem), min(term.count, MOST_WAVES)
-        options = tuple(s * size * spread(term, length)[:count] for s in SIZES for length in LENGTHS)
+        size, count = compute_coefficient_size(term, problem), min(term.count, MOST_WAVES)
+        options = tuple(s * size * compute_spread(term, length)[:count] for s in SIZES for length in LENGTHS)
         groups.append(CoefficientGroup(key, slice(len(frees), len(frees) + count), options))
-        frees += [FreeParameter(f"{key}.v{i}", "", 0.0, -1e3 * size, 1e3 * size, straight=True) for i in range(count)]
+        frees += [FreeParameter(f"{key}.v{i}", "", 0.0, -1e3 * size, 1e3 * size, linear=True) for i in range(count)]
         steps += [NUDGE * size] * count
-    errors, variances = _rows(problem.extended(frees, {key for key, _ in curves}), slopes, np.array(steps))
-    _centre(replace(fit, problem=problem), dict(curves), groups, (errors, variances))
-    gauges = gauges_of(fit)
+    errors, variances = _compute_derivatives(problem.extend(frees, {key for key, _ in curves}), slopes, np.array(steps))
+    _remove_constants(replace(fit, problem=problem), dict(curves), groups, (errors, variances))
+    channel_errors = list_channel_errors(fit)
     joint = Sensitivity(
         slopes.theta,
         slopes.here,
-        np.vstack([slopes.errors, errors, *(g.errors for g in gauges)]),
-        np.vstack([slopes.variances, variances, *(g.variances for g in gauges)]),
+        np.vstack([slopes.errors, errors, *(g.errors for g in channel_errors)]),
+        np.vstack([slopes.variances, variances, *(g.variances for g in channel_errors)]),
         slopes.steps,
     )
     gradient, information = joint.gradient(), joint.information()
-    gradient[own + len(frees) :] += [g.stretch for g in gauges]
+    gradient[own + len(frees) :] += [g.log_jacobian for g in channel_errors]
     gradient[:own] = 0.0  # it is a maximum; what is left is noise of the differences, and grows where nothing is told
-    information[np.arange(own), np.arange(own)] += [f.told for f in fit.problem.free]
+    information[np.arange(own), np.arange(own)] += [f.evidence_information for f in fit.problem.free]
     exact = [problem.settings.rival.known] * len(known)
-    widths = np.array([*exact, *[0.0] * (len(frees) - len(known)), *(g.width for g in gauges)])
-    return Expansion(
-        fit, gradient, information, own, tuple(groups), tuple(gauges), widths, _memory(joint, own, information)
+    widths = np.array([*exact, *[0.0] * (len(frees) - len(known)), *(g.width for g in channel_errors)])
+    return DiscrepancyExpansion(
+        fit,
+        gradient,
+        information,
+        own,
+        tuple(groups),
+        tuple(channel_errors),
+        widths,
+        _compute_inflation(joint, own, information),
     )
 
 
-def _centre(fit: Fit, terms: dict[str, Learned], groups: Sequence[CoefficientGroup], rows: tuple[Array, Array]) -> None:
+def _remove_constants(
+    fit: Fit, terms: dict[str, LearnedCurve], groups: Sequence[CoefficientGroup], rows: tuple[Array, Array]
+) -> None:
     """Take the constant force out of the derivatives `rows` (coefficients, readings) of smooth forces, in place.
 
     A constant force has a name: smooth forces are those without a mean along the motion. What a constant does is read
@@ -257,20 +268,22 @@ def _centre(fit: Fit, terms: dict[str, Learned], groups: Sequence[CoefficientGro
     flat = np.linalg.lstsq(waves, np.ones(len(z)), rcond=1e-6)[0]
     constant = [row[first.columns].T @ flat for row in rows]
     body = places[terms[first.name].at]
-    same = [g for g in groups if _rides(places[terms[g.name].at], body)]
-    moved = motions_of(fit, [places[terms[g.name].at] for g in same])
+    same = [g for g in groups if _act_on_same_bodies(places[terms[g.name].at], body)]
+    moved = smooth_motions(fit, [places[terms[g.name].at] for g in same])
     for group in same:
-        mean = _along(fit, group.name, terms[group.name], moved)[: group.columns.stop - group.columns.start]
+        mean = _average_along_motion(fit, group.name, terms[group.name], moved)[
+            : group.columns.stop - group.columns.start
+        ]
         for row, of in zip(rows, constant, strict=True):
             row[group.columns] -= np.outer(mean, of)
 
 
-def _rides(place: Interface, body: Interface) -> bool:
+def _act_on_same_bodies(place: Interface, body: Interface) -> bool:
     """Return whether forces at two places act on the same bodies."""
     return (place.row, place.against) == (body.row, body.against)
 
 
-def _along(fit: Fit, key: str, term: Learned, moved: Motions) -> Array:
+def _average_along_motion(fit: Fit, key: str, term: LearnedCurve, moved: Motions) -> Array:
     """Return the mean (count,) of each wave of a smooth force along the recorded motion."""
     if isinstance(term, OverPhase):
         return np.zeros(term.count)
@@ -283,50 +296,52 @@ def _along(fit: Fit, key: str, term: Learned, moved: Motions) -> Array:
     return np.asarray(term.basis((np.concatenate(seen) - middle) / half).mean(axis=0))
 
 
-def fitted(expansion: Expansion) -> tuple[Fit, float] | None:
+def fit_discrepancy(expansion: DiscrepancyExpansion) -> tuple[Fit, float] | None:
     """Return the fit with the smooth forces of the best discrepancy and free known values, and the log price of these.
 
     None where there is neither. Slopes about a fit may promise what does not come true: one-step errors are not
     straight in forces that are large beside the random one, nor in known values that are far off.
     """
-    return _with_forces(expansion, restarted(transplanted(expansion.fit)), expansion.promise())
+    return _fit_with_forces(expansion, restart(add_all_curves(expansion.fit)), expansion.find_best())
 
 
-def stood_in(expansion: Expansion, gone: Collection[str]) -> tuple[Fit, float] | None:
+def fit_imitation(expansion: DiscrepancyExpansion, gone: Collection[str]) -> tuple[Fit, float] | None:
     """Return the fit in which smooth forces and free known values stand in for some terms, and their log price.
 
     It begins where slopes about the fit with the terms say that these can be replaced.
     """
-    dropped = expansion.coordinates_of(gone)
-    problem = restarted(transplanted(expansion.fit))
+    dropped = expansion.list_coordinates(gone)
+    problem = restart(add_all_curves(expansion.fit))
     for key in gone:
-        problem = problem.reduced(key, {})
-    return _with_forces(expansion, problem, expansion.best(dropped, expansion.worse))
+        problem = problem.remove_term(key, {})
+    return _fit_with_forces(expansion, problem, expansion.find_best_without(dropped, expansion.inflation))
 
 
-def _with_forces(expansion: Expansion, problem: Problem, best: Discrepancy) -> tuple[Fit, float] | None:
+def _fit_with_forces(expansion: DiscrepancyExpansion, problem: Problem, best: Discrepancy) -> tuple[Fit, float] | None:
     """Return the fit of a problem with the smooth forces of a discrepancy and free known values, and their price."""
     chosen = [group for group, (_, option) in zip(expansion.groups, best.chosen, strict=True) if option >= 0]
-    known = _known(problem)
+    known = _free_known_values(problem)
     if not chosen and not known:
         return None
     trials = []
     for share in SHARES:
         wrong = [replace(f, start=f.mean + share * float(best.mean[i])) for i, f in enumerate(known)]
-        trial = problem.extended(wrong, ())
+        trial = problem.extend(wrong, ())
         for group in chosen:
-            count = term_of(problem, group.name)[0].count  # type: ignore[attr-defined]
+            count = find_term(problem, group.name)[0].count  # type: ignore[attr-defined]
             rows = np.zeros((2, count))
             rows[:, : group.columns.stop - group.columns.start] = best.widths[group.columns], best.mean[group.columns]
-            trial = with_curve(trial, group.name, rows[0], share * rows[1])
+            trial = add_curve(trial, group.name, rows[0], share * rows[1])
         trials.append(trial)
     log_densities = [trial.log_posterior(trial.clip(trial.start)) for trial in trials]
     best_start = int(np.argmax(np.where(np.isnan(log_densities), -np.inf, log_densities)))
-    return maximise(trials[best_start], rounds=SETTLED if chosen else ALONE, tolerance=0.3), PRICE * len(chosen)
+    return maximise(trials[best_start], rounds=ROUNDS_SMOOTH if chosen else ROUNDS_KNOWN, tolerance=0.3), PENALTY * len(
+        chosen
+    )
 
 
 @dataclass(frozen=True)
-class Righted:
+class CorrectedFit:
     """A fit to recordings whose channels were put right by `sizes` (gauges,) in all.
 
     `wider` is what the readings gain in log density, being wider or narrower, and `price` the log price of the flaws:
@@ -335,51 +350,51 @@ class Righted:
 
     fit: Fit
     sizes: Array
-    wider: float
+    log_jacobian: float
     price: float
     changes: tuple[tuple[Change, float], ...]
 
-    def put_right(self, observation: Observation) -> Observation:
+    def correct(self, observation: Observation) -> Observation:
         """Return another recording of the same channels, put right as those of the fit were."""
         return reduce(lambda seen, step: step[0](seen, step[1]), self.changes, observation)
 
 
-def righted(expansion: Expansion, before: Righted | None = None) -> Righted | None:
-    """Return the fit to recordings whose channels are put right as the discrepancy says; None without channels.
+def correct_channels(expansion: DiscrepancyExpansion, before: CorrectedFit | None = None) -> CorrectedFit | None:
+    """Return the fit to recordings that are corrected for channel errors; None where there are no channel errors.
 
-    Those of the expansion may have been put right `before`. Flaws of more than `USUAL` widths have names: an error of a
-    gain, a delay.
+    The recordings of the expansion may have been corrected `before`. A correction is at most `MOST_CORRECTION` prior
+    standard deviations: a larger error is a term of its own, such as a wrong gain or a delay.
     """
-    count, fit = len(expansion.gauges), expansion.fit
+    count, fit = len(expansion.channel_errors), expansion.fit
     if not count:
         return None
-    best, observations = expansion.promise(), fit.problem.observations
+    best, observations = expansion.find_best(), fit.problem.observations
     widths, already = best.widths[-count:], before.sizes if before else np.zeros(count)
-    sizes = np.clip(already + best.mean[-count:], -USUAL * widths, USUAL * widths)
-    wider, changes = (before.wider, before.changes) if before else (0.0, ())
-    for gauge, size in zip(expansion.gauges, map(float, sizes - already), strict=True):
+    sizes = np.clip(already + best.mean[-count:], -MOST_CORRECTION * widths, MOST_CORRECTION * widths)
+    wider, changes = (before.log_jacobian, before.changes) if before else (0.0, ())
+    for gauge, size in zip(expansion.channel_errors, map(float, sizes - already), strict=True):
         observations = tuple(gauge.change(o, size) for o in observations)
-        wider += gauge.stretch * size
+        wider += gauge.log_jacobian * size
         changes += ((gauge.change, size),)
-    problem = restarted(fit).on(observations)
-    begin = problem.clip(expansion.moved_by(sizes - already))
-    better = maximise(problem, begin, rounds=RIGHTING, tolerance=0.3)
-    inner = np.eye(count) + expansion.gauge_information() * np.outer(widths, widths)
+    problem = restart(fit).on(observations)
+    begin = problem.clip(expansion.shift_coordinates(sizes - already))
+    better = maximise(problem, begin, rounds=ROUNDS_CORRECTED, tolerance=0.3)
+    inner = np.eye(count) + expansion.compute_channel_information() * np.outer(widths, widths)
     price = 0.5 * float(np.sum((sizes / widths) ** 2)) + 0.5 * float(np.linalg.slogdet(inner)[1])
-    return Righted(better, sizes, wider, price, changes)
+    return CorrectedFit(better, sizes, wider, price, changes)
 
 
-def _rows(wider: Problem, slopes: Sensitivity, steps: Array) -> tuple[Array, Array]:
+def _compute_derivatives(wider: Problem, slopes: Sensitivity, steps: Array) -> tuple[Array, Array]:
     """Return the derivatives (count, readings) of errors and variances by coordinates behind those of the fit."""
     own = len(slopes.theta)
     zero = np.concatenate([slopes.theta, [f.start for f in wider.free[own:]]])
-    seen = wider.many(np.vstack([zero[None], zero + np.eye(len(zero))[own:] * steps[:, None]]))
+    seen = wider.filter_many(np.vstack([zero[None], zero + np.eye(len(zero))[own:] * steps[:, None]]))
     above = np.where(seen.finite[1:], np.arange(1, len(seen)), 0)
     errors = (seen.errors[above] - seen.errors[0]) / steps[:, None]
     return errors, (seen.variances[above] - seen.variances[0]) / steps[:, None]
 
 
-def _known(problem: Problem) -> list[FreeParameter]:
+def _free_known_values(problem: Problem) -> list[FreeParameter]:
     """Return the known values of the model that are above zero, free in their logarithm."""
     estimated, found = {f.parameter for f in problem.free}, []
     for param in problem.system.model.params:
@@ -390,7 +405,7 @@ def _known(problem: Problem) -> list[FreeParameter]:
     return found
 
 
-def _memory(joint: Sensitivity, own: int, information: Array) -> float:
+def _compute_inflation(joint: Sensitivity, own: int, information: Array) -> float:
     """Return by how much scores of the discrepancy scatter more over blocks than independent ones would (median)."""
     blocks = np.array([part.sum(axis=1) for part in np.array_split(joint.scores()[own:], BLOCKS, axis=1)])
     usual = np.diag(information)[own:]

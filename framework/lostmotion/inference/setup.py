@@ -1,4 +1,4 @@
-"""From a case to a first fit: what is free, what is held out, how large things are, and where to start."""
+"""From a case to a first fit: free parameters, held-out data, natural sizes, and starting points."""
 
 from __future__ import annotations
 
@@ -11,102 +11,108 @@ import numpy as np
 from lostmotion.case import CaseFile, Prior, SensorSpec
 from lostmotion.contracts import Array
 from lostmotion.errors import CaseError, ContractError
-from lostmotion.inference.candidates import CREEP, steps_for_sticking
-from lostmotion.inference.fit import Fit, maximise, restarted, warmed
-from lostmotion.inference.modes import Tried, distinct
-from lostmotion.inference.unseen import with_less_random_force
+from lostmotion.inference.candidates import CREEP, count_steps_for_sticking
+from lostmotion.inference.fit import Fit, maximise, raise_random_force, restart
+from lostmotion.inference.modes import StartingPoints, select_modes
+from lostmotion.inference.unseen import refit_without_position
 from lostmotion.kernels.threads import each
-from lostmotion.likelihood.drive import substeps
-from lostmotion.likelihood.levels import LEVELS_TRIED, noise_frees, own_levels, random_level, usual_of
+from lostmotion.likelihood.drive import count_substeps
+from lostmotion.likelihood.levels import (
+    LEVELS_TRIED,
+    compute_random_level,
+    compute_usual_level,
+    make_noise_levels,
+    make_own_levels,
+)
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem, Scales
-from lostmotion.likelihood.space import LEVELS, NOISE, OFFSET, RANDOM, FreeParameter, keys_of
+from lostmotion.likelihood.space import LEVELS, NOISE, OFFSET, RANDOM, FreeParameter, list_keys
 from lostmotion.likelihood.system import Slot, System
 from lostmotion.quantities import quantity_of, unit_of
-from lostmotion.recording.checks import filled
-from lostmotion.settings import DEFAULT, Settings
+from lostmotion.recording.checks import fill_lost
+from lostmotion.settings import DEFAULT, HeldOutSettings, Settings
 
-BLOCKS, ALIVE = 60, 4.0
-"""Parts of a recording that are looked at for its motion; noises by which that stands out where there is one."""
+BLOCKS = 60
+"""Parts of a recording in which its motion is compared with the noise."""
 SHARED = SensorSpec("shared")
-"""A sensor of which nothing is to be split by recording."""
+"""A sensor whose noise levels are shared by all recordings."""
 BEGINNING, FEWEST = 3000, 400
-"""Starting points are compared on so many samples of one recording; of each of many at least on so few."""
+"""The samples of one recording on which starting points are compared, and the least number of each of several."""
 
-WITHIN = 20.0
-"""A mode of which the log evidence is further below the best has no share in the posterior."""
 SLACK = 30.0
-"""Before the final fits a hill may be this much lower, in log posterior."""
+"""The range of log posterior below the best within which modes are kept before the final fits."""
 
 ORDERS = ("position", "velocity", "acceleration")
-"""What sensors of motion show, by how often it was differentiated."""
+"""The quantities of motion sensors, by the order of differentiation."""
 SLOWEST = 4
-"""A motion has so many cycles in a recording at least: what is slower in a spectrum leaks there from the window."""
+"""The least number of cycles of a motion in a recording: a lower frequency in a spectrum is leakage of the window."""
 FAR_ABOVE = 20.0
-"""So many times the noise floor a line of a spectrum must be to count for the motion: one of 10^6 lines of noise is."""
+"""A spectral line counts as motion above this multiple of the noise floor, which one of 10^6 lines of noise exceeds."""
 
 COARSE, FINE = 0.06, 0.015
-"""Final estimates take steps a quarter as long as those of the search: a kink makes RK4 first order."""
+"""Step times fastest rate in the search and in the final fit: steps of the final fit are a quarter as long, because RK4
+is of first order at a kink."""
 
 
-def split(
-    observations: Sequence[Observation], share: float = DEFAULT.heldout.share
+def split_heldout(
+    observations: Sequence[Observation], limits: HeldOutSettings = DEFAULT.heldout
 ) -> tuple[tuple[Observation, ...], tuple[Observation, ...]]:
-    """Return what is fitted and what is held out: the last `share` of one recording, or of several.
+    """Return the fitted and the held-out data: the last `limits.share` of one recording, or of several.
 
-    Of a motion that dies away, that share of what stands out of the noise begin what is held out.
+    If a motion decays, the share refers to the samples before it has decayed.
     """
     if len(observations) == 1:
-        cut = round((1.0 - share) * lasting(observations[0], share))
+        cut = round((1.0 - limits.share) * count_lasting_samples(observations[0], limits))
         return (observations[0].part(0, cut),), (observations[0].part(cut, observations[0].samples),)
-    kept = max(1, len(observations) - max(1, round(share * len(observations))))
+    kept = max(1, len(observations) - max(1, round(limits.share * len(observations))))
     return tuple(observations[:kept]), tuple(observations[kept:])
 
 
-def lasting(observation: Observation, share: float = DEFAULT.heldout.share) -> int:
-    """Return how many samples of a recording there are until its motion has died away, or all of them.
+def count_lasting_samples(observation: Observation, limits: HeldOutSettings = DEFAULT.heldout) -> int:
+    """Return the number of samples of a recording until its motion has decayed, or all of them.
 
-    A block of readings lives where its deviation is more than `ALIVE` times the noise, and the motion has died where
-    as much of the recording as would be held out does not, or more: nothing could be predicted there.
+    A block of readings contains motion where its deviation is more than `limits.alive` times the noise. The motion has
+    decayed where at least as much of the recording as would be held out contains none: nothing could be predicted
+    there.
     """
-    sensor = telling(observation)
-    blocks = np.array_split(filled(observation.readings[:, sensor]), BLOCKS)
-    alive = np.array([float(np.std(block)) for block in blocks]) > ALIVE * observation.noises[sensor]
+    sensor = choose_main_sensor(observation)
+    blocks = np.array_split(fill_lost(observation.readings[:, sensor]), BLOCKS)
+    alive = np.array([float(np.std(block)) for block in blocks]) > limits.alive * observation.noises[sensor]
     last = int(np.flatnonzero(alive)[-1]) + 1 if alive.any() else BLOCKS
-    if last > (1.0 - share) * BLOCKS:
+    if last > (1.0 - limits.share) * BLOCKS:
         return observation.samples
     return sum(len(block) for block in blocks[:last])
 
 
-def scales_of(system: System, observations: Sequence[Observation], known: Array) -> Scales:
+def compute_scales(system: System, observations: Sequence[Observation], known: Array) -> Scales:
     """Return the natural sizes of force, length and time of the recorded motion."""
-    return replace(_sizes(system, observations, known), span=max(t.samples * t.dt for t in observations))
+    return replace(_compute_sizes(system, observations, known), span=max(t.samples * t.dt for t in observations))
 
 
-def _sizes(system: System, observations: Sequence[Observation], known: Array) -> Scales:
-    sensor = telling(observations[0])
-    rates, lengths = zip(*(_motion(t, sensor) for t in observations), strict=True)
+def _compute_sizes(system: System, observations: Sequence[Observation], known: Array) -> Scales:
+    sensor = choose_main_sensor(observations[0])
+    rates, lengths = zip(*(_measure_motion(t, sensor) for t in observations), strict=True)
     rate, length = float(np.median(rates)), float(np.median(lengths))
     if quantity_of(observations[0].sensors[sensor].channel) == "force":
         return Scales(length, float(np.median([t.travel for t in observations])), 1.0 / rate)
     inertia = known[system.index[system.model.interfaces[0].inertia]]
-    pushes = [_push(system, t, inertia) for t in observations]
+    pushes = [_measure_push(system, t, inertia) for t in observations]
     force = float(np.sqrt(np.mean(np.square([varying for varying, _ in pushes]))))
     force = force or float(np.mean([peak for _, peak in pushes])) or inertia * length * rate**2
     return Scales(force, length, 1.0 / rate)
 
 
-def telling(observation: Observation) -> int:
-    """Return the number of the sensor that tells the size of the motion: a position, else the next best there is."""
+def choose_main_sensor(observation: Observation) -> int:
+    """Return the number of the sensor that gives the size of the motion: a position, else the next best there is."""
     order = (*ORDERS, "force")
     kinds = [order.index(quantity_of(sensor.channel)) for sensor in observation.sensors]
     return int(np.argmin(kinds))
 
 
-def _push(system: System, observation: Observation, inertia: float) -> tuple[float, float]:
-    """Return the amplitude (sqrt(2) times the standard deviation) of all forces that drive a machine, and their peak.
+def _measure_push(system: System, observation: Observation, inertia: float) -> tuple[float, float]:
+    """Return the amplitude (sqrt(2) times the standard deviation) of all driving forces, and their peak.
 
-    A base that is shaken pushes by its acceleration; one that moves through a joint pushes by an unknown force: zero.
+    A base that is shaken acts by its acceleration; one that moves through a joint acts by an unknown force: zero.
     """
     squares, peak = 0.0, 0.0
     for name, u in zip(system.model.inputs, observation.inputs.T, strict=False):
@@ -116,15 +122,15 @@ def _push(system: System, observation: Observation, inertia: float) -> tuple[flo
     return math.sqrt(squares), peak
 
 
-def _motion(observation: Observation, sensor: int) -> tuple[float, float]:
+def _measure_motion(observation: Observation, sensor: int) -> tuple[float, float]:
     """Return the rms angular frequency (rad/s) of the motion a sensor shows, and its amplitude as a position.
 
-    Velocity and acceleration are integrated as spectra, where these stand far above their noise: noise at low
-    frequency would be drift, and the spikes of an acceleration are no motion. A force stays a force.
+    Velocity and acceleration are integrated as spectra, where these are far above their noise: noise at low frequency
+    would be drift, and the spikes of an acceleration are no motion. A force stays a force.
     """
     quantity, readings = quantity_of(observation.sensors[sensor].channel), observation.readings[:, sensor]
     order = ORDERS.index(quantity) if quantity in ORDERS else 0
-    z, amplitude = filled(readings), math.sqrt(2.0) * float(np.nanstd(readings))
+    z, amplitude = fill_lost(readings), math.sqrt(2.0) * float(np.nanstd(readings))
     power = np.abs(np.fft.rfft((z - z.mean()) * np.hanning(len(z)))) ** 2
     floor, whole = float(np.median(power[-len(power) // 5 :])), float(np.sum(power))
     power = np.where(power > FAR_ABOVE * floor, power, 0.0) if order else np.maximum(power - 3.0 * floor, 0.0)
@@ -139,19 +145,19 @@ def _motion(observation: Observation, sensor: int) -> tuple[float, float]:
     return rate, amplitude * share
 
 
-def free_of(slot: Slot, prior: Prior) -> FreeParameter:
+def make_free_parameter(slot: Slot, prior: Prior) -> FreeParameter:
     """Return the free parameter of a case's prior, where all recordings share it."""
-    return _free(slot.key, slot.unit, prior, (slot.param.low, slot.param.high))
+    return _make_free(slot.key, slot.unit, prior, (slot.param.low, slot.param.high))
 
 
-def frees_for(slot: Slot, prior: Prior, recordings: Sequence[str]) -> tuple[FreeParameter, ...]:
+def make_case_parameters(slot: Slot, prior: Prior, recordings: Sequence[str]) -> tuple[FreeParameter, ...]:
     """Return the free parameters of a case's prior: one, or with `each` one for each of the named recordings."""
-    shared = free_of(slot, prior)
-    keys = keys_of(slot.key, recordings) if prior.each else (slot.key,)
+    shared = make_free_parameter(slot, prior)
+    keys = list_keys(slot.key, recordings) if prior.each else (slot.key,)
     return tuple(replace(shared, key=key) for key in keys)
 
 
-def _free(key: str, unit: str, prior: Prior, bounds: tuple[float, float]) -> FreeParameter:
+def _make_free(key: str, unit: str, prior: Prior, bounds: tuple[float, float]) -> FreeParameter:
     """Return the free parameter with a prior, cut at the bounds (value) and 12 standard deviations from its middle."""
     log = prior.kind in ("log-uniform", "log-normal")
     if prior.bell is None:
@@ -166,8 +172,8 @@ def _free(key: str, unit: str, prior: Prior, bounds: tuple[float, float]) -> Fre
     return FreeParameter(key, unit, min(max(start, low), high), low, high, log=log, mean=mean, sd=sd)
 
 
-def known_of(system: System, case: CaseFile) -> Array:
-    """Return the full parameter vector of what a case says is known; the rest stands at the middle of its prior."""
+def make_known(system: System, case: CaseFile) -> Array:
+    """Return the full parameter vector of the known values of a case; the rest is at the middle of its prior."""
     try:
         values = {system.slot(name).key: value for name, value in case.known.items()}
         guesses = {system.slot(name).key: prior.start() for name, prior in case.estimate.items()}
@@ -191,7 +197,7 @@ def known_of(system: System, case: CaseFile) -> Array:
 
 
 def _check_bounds(system: System, name: str, low: float, high: float) -> None:
-    """Refuse values of a parameter that no machine has: outside of its bounds, or an inertia of zero."""
+    """Raise a `CaseError` for values of a parameter outside of its bounds, or for an inertia of zero."""
     slot = system.slot(name)
     param = slot.param
     inertia = slot.term is None and slot.key in {place.inertia for place in system.model.interfaces}
@@ -201,7 +207,7 @@ def _check_bounds(system: System, name: str, low: float, high: float) -> None:
         raise CaseError(f"{name} ({param.meaning}) is {found}, wanted {wanted}: correct it in the case")
 
 
-def problem_of(
+def make_problem(
     system: System,
     case: CaseFile,
     observations: tuple[Observation, ...],
@@ -210,17 +216,17 @@ def problem_of(
     settings: Settings = DEFAULT,
 ) -> Problem:
     """Return the problem of a case on the given recordings, with no term active, noise levels shared."""
-    known = known_of(system, case)
-    scales = scales_of(system, observations, known)
+    known = make_known(system, case)
+    scales = compute_scales(system, observations, known)
     names = [observation.name for observation in observations]
-    frees = [f for name, prior in case.estimate.items() for f in frees_for(system.slot(name), prior, names)]
+    frees = [f for name, prior in case.estimate.items() for f in make_case_parameters(system.slot(name), prior, names)]
     problem = Problem(system, observations, scales, known, tuple(frees), jobs=jobs, settings=settings)
-    scales = replace(scales, usual=usual_of(problem, rate_of(problem, problem.start)))
-    problem = replace(problem, scales=scales, free=(*frees, *noise_frees(observations, scales)))
-    return stepped(problem, problem.start)
+    scales = replace(scales, usual=compute_usual_level(problem, find_fastest_rate(problem, problem.start)))
+    problem = replace(problem, scales=scales, free=(*frees, *make_noise_levels(observations, scales)))
+    return choose_steps(problem, problem.start)
 
 
-def rate_of(problem: Problem, theta: Array) -> float:
+def find_fastest_rate(problem: Problem, theta: Array) -> float:
     """Return the fastest rate (1/s) of the linearised motion over the region that the recording covers."""
     system, scales, observation = problem.system, problem.scales, problem.observations[0]
     grid = np.linspace(-1.5, 1.5, 7)
@@ -230,47 +236,47 @@ def rate_of(problem: Problem, theta: Array) -> float:
     middle = np.repeat(np.mean(observation.inputs, axis=0)[None], len(states), axis=0)
     alike = all(f.recording is None or f.level in LEVELS for f in problem.free)
     fulls = [problem.full(theta, i) for i in range(1 if alike else len(problem.observations))]
-    return max(1.0 / scales.time, *(system.stiffness(full, problem.active, states, middle) for full in fulls))
+    return max(1.0 / scales.time, *(system.find_fastest_rate(full, problem.active, states, middle) for full in fulls))
 
 
-def stepped(problem: Problem, theta: Array, *, accuracy: float = COARSE) -> Problem:
-    """Return the problem with as many steps between samples as the stiffness along the recorded motion asks for."""
-    rate = rate_of(problem, theta)
-    steps = substeps(rate, max(t.dt for t in problem.observations), accuracy=accuracy)
-    return replace(problem, nsub=max(steps, steps_for_sticking(problem, theta, creep=CREEP * accuracy / COARSE)))
+def choose_steps(problem: Problem, theta: Array, *, accuracy: float = COARSE) -> Problem:
+    """Return the problem with the number of steps between samples for the stiffness along the recorded motion."""
+    rate = find_fastest_rate(problem, theta)
+    steps = count_substeps(rate, max(t.dt for t in problem.observations), accuracy=accuracy)
+    return replace(problem, nsub=max(steps, count_steps_for_sticking(problem, theta, creep=CREEP * accuracy / COARSE)))
 
 
-def search(problem: Problem, rng: np.random.Generator, *, points: int = 48, finalists: int = 4) -> Fit:
-    """Return the best fit of several starts: a Latin hypercube on the beginnings of the recordings, then all of it."""
-    beginning = beginnings(problem)
-    tried = _tried(problem, beginning, rng, points)
+def search_maximum(problem: Problem, rng: np.random.Generator, *, points: int = 48, finalists: int = 4) -> Fit:
+    """Return the best fit of several starts: a Latin hypercube on the beginnings of recordings, then all samples."""
+    beginning = cut_beginnings(problem)
+    tried = _draw_starts(problem, beginning, rng, points)
     single = replace(beginning, jobs=1)
     fits = each(
-        lambda i: with_less_random_force(maximise(single, tried.starts[i])), tried.best(finalists), problem.jobs
+        lambda i: refit_without_position(maximise(single, tried.starts[i])), tried.best(finalists), problem.jobs
     )
     ranked = sorted(fits, key=lambda f: -f.local.log_posterior)
-    chosen = _distinct(ranked)
-    return max((_lengthened(problem, f) for f in chosen), key=lambda f: f.local.log_posterior)
+    chosen = _select_finalists(ranked)
+    return max((_extend_to_whole(problem, f) for f in chosen), key=lambda f: f.local.log_posterior)
 
 
-def _lengthened(problem: Problem, short: Fit, hopeless: float = -math.inf) -> Fit:
-    """Return the fit of whole recordings that begins at one of their beginnings."""
+def _extend_to_whole(problem: Problem, short: Fit, hopeless: float = -math.inf) -> Fit:
+    """Return the fit of whole recordings, started from a fit of their beginnings."""
     begun = zip(problem.observations, short.problem.observations, strict=True)
-    whole = stepped(problem.on(tuple(replace(t, begun=b.begun) for t, b in begun)), short.theta)
-    return with_less_random_force(maximise(whole, warmed(whole, short.theta, 3.0), hopeless=hopeless))
+    whole = choose_steps(problem.on(tuple(replace(t, begun=b.begun) for t, b in begun)), short.theta)
+    return refit_without_position(maximise(whole, raise_random_force(whole, short.theta, 3.0), hopeless=hopeless))
 
 
-def beginnings(problem: Problem) -> Problem:
+def cut_beginnings(problem: Problem) -> Problem:
     """Return the problem on the beginnings of its recordings, about `BEGINNING` samples of one or twice that of all."""
     several = len(problem.observations) > 1
     samples = max(2 * BEGINNING // len(problem.observations), FEWEST) if several else BEGINNING
     return problem.on(tuple(t.part(0, min(t.samples, samples)) for t in problem.observations))
 
 
-def _tried(problem: Problem, beginning: Problem, rng: np.random.Generator, points: int) -> Tried:
+def _draw_starts(problem: Problem, beginning: Problem, rng: np.random.Generator, points: int) -> StartingPoints:
     """Return a Latin hypercube over the priors, scored with the best of three random forces.
 
-    A parameter that each recording has for itself starts at the same value in all of them.
+    A parameter with a value for each recording starts at the same value in all of them.
     """
     names = list(dict.fromkeys(f.parameter for f in problem.free if f.level not in LEVELS))
     starts = np.repeat(problem.start[None], points, axis=0)
@@ -284,14 +290,14 @@ def _tried(problem: Problem, beginning: Problem, rng: np.random.Generator, point
     random = [f.parameter == RANDOM for f in problem.free]
     scores = np.full(points, -np.inf)
     for share in LEVELS_TRIED:
-        starts[:, random] = random_level(problem.observations, problem.scales, share)
+        starts[:, random] = compute_random_level(problem.observations, problem.scales, share)
         scores = np.maximum(scores, beginning.log_likelihoods(problem.clip(starts)))
     starts[:, random] = problem.start[random]
-    return Tried(cube, starts, scores)
+    return StartingPoints(cube, starts, scores)
 
 
-def _distinct(fits: list[Fit]) -> list[Fit]:
-    """Return the best fit, and the next one if it is another mode of about the same height."""
+def _select_finalists(fits: list[Fit]) -> list[Fit]:
+    """Return the best fit, and the next one if it is another mode of about the same log posterior."""
     best = fits[0]
     for other in fits[1:]:
         far = np.abs(other.theta - best.theta) > 10.0 * np.array(list(best.sd.values()))
@@ -300,77 +306,82 @@ def _distinct(fits: list[Fit]) -> list[Fit]:
     return [best]
 
 
-def modes(
+def find_modes(
     problem: Problem, rng: np.random.Generator, *, points: int = 96, finalists: int = 8, sensor: SensorSpec = SHARED
 ) -> list[Fit]:
     """Return the distinct maxima of the posterior on all recordings, best first by log evidence.
 
-    It looks more widely than `search`, fits each hill that the beginnings leave within `SLACK` of the best on the whole
-    recordings, and keeps those within `WITHIN` in log evidence. All are maxima of one problem, which takes as many
-    steps between samples as the stiffest of them asks for. What the `sensor` has of its own in each recording is split
-    before the hills are compared: a noise that fits none of the recordings says little of how far hills are apart.
+    It searches more widely than `search_maximum`, fits each mode of the beginnings within `SLACK` of the best on the
+    whole recordings, and keeps those within `mode.within` in log evidence. All are maxima of one problem, with the
+    steps between samples of the stiffest of them. Parameters that the `sensor` has for each recording are split before
+    the modes are compared: with a noise level that fits none of the recordings, distances between modes are not
+    meaningful.
     """
-    beginning = beginnings(problem)
-    tried = _tried(problem, beginning, rng, points)
+    beginning = cut_beginnings(problem)
+    tried = _draw_starts(problem, beginning, rng, points)
     single = replace(beginning, jobs=1)
     peaks = each(
-        lambda i: with_less_random_force(maximise(single, tried.starts[i])), tried.peaks(finalists), problem.jobs
+        lambda i: refit_without_position(maximise(single, tried.starts[i])), tried.peaks(finalists), problem.jobs
     )
-    short = distinct(peaks, SLACK)
+    short = select_modes(peaks, SLACK)
     whole: list[Fit] = []
     for fit in short:
         hopeless = max((f.local.log_posterior for f in whole), default=-math.inf) - 2.0 * SLACK
-        whole.append(_lengthened(problem, fit, hopeless))
-    hills = distinct([separated(fit, sensor) for fit in whole], SLACK) or [maximise(problem)]
-    return _together(hills, max((f.problem for f in hills), key=lambda p: p.nsub))
+        whole.append(_extend_to_whole(problem, fit, hopeless))
+    hills = select_modes([separate_levels(fit, sensor) for fit in whole], SLACK) or [maximise(problem)]
+    return _unify_modes(hills, max((f.problem for f in hills), key=lambda p: p.nsub))
 
 
-def _together(fits: list[Fit], problem: Problem) -> list[Fit]:
-    """Return the maxima of `problem` that begin at those of the fits, each hill once, best first."""
+def _unify_modes(fits: list[Fit], problem: Problem) -> list[Fit]:
+    """Return the maxima of `problem` that begin at those of the fits, each mode once, best first."""
     again = [f if f.problem.nsub == problem.nsub else maximise(problem, f.theta) for f in fits]
-    hills = [replace(f, problem=problem) for f in distinct(again, SLACK)] or again
+    hills = [replace(f, problem=problem) for f in select_modes(again, SLACK)] or again
     top = max(f.log_evidence for f in hills)
-    return sorted((f for f in hills if f.log_evidence >= top - WITHIN), key=lambda f: -f.log_evidence)
+    return sorted(
+        (f for f in hills if f.log_evidence >= top - problem.settings.mode.within), key=lambda f: -f.log_evidence
+    )
 
 
-def separated(fit: Fit, sensor: SensorSpec) -> Fit:
-    """Return the fit with what a case says of the sensor: noise levels of each recording's own, and its zero.
+def separate_levels(fit: Fit, sensor: SensorSpec) -> Fit:
+    """Return the fit with the sensor of a case: noise levels of each recording's own, and its offset.
 
     It begins at the fit with shared levels. Where nothing is to be split, or all is split already, it is that fit.
     """
-    problem = restarted(fit)
+    problem = restart(fit)
     own = sensor.noise == "each" and len(problem.observations) > 1 and RANDOM in problem.keys
-    zeros = () if any(f.level == OFFSET for f in problem.free) else _offsets(problem, sensor.offset)
+    zeros = () if any(f.level == OFFSET for f in problem.free) else _make_offsets(problem, sensor.offset)
     if not own and not zeros:
         return fit
     kept = tuple(f for f in problem.free if f.level not in (RANDOM, NOISE))
     levels = tuple(f for f in problem.free if f.level in (RANDOM, NOISE))
     if own:
-        levels = own_levels(problem, float(fit.theta[problem.keys.index(RANDOM)]))
+        levels = make_own_levels(problem, float(fit.theta[problem.keys.index(RANDOM)]))
     apart = replace(problem, free=(*kept, *zeros, *levels))
     return maximise(apart, apart.start)
 
 
-def _offsets(problem: Problem, prior: Prior | None) -> tuple[FreeParameter, ...]:
-    """Return the zero of each sensor in each recording; none where it is known."""
+def _make_offsets(problem: Problem, prior: Prior | None) -> tuple[FreeParameter, ...]:
+    """Return the offset of each sensor in each recording; none where it is known."""
     if prior is None:
         return ()
     motion, first = problem.system.model.motion, problem.observations[0]
     names = [observation.name for observation in problem.observations]
     return tuple(
-        _free(key, unit_of(sensor.channel, motion), prior, (-math.inf, math.inf))
+        _make_free(key, unit_of(sensor.channel, motion), prior, (-math.inf, math.inf))
         for i, sensor in enumerate(first.sensors)
-        for key in keys_of(first.level(OFFSET, i), names)
+        for key in list_keys(first.level(OFFSET, i), names)
     )
 
 
-def polish(fit: Fit) -> Fit:
+def polish_fit(fit: Fit) -> Fit:
     """Return the fit with finer integration steps."""
-    problem = stepped(fit.problem, fit.theta, accuracy=FINE)
+    problem = choose_steps(fit.problem, fit.theta, accuracy=FINE)
     finer = maximise(problem, fit.theta)
     return finer if finer.status in ("converged", "rough") else fit
 
 
-def polished(fits: list[Fit]) -> list[Fit]:
+def polish_modes(fits: list[Fit]) -> list[Fit]:
     """Return the modes with finer integration steps, all of one problem, best first by log evidence."""
-    return _together(fits, max((stepped(f.problem, f.theta, accuracy=FINE) for f in fits), key=lambda p: p.nsub))
+    return _unify_modes(
+        fits, max((choose_steps(f.problem, f.theta, accuracy=FINE) for f in fits), key=lambda p: p.nsub)
+    )

@@ -1,12 +1,12 @@
-"""What several recordings share: whether one value of a parameter holds in all of them.
+"""Comparison of several recordings: whether one value of a parameter holds in all of them.
 
-Each parameter in turn gets a value of each recording's own, and the model is fitted once more from the shared optimum.
-The values are compared by a chi-square test of homogeneity (Cochran, Biometrics 10 (1954) 101-129) with their
-covariance by the sandwich of Huber and White, scores added up over blocks, so that leftovers with a memory do not pass
-for a difference. The p-values are corrected for the number of parameters (Holm, Scand. J. Statist. 6 (1979) 65-70).
+Each parameter in turn gets a value for each recording, and the model is fitted once more from the shared optimum. The
+values are compared by a chi-square test of homogeneity (Cochran, Biometrics 10 (1954) 101-129) with their covariance by
+the sandwich of Huber and White, scores summed over blocks, so that correlated residuals are not taken for a difference.
+The p-values are corrected for the number of parameters (Holm, Scand. J. Statist. 6 (1979) 65-70).
 
-One parameter that differs makes others seem to differ that were made to share their values. So the one of which the
-values explain most is released, and the others are tested again beside it.
+One parameter that differs makes others that are shared seem to differ. So the one whose values explain most is
+released, and the others are tested again.
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ from scipy.special import chdtrc
 
 from lostmotion.case import SensorSpec
 from lostmotion.contracts import Array
-from lostmotion.inference.fit import MANY, Fit, maximise, restarted, sensitivity, warmed
-from lostmotion.inference.learned import Learned
-from lostmotion.inference.setup import separated
+from lostmotion.inference.fit import MANY, Fit, compute_sensitivity, maximise, raise_random_force, restart
+from lostmotion.inference.learned import LearnedCurve
+from lostmotion.inference.setup import separate_levels
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem
-from lostmotion.likelihood.space import LEVELS, FreeParameter, keys_of
+from lostmotion.likelihood.space import LEVELS, FreeParameter, list_keys
 from lostmotion.results import Interval
 from lostmotion.results.sharing import PowerOfLevel
 from lostmotion.settings import DEFAULT
@@ -34,29 +34,18 @@ from lostmotion.settings import SharedSettings as SharedLimits
 
 ROUNDS = 8
 RAISED = 3.0
-"""By how much the log random force is raised where a fit without a curve begins."""
+"""The increase of the log random force where a fit without a curve begins."""
 BLOCKS, SHORTEST = 40, 10
-"""Scores are added up over so many blocks of each recording, of so many readings each at least."""
-VAGUE = 0.05
-"""The rms tells to about this share how strongly a motion is driven: lines over the level may miss values by it."""
-MOST_OWN = 3
-"""So many parameters are released at most: where more of them differ, the model does not hold."""
+"""The number of blocks of each recording over which scores are summed, and their least length in readings."""
 SAMPLES = 40_000
-"""The beginnings of the recordings are compared, so many samples together."""
+"""The beginnings of the recordings are compared, with this many samples together."""
 FEWER = 10_000
-"""So many samples where learned curves bring dozens of coefficients: all of them are fitted anew each time."""
-NEAR = 3.0
-"""Own values of another parameter that come within this log-likelihood explain a difference as well."""
-FITS, KNOWN, STEEPEST = 0.05, 3.0, 4.0
-"""A power of the level describes values when this p-value is left over, when its exponent is so many standard errors
-from zero, and no larger: steeper powers stand for a difference of another kind."""
-SPREAD = 1.1
-"""Levels of the drive that span less than this factor are one level; the levels of the response are used then."""
+"""The number of samples with learned curves, which add dozens of coefficients to each fit."""
 
 
 @dataclass(frozen=True)
 class Levels:
-    """How strongly the machine moved in each recording: rms about the mean of the `drive`, or of the `response`.
+    """The level of the motion in each recording: rms about the mean of the `drive`, or of the `response`.
 
     `channel` is the input or the channel whose unit the `values` have.
     """
@@ -70,9 +59,10 @@ class Levels:
 class ComparedParameter:
     """A parameter in each recording: `values` with 95 % intervals, their best `common` value, and whether that holds.
 
-    `chi2` with `dof` degrees of freedom tests that; `p` is corrected for the number of parameters. `power` tells how
-    the values go with the level, `odd` the number of the only recording that differs, each where it is so. `instead`
-    names parameters that would explain the difference as well. `given` says that the case gives each recording its own.
+    `chi2` with `dof` degrees of freedom tests that; `p` is corrected for the number of parameters. `power` describes
+    the dependence of the values on the level, `odd` is the number of the only recording that differs, where there is
+    one. `instead` names parameters that would explain the difference as well. `given` says that the case has a value
+    for each recording.
     """
 
     key: str
@@ -100,11 +90,11 @@ class ComparedParameter:
 
 @dataclass(frozen=True)
 class SharedValues:
-    """What the `recordings` of a fit share, parameter by parameter.
+    """The comparison of the `recordings` of a fit, parameter by parameter.
 
-    `released` names those that have values of each recording's own, in that order, while others are tested; `failed`
-    those of which no fit came out. `dropped` names learned curves that are not needed once what differs is released,
-    `gain` is the log evidence that this adds.
+    `released` names those with a value for each recording, in that order, while others are tested; `failed` those whose
+    fit failed. `dropped` names learned curves that are not needed once the differing parameters are released, `gain` is
+    the log evidence that this adds.
     """
 
     recordings: tuple[str, ...]
@@ -118,7 +108,7 @@ class SharedValues:
 
 @dataclass(frozen=True)
 class SeparateFit:
-    """A fit in which a parameter has values of each recording's own: coordinates (recordings,), their covariance."""
+    """A fit in which a parameter has a value for each recording: coordinates (recordings,), their covariance."""
 
     key: str
     fit: Fit
@@ -128,38 +118,40 @@ class SeparateFit:
     given: bool
 
 
-def sharing_of(fit: Fit) -> SharedValues | None:
-    """Return what the recordings of a fit share; None where there is one recording.
+def compare_recordings(fit: Fit) -> SharedValues | None:
+    """Return the comparison of the recordings of a fit; None where there is one recording.
 
-    Each recording has noise levels of its own. Learned curves are one for all, and move along; values are also compared
-    without them, since a curve may stand in for a difference, and the course with the larger evidence is returned.
+    Each recording has noise levels of its own. Learned curves are shared and refitted; values are also compared without
+    them, since a curve may imitate a difference, and the alternative with the larger evidence is returned.
     """
     if len(fit.problem.observations) < 2:
         return None
-    compared = _compared(fit)
-    courses = [_course(separated(compared, SensorSpec()))]
-    if curves := curves_of(fit.problem):
+    compared = _fit_beginnings(fit)
+    courses = [_release_parameters(separate_levels(compared, SensorSpec()))]
+    if curves := list_curves(fit.problem):
         plain = compared.problem
         for key in curves:
-            plain = plain.reduced(key, fit.values)
-        bare, evidence = _course(separated(maximise(plain, warmed(plain, plain.start, RAISED)), SensorSpec()))
+            plain = plain.remove_term(key, fit.values)
+        bare, evidence = _release_parameters(
+            separate_levels(maximise(plain, raise_random_force(plain, plain.start, RAISED)), SensorSpec())
+        )
         courses.append((replace(bare, dropped=curves), evidence))
     return max(courses, key=lambda course: course[1])[0]
 
 
-def _course(shared: Fit) -> tuple[SharedValues, float]:
-    """Return what recordings share, and the log evidence of the fit in which what differs is released."""
-    base = shared
-    observations, tested = base.problem.observations, _tested(base.problem)
-    levels = levels_of(observations)
+def _release_parameters(shared: Fit) -> tuple[SharedValues, float]:
+    """Return the comparison of recordings, and the log evidence of the fit with the differing parameters released."""
+    base, limits = shared, shared.problem.settings.shared
+    observations, tested = base.problem.observations, _list_tested(base.problem)
+    levels = measure_levels(observations, limits.spread)
     found: dict[str, ComparedParameter] = {}
     released: list[str] = []
-    for turn in range(MOST_OWN + 1):
+    for turn in range(int(limits.most_own) + 1):
         rest = [key for key in tested if key not in found]
-        apart = {one.key: one for one in _each_apart(base, rest)}
-        tests = _tests(apart, levels, base.problem.settings.shared)
-        own = _best(apart, tests)
-        if turn == MOST_OWN or own is None:
+        apart = {one.key: one for one in _fit_each_separately(base, rest)}
+        tests = _test_parameters(apart, levels, limits)
+        own = _select_best(apart, tests)
+        if turn == int(limits.most_own) or own is None:
             found |= tests
             break
         found[own.key] = tests[own.key]
@@ -172,15 +164,15 @@ def _course(shared: Fit) -> tuple[SharedValues, float]:
     return SharedValues(names, levels, values, tuple(released), failed, gain=gain), base.log_evidence
 
 
-def curves_of(problem: Problem) -> tuple[str, ...]:
+def list_curves(problem: Problem) -> tuple[str, ...]:
     """Return the keys of the learned curves that act in a problem."""
     terms = zip(problem.system.keys, problem.system.terms, strict=True)
-    return tuple(key for key, term in terms if isinstance(term, Learned) and key in problem.active)
+    return tuple(key for key, term in terms if isinstance(term, LearnedCurve) and key in problem.active)
 
 
-def _compared(fit: Fit) -> Fit:
-    """Return the fit on the beginnings of its recordings, as a problem that starts where it is highest."""
-    problem = restarted(fit)
+def _fit_beginnings(fit: Fit) -> Fit:
+    """Return the fit on the beginnings of its recordings, as a problem that starts at its maximum."""
+    problem = restart(fit)
     samples = SAMPLES if len(problem.free) <= MANY else FEWER
     most = max(samples // len(problem.observations), 1)
     if all(o.samples <= most for o in problem.observations):
@@ -188,64 +180,69 @@ def _compared(fit: Fit) -> Fit:
     return maximise(problem.on(tuple(o.part(0, min(o.samples, most)) for o in problem.observations)), rounds=ROUNDS)
 
 
-def _tested(problem: Problem) -> tuple[str, ...]:
+def _list_tested(problem: Problem) -> tuple[str, ...]:
     """Return the names of the parameters that are compared: no noise levels, no coefficients of learned curves."""
-    curves = curves_of(problem)
+    curves = list_curves(problem)
     names = [f.parameter for f in problem.free if f.level not in LEVELS]
     return tuple(dict.fromkeys(name for name in names if name.rpartition(".")[0] not in curves))
 
 
-def levels_of(observations: Sequence[Observation]) -> Levels:
-    """Return how strongly the machine moved in each recording; by the drive, where that differs from one to another."""
+def measure_levels(observations: Sequence[Observation], spread: float = DEFAULT.shared.spread) -> Levels:
+    """Return the level of the motion in each recording; of the drive, where that differs between recordings."""
     first = observations[0]
     if not any(observation.free for observation in observations):
         drives = tuple(float(np.nanstd(observation.excitation)) for observation in observations)
-        if min(drives) > 0.0 and max(drives) > SPREAD * min(drives):
+        if min(drives) > 0.0 and max(drives) > spread * min(drives):
             return Levels("drive", first.driven[0] if first.driven else "force", drives)
     return Levels("response", first.channel, tuple(float(np.nanstd(o.response)) for o in observations))
 
 
-def _each_apart(base: Fit, keys: Sequence[str]) -> list[SeparateFit]:
-    """Return the fits in which one parameter after the other has values of each recording's own."""
+def _fit_each_separately(base: Fit, keys: Sequence[str]) -> list[SeparateFit]:
+    """Return the fits in which one parameter after the other has a value for each recording."""
     single, jobs = replace(base, problem=replace(base.problem, jobs=1)), base.problem.jobs
-    found = each(lambda key: apart_in(single, key), keys, jobs)
+    found = each(lambda key: fit_separately(single, key), keys, jobs)
     return [one for one in found if one is not None]
 
 
-def apart_in(base: Fit, key: str) -> SeparateFit | None:
-    """Return the fit in which a parameter has values of each recording's own, from a base where all else is shared.
+def fit_separately(base: Fit, key: str) -> SeparateFit | None:
+    """Return the fit in which a parameter has a value for each recording, from a base where all else is shared.
 
-    None where it diverges. Where the case gives each recording its own already, it is the base itself.
+    None where it diverges. Where the case has a value for each recording already, it is the base itself.
     """
-    problem = restarted(base)
+    problem = restart(base)
     index = next(i for i, f in enumerate(problem.free) if f.parameter == key)
     free, names = problem.free[index], [observation.name for observation in problem.observations]
     fit = base
     if free.recording is None:
-        own = [replace(free, key=name) for name in keys_of(key, names)]
+        own = [replace(free, key=name) for name in list_keys(key, names)]
         split = replace(problem, free=(*problem.free[:index], *own, *problem.free[index + 1 :]))
         fit = maximise(split, rounds=ROUNDS)
         if fit.status == "diverged":
             return None
-    columns = [fit.problem.keys.index(name) for name in keys_of(key, names)]
+    columns = [fit.problem.keys.index(name) for name in list_keys(key, names)]
     return SeparateFit(
-        key, fit, replace(free, key=key), fit.theta[columns], covariance_of(fit, columns), free.recording is not None
+        key,
+        fit,
+        replace(free, key=key),
+        fit.theta[columns],
+        compute_covariance(fit, columns),
+        free.recording is not None,
     )
 
 
-def covariance_of(fit: Fit, columns: Sequence[int]) -> Array:
+def compute_covariance(fit: Fit, columns: Sequence[int]) -> Array:
     """Return the robust covariance (columns, columns) of some coordinates of a fit of several recordings.
 
-    It is the sandwich, with scores added up over blocks of each recording, and in no direction less than the usual one.
+    It is the sandwich, with scores summed over blocks of each recording, and in no direction less than the usual one.
     """
-    slopes = sensitivity(fit.problem, fit.theta, fit.local.steps)
+    slopes = compute_sensitivity(fit.problem, fit.theta, fit.local.steps)
     usual = fit.local.covariance
-    sandwich = usual @ _scatter(slopes.scores(), fit.problem.observations) @ usual
+    sandwich = usual @ _compute_scatter(slopes.scores(), fit.problem.observations) @ usual
     kept = np.ix_(columns, columns)
-    return widened(usual[kept], sandwich[kept])
+    return widen_covariance(usual[kept], sandwich[kept])
 
 
-def _scatter(scores: Array, observations: Sequence[Observation]) -> Array:
+def _compute_scatter(scores: Array, observations: Sequence[Observation]) -> Array:
     """Return the covariance (n, n) of the sum of scores (n, readings), from blocks about the mean of each recording."""
     scatter, begin = np.zeros((len(scores), len(scores))), 0
     for observation in observations:
@@ -259,7 +256,7 @@ def _scatter(scores: Array, observations: Sequence[Observation]) -> Array:
     return scatter
 
 
-def widened(usual: Array, sandwich: Array) -> Array:
+def widen_covariance(usual: Array, sandwich: Array) -> Array:
     """Return a covariance (n, n) that is the `sandwich`, but in no direction less than the `usual` one."""
     sd = np.sqrt(np.maximum(np.diag(usual), 1e-300))
     values, vectors = np.linalg.eigh(usual / np.outer(sd, sd))
@@ -270,7 +267,7 @@ def widened(usual: Array, sandwich: Array) -> Array:
     return np.asarray(np.outer(sd, sd) * (wide @ wide.T))
 
 
-def homogeneity(values: Array, covariance: Array) -> float:
+def compute_homogeneity(values: Array, covariance: Array) -> float:
     """Return the chi-square (n - 1 degrees of freedom) of values (n,) about their best common value."""
     left, ones = np.asarray(values, dtype=float), np.ones(len(values))
     weights = np.linalg.solve(covariance, ones)
@@ -278,7 +275,7 @@ def homogeneity(values: Array, covariance: Array) -> float:
     return float(left @ np.linalg.solve(covariance, left))
 
 
-def holm(p: Sequence[float]) -> list[float]:
+def adjust_by_holm(p: Sequence[float]) -> list[float]:
     """Return p-values corrected for their number, by Holm's method."""
     order, adjusted, largest = np.argsort(p), [0.0] * len(p), 0.0
     for rank, i in enumerate(order):
@@ -287,12 +284,14 @@ def holm(p: Sequence[float]) -> list[float]:
     return adjusted
 
 
-def power_of(values: Array, covariance: Array, levels: Array) -> PowerOfLevel | None:
-    """Return how logarithms of values (n,) go with those of the levels (n,): a straight line, where one describes them.
+def fit_power(
+    values: Array, covariance: Array, levels: Array, limits: SharedLimits = DEFAULT.shared
+) -> PowerOfLevel | None:
+    """Return the power of the levels (n,) that exp(values), (n,), follow, where a straight line of logarithms fits.
 
-    None for fewer than three values, equal levels, or a line that leaves something over.
+    None for fewer than three values, equal levels, or a poor fit.
     """
-    if len(values) < 3 or not np.all(levels > 0.0) or not np.max(levels) > SPREAD * np.min(levels):
+    if len(values) < 3 or not np.all(levels > 0.0) or not np.max(levels) > limits.spread * np.min(levels):
         return None
     rows = np.stack([np.ones(len(levels)), np.log(levels)])
     weighted = np.linalg.solve(covariance, rows.T)
@@ -301,76 +300,88 @@ def power_of(values: Array, covariance: Array, levels: Array) -> PowerOfLevel | 
     left = values - line @ rows
     p = float(chdtrc(len(values) - 2, max(float(left @ np.linalg.solve(covariance, left)), 0.0)))
     exponent, error = float(line[1]), math.sqrt(spread[1, 1])
-    return PowerOfLevel(exponent, error, p) if p > FITS and KNOWN * error < abs(exponent) <= STEEPEST else None
+    known = limits.exponent * error < abs(exponent) <= limits.steepest
+    return PowerOfLevel(exponent, error, p) if p > limits.fits and known else None
 
 
-def odd_one(values: Array, covariance: Array) -> int | None:
+def find_odd_recording(values: Array, covariance: Array, fits: float = DEFAULT.shared.fits) -> int | None:
     """Return the number of the only recording that differs, where the others agree; None where it is not one alone."""
     if len(values) < 3:
         return None
     rest = [np.delete(np.arange(len(values)), i) for i in range(len(values))]
-    chi2 = [homogeneity(values[kept], covariance[np.ix_(kept, kept)]) for kept in rest]
-    good = [i for i, value in enumerate(chi2) if chdtrc(len(values) - 2, value) > FITS]
+    chi2 = [compute_homogeneity(values[kept], covariance[np.ix_(kept, kept)]) for kept in rest]
+    good = [i for i, value in enumerate(chi2) if chdtrc(len(values) - 2, value) > fits]
     return good[0] if len(good) == 1 else None
 
 
-def _tests(apart: Mapping[str, SeparateFit], levels: Levels, limits: SharedLimits) -> dict[str, ComparedParameter]:
+def _test_parameters(
+    apart: Mapping[str, SeparateFit], levels: Levels, limits: SharedLimits
+) -> dict[str, ComparedParameter]:
     """Return the test of each parameter, with p-values corrected for the number of them."""
-    loose = {key: one.covariance + _tolerance(one, limits.alike) for key, one in apart.items()}
-    chi2 = {key: homogeneity(one.at, loose[key]) for key, one in apart.items()}
-    p = holm([float(chdtrc(len(apart[key].at) - 1, max(value, 0.0))) for key, value in chi2.items()])
+    loose = {key: one.covariance + _make_tolerance(one, limits.alike) for key, one in apart.items()}
+    chi2 = {key: compute_homogeneity(one.at, loose[key]) for key, one in apart.items()}
+    p = adjust_by_holm([float(chdtrc(len(apart[key].at) - 1, max(value, 0.0))) for key, value in chi2.items()])
     gains = {key: one.fit.log_likelihood for key, one in apart.items()}
     found = {}
     for (key, one), chance in zip(apart.items(), p, strict=True):
         shared = ComparedParameter(
-            key, _values(one), _common(one), chi2[key], len(one.at) - 1, chance, given=one.given, level=limits.level
+            key,
+            _list_intervals(one),
+            _compute_common(one),
+            chi2[key],
+            len(one.at) - 1,
+            chance,
+            given=one.given,
+            level=limits.level,
         )
         if not shared.holds:
             rivals = [k for k, q in zip(apart, p, strict=True) if k != key and q <= limits.level]
-            near = tuple(k for k in rivals if gains[k] > gains[key] - NEAR)
-            power = _power(one, one.covariance + _tolerance(one, VAGUE), levels)
-            odd = odd_one(one.at, loose[key]) if power is None else None
+            near = tuple(k for k in rivals if gains[k] > gains[key] - limits.instead)
+            power = _fit_power_of_level(one, one.covariance + _make_tolerance(one, limits.vague), levels, limits)
+            odd = find_odd_recording(one.at, loose[key], limits.fits) if power is None else None
             shared = replace(shared, power=power, odd=odd, instead=near)
         found[key] = shared
     return found
 
 
-def _tolerance(one: SeparateFit, share: float) -> Array:
+def _make_tolerance(one: SeparateFit, share: float) -> Array:
     """Return the covariance (recordings, recordings) of a scatter of this share of the values."""
     size = 1.0 if one.free.log else float(np.max(np.abs(one.at)))
     return np.asarray((share * size) ** 2 * np.eye(len(one.at)))
 
 
-def _power(one: SeparateFit, covariance: Array, levels: Levels) -> PowerOfLevel | None:
-    """Return how the values of a parameter go with the level; only where each is known to be other than zero."""
+def _fit_power_of_level(
+    one: SeparateFit, covariance: Array, levels: Levels, limits: SharedLimits
+) -> PowerOfLevel | None:
+    """Return the dependence of a parameter on the level; only where each value is known to differ from zero."""
     if one.free.log:
-        return power_of(one.at, covariance, np.array(levels.values))
+        return fit_power(one.at, covariance, np.array(levels.values), limits)
     sd = np.sqrt(np.diag(covariance))
     if not (np.all(one.at > 2.0 * sd) or np.all(one.at < -2.0 * sd)):
         return None
-    return power_of(np.log(np.abs(one.at)), covariance / np.outer(one.at, one.at), np.array(levels.values))
+    return fit_power(np.log(np.abs(one.at)), covariance / np.outer(one.at, one.at), np.array(levels.values), limits)
 
 
-def _values(one: SeparateFit) -> tuple[Interval, ...]:
+def _list_intervals(one: SeparateFit) -> tuple[Interval, ...]:
     """Return the value of a parameter in each recording with its 95 % interval."""
     sd = np.sqrt(np.diag(one.covariance))
-    return tuple(_interval(one.free, at, wide) for at, wide in zip(one.at.tolist(), sd.tolist(), strict=True))
+    return tuple(_make_interval(one.free, at, wide) for at, wide in zip(one.at.tolist(), sd.tolist(), strict=True))
 
 
-def _common(one: SeparateFit) -> Interval:
+def _compute_common(one: SeparateFit) -> Interval:
     """Return the best common value of a parameter with its 95 % interval."""
     weights = np.linalg.solve(one.covariance, np.ones(len(one.at)))
     total = float(np.sum(weights))
-    return _interval(one.free, float(weights @ one.at) / total, 1.0 / math.sqrt(total))
+    return _make_interval(one.free, float(weights @ one.at) / total, 1.0 / math.sqrt(total))
 
 
-def _interval(free: FreeParameter, at: float, sd: float) -> Interval:
+def _make_interval(free: FreeParameter, at: float, sd: float) -> Interval:
     """Return the interval of a parameter about a coordinate, within its bounds."""
     median, low, high = (free.value(min(max(at + z * sd, free.low), free.high)) for z in (0.0, -1.96, 1.96))
     return Interval(float(median), float(low), float(high), free.unit)
 
 
-def _best(apart: Mapping[str, SeparateFit], tests: Mapping[str, ComparedParameter]) -> SeparateFit | None:
+def _select_best(apart: Mapping[str, SeparateFit], tests: Mapping[str, ComparedParameter]) -> SeparateFit | None:
     """Return the fit that explains most among those whose values differ; None where one value holds for all."""
     differ = [one for key, one in apart.items() if not tests[key].holds and not one.given]
     return max(differ, key=lambda one: one.fit.log_likelihood, default=None)

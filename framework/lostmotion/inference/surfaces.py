@@ -1,8 +1,8 @@
-"""Forces that are learned over two things at once, or over what the motion was before.
+"""Forces that are learned over two variables, or over the history of the motion.
 
 A surface is a tensor product of the sines of two curves: a Gaussian process of reduced rank with a separable kernel
 (Solin, Särkkä, Statistics and Computing 30 (2020) 419-446). A force with a memory is a curve over a hidden state of
-first order: the stretch of a spring behind a dashpot.
+first order: the extension of a spring in series with a dashpot.
 """
 
 from __future__ import annotations
@@ -20,36 +20,36 @@ from lostmotion.inference.learned import (
     WIDER,
     DragOverPosition,
     FrictionOverPosition,
-    Learned,
+    LearnedCurve,
     OverPhase,
     OverPosition,
     OverTime,
     OverVelocity,
-    looked_up,
-    params_of,
-    spread_of,
+    compute_spectrum,
+    look_up,
+    make_params,
 )
 from lostmotion.quantities import FORCE, LENGTH, SPEED, TIME, Dimension
 
 WIDE, DEEP = 8, 6
-"""Functions along the first and along the second thing on which a force depends."""
+"""Functions along the first and along the second variable of a force."""
 
 
-def angle(at: float, middle: float, half: float) -> float:
-    """Return the angle (rad) of the first sine at a place, which stays within the range of a surface."""
+def compute_angle(at: float, middle: float, half: float) -> float:
+    """Return the angle (rad) of the first sine at a place, limited to the range of a surface."""
     return 0.5 * math.pi / WIDER * (min(max((at - middle) / half, -1.0), 1.0) + WIDER)
 
 
-def _surface(second: Dimension) -> tuple[Param, ...]:
-    """Return the parameters of a surface: those of a curve over position, and the range of what is second."""
+def _make_surface_params(second: Dimension) -> tuple[Param, ...]:
+    """Return the parameters of a surface: those of a curve over position, and the range of the second variable."""
     middle = Param("middle2", "middle of the second range of a learned surface", second)
     half = Param("half2", "half width of the second range of a learned surface", second, low=0.0, scale="log")
-    return (*params_of(WIDE * DEEP, FORCE, LENGTH), middle, half)
+    return (*make_params(WIDE * DEEP, FORCE, LENGTH), middle, half)
 
 
 @dataclass(frozen=True)
-class Surface(Learned):
-    """A force that is learned over position and something else, which go together in it."""
+class Surface(LearnedCurve):
+    """A force that is learned over position and a second variable."""
 
     wide: int = WIDE
     deep: int = DEEP
@@ -59,20 +59,20 @@ class Surface(Learned):
 
     @classmethod
     def lines(cls) -> tuple[Array, Array]:
-        """Return the angular frequencies along both things, in rad per half width of the range (or half period)."""
+        """Return the angular frequencies along both variables, in rad per half width of the range (or half period)."""
         both = (0.5 * math.pi / WIDER * np.arange(1, n + 1) for n in (WIDE, DEEP))
         first, second = (np.asarray(waves, dtype=float) for waves in both)
         return first, second
 
     @classmethod
     def spread(cls, length: float) -> Array:
-        """Return the prior standard deviation (count,) of each coefficient: those along either thing, multiplied."""
+        """Return the prior standard deviation (count,) of each coefficient: products of those along each variable."""
         first, second = cls.lines()
-        return np.asarray(np.outer(spread_of(first, length), spread_of(second, length)).ravel())
+        return np.asarray(np.outer(compute_spectrum(first, length), compute_spectrum(second, length)).ravel())
 
     @classmethod
     def along(cls, z: Array) -> Array:
-        """Return the functions (points, `DEEP`) of the second thing, in half widths from the middle of its range."""
+        """Return the functions (points, `DEEP`) of the second variable, in half widths from the middle of its range."""
         return np.asarray(np.sin(np.outer(np.clip(z, -1.0, 1.0) + WIDER, cls.lines()[1])), dtype=float)
 
     @classmethod
@@ -94,12 +94,12 @@ class OverPlane(Surface):
     formula: ClassVar[str] = "f(x, v)"
     beside: ClassVar[str] = "velocity"
     depends: ClassVar[tuple[str, ...]] = ("position", "velocity")
-    params = _surface(SPEED)
+    params = _make_surface_params(SPEED)
 
     def force(self, t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:  # type: ignore[override]
-        """Return the surface; the sines come one from another: sin kz = 2 cos z sin (k-1)z - sin (k-2)z."""
+        """Return the surface; the sines follow from a recursion: sin kz = 2 cos z sin (k-1)z - sin (k-2)z."""
         n = self.wide * self.deep
-        one, two = angle(x, p[n], p[n + 1]), angle(v, p[n + 2], p[n + 3])
+        one, two = compute_angle(x, p[n], p[n + 1]), compute_angle(v, p[n + 2], p[n + 3])
         begin, twice, also = math.sin(two), 2.0 * math.cos(one), 2.0 * math.cos(two)
         here, last, total = math.sin(one), 0.0, 0.0
         for i in range(self.wide):
@@ -114,13 +114,13 @@ class OverPlane(Surface):
 
 @dataclass(frozen=True)
 class OverPositionAndPhase(Surface):
-    """A force that depends on the position, in another way at each phase of the drive."""
+    """A force that depends on the position and on the phase of the drive."""
 
     name: ClassVar[str] = "unknown_over_position_and_phase"
     formula: ClassVar[str] = "f(x, omega t)"
     beside: ClassVar[str] = "phase"
     depends: ClassVar[tuple[str, ...]] = ("position", "phase")
-    params = _surface(TIME)
+    params = _make_surface_params(TIME)
     needs = ("omega",)
 
     @classmethod
@@ -137,7 +137,7 @@ class OverPositionAndPhase(Surface):
     def force(self, t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:  # type: ignore[override]
         """Return the surface; `p` ends with the frequency of the drive."""
         n = self.wide * self.deep
-        one = angle(x, p[n], p[n + 1])
+        one = compute_angle(x, p[n], p[n + 1])
         cosine, sine = math.cos(p[n + 4] * t), math.sin(p[n + 4] * t)
         here, last, total, twice = math.sin(one), 0.0, 0.0, 2.0 * math.cos(one)
         for i in range(self.wide):
@@ -151,8 +151,8 @@ class OverPositionAndPhase(Surface):
 
 
 @dataclass(frozen=True)
-class OverHistory(Learned):
-    """A force that depends on what the motion was before: a curve over the stretch of a spring behind a dashpot.
+class OverHistory(LearnedCurve):
+    """A force that depends on the history of the motion: a curve over the extension of a spring behind a dashpot.
 
     Its state z follows dz/dt = v - z / time: for a long time it is the position, for a short one the velocity.
     """
@@ -163,18 +163,18 @@ class OverHistory(Learned):
     depends: ClassVar[tuple[str, ...]] = ("history",)
     states = ("stretch",)
     params = (
-        *params_of(COARSE, FORCE, LENGTH),
+        *make_params(COARSE, FORCE, LENGTH),
         Param("time", "time in which a learned force forgets", TIME, low=0.0, scale="log"),
     )
 
     def force(self, t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:  # type: ignore[override]
         """Return the curve over the state."""
-        return looked_up(p, (s[0] - p[0]) * p[1], self.cells)
+        return look_up(p, (s[0] - p[0]) * p[1], self.cells)
 
     def rate(  # type: ignore[override]
         self, t: float, x: float, v: float, u: Array, p: Values, s: Values, dsdt: Array
     ) -> None:
-        """Let the state follow the motion and forget."""
+        """Return the derivative of the state: it follows the motion and decays."""
         dsdt[0] = v - s[0] / p[2]
 
     @staticmethod
@@ -185,19 +185,19 @@ class OverHistory(Learned):
         return np.asarray(lfilter([1.0], [1.0, -kept], np.concatenate([[0.0], pushed])))
 
 
-KINDS: tuple[type[Learned], ...] = (OverPosition, OverVelocity, FrictionOverPosition, DragOverPosition)
-CLOCKS: tuple[type[Learned], ...] = (OverTime, OverPhase)
-RICHER: tuple[type[Learned], ...] = (OverPlane, OverPositionAndPhase, OverHistory)
-"""Tried where curves over one thing do not suffice."""
+KINDS: tuple[type[LearnedCurve], ...] = (OverPosition, OverVelocity, FrictionOverPosition, DragOverPosition)
+CLOCKS: tuple[type[LearnedCurve], ...] = (OverTime, OverPhase)
+RICHER: tuple[type[LearnedCurve], ...] = (OverPlane, OverPositionAndPhase, OverHistory)
+"""Tried where curves over one variable do not suffice."""
 
 
-def curves_for(model: Model, *, driven: bool) -> tuple[Learned, ...]:
+def list_all_curves(model: Model, *, driven: bool) -> tuple[LearnedCurve, ...]:
     """Return every curve that can be learned in a model: of the motion at each place, of time and drive at the first.
 
     `driven` says that all recordings have a drive with one frequency.
     """
-    moving: tuple[type[Learned], ...] = (*KINDS, OverPlane, OverHistory)
-    timed: tuple[type[Learned], ...] = (*CLOCKS, OverPositionAndPhase)
+    moving: tuple[type[LearnedCurve], ...] = (*KINDS, OverPlane, OverHistory)
+    timed: tuple[type[LearnedCurve], ...] = (*CLOCKS, OverPositionAndPhase)
     own = [kind(at=place.name) for place in model.interfaces for kind in moving]
     clocks = [kind for kind in timed if driven or "omega" not in kind.needs]
     return (*own, *(kind(at=model.interfaces[0].name) for kind in clocks))

@@ -1,6 +1,7 @@
-"""Unknown is an answer: whether a learned curve explains what the library does not, or better than the library does.
+"""Unknown forces: whether a learned curve explains what the library does not, or better than the library does.
 
-Curves compete with the terms by log evidence, each at a price: a curve may bend as it likes, and pays for it.
+Curves compete with the terms by log evidence, with a price for each: a curve is flexible, and the evidence accounts for
+it.
 """
 
 from __future__ import annotations
@@ -9,31 +10,30 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
-from lostmotion.inference.candidates import slopes_of
-from lostmotion.inference.curves import CHOICES, ROUNDS, fit_curve, shape_of, transplanted
+from lostmotion.inference.candidates import compute_slopes
+from lostmotion.inference.curves import CHOICES, ROUNDS, add_all_curves, fit_curve, run_curve_test
 from lostmotion.inference.fit import Fit, maximise
-from lostmotion.inference.learned import Learned
-from lostmotion.inference.leftovers import significant_random_force
-from lostmotion.inference.natural import term_of
-from lostmotion.inference.prices import price_of
+from lostmotion.inference.learned import LearnedCurve
+from lostmotion.inference.natural import find_term
+from lostmotion.inference.penalties import compute_penalty
+from lostmotion.inference.random_force import compute_random_force_gain
 from lostmotion.inference.surfaces import RICHER
 from lostmotion.likelihood.problem import RANDOM, Problem
 
-MOST_CURVES = 2
 MOST_SAMPLES = 8000
-"""Curves are sought on so many samples, and then fitted to all."""
+"""Samples on which curves are searched; they are then fitted to all samples."""
 FITTED, RIVAL = 2, 0.7
-"""So many curves are fitted on top of each set, those that promise this share of what the best one does: a score test
-ranks covariates that go together only roughly."""
+"""The number of curves that are fitted in addition to each set, with at least this share of the best predicted gain: a
+score test ranks correlated covariates only roughly."""
 
 Progress = Callable[[str], None]
 
 
 @dataclass(frozen=True)
 class UnknownForce:
-    """A fit with learned curves: their keys, and the log odds by which it beats the best that the library has.
+    """A fit with learned curves: their keys, and the log odds over the best set of terms of the library.
 
-    `alone` says that they take the place of what the library had found.
+    `alone` says that they replace what the library had found.
     """
 
     fit: Fit
@@ -43,19 +43,19 @@ class UnknownForce:
 
     @property
     def probability(self) -> float:
-        """The posterior probability that the curves are at work."""
+        """The posterior probability of the curves."""
         return 1.0 / (1.0 + math.exp(-min(self.gain, 500.0)))
 
     @property
-    def terms(self) -> tuple[Learned, ...]:
-        """The learned terms, in the order in which they were taken."""
-        terms = [term_of(self.fit.problem, key)[0] for key in self.keys]
-        return tuple(term for term in terms if isinstance(term, Learned))
+    def terms(self) -> tuple[LearnedCurve, ...]:
+        """The learned terms, in the order in which they were selected."""
+        terms = [find_term(self.fit.problem, key)[0] for key in self.keys]
+        return tuple(term for term in terms if isinstance(term, LearnedCurve))
 
 
 @dataclass
 class Search:
-    """The course of a search: `many` candidates of the library, and the price of each set of terms and curves."""
+    """A search for curves: `many` candidates of the library, and the weight of each set of terms and curves."""
 
     many: int
     say: Progress = lambda _: None
@@ -63,7 +63,7 @@ class Search:
     learned: set[tuple[frozenset[str], bool]] = field(default_factory=set)
 
     def visit(self, fit: Fit) -> float:
-        """Note a fit and return its weight: log evidence less the price of its terms and curves."""
+        """Store a fit and return its weight: log evidence less the price of its terms and curves."""
         weight = fit.log_evidence - sum(self.price(fit.problem, key) for key in fit.problem.active)
         known = self.visits.get(fit.problem.active)
         if known is None or weight > known[1]:
@@ -71,11 +71,11 @@ class Search:
         return weight
 
     def price(self, problem: Problem, key: str) -> float:
-        """Return the log price of a term, as in the selection, or of a curve, for the smoothness that was chosen."""
-        term, _ = term_of(problem, key)
-        if isinstance(term, Learned):
+        """Return the log prior penalty of a term, as in the selection, or of a curve with its chosen smoothness."""
+        term, _ = find_term(problem, key)
+        if isinstance(term, LearnedCurve):
             return math.log(max(self.many, 1)) + 1.0 + CHOICES
-        return price_of(term, self.many, problem.settings)
+        return compute_penalty(term, self.many, problem.settings)
 
     def learn(self, fit: Fit, count: int = FITTED, *, richer: bool = False) -> None:
         """Fit the curves that promise most on top of a fit, if they promise to be decisive, and to reach the best set.
@@ -86,13 +86,13 @@ class Search:
         if (fit.problem.active, richer) in self.learned:
             return
         self.learned.add((fit.problem.active, richer))
-        slopes = slopes_of(fit)
+        slopes = compute_slopes(fit)
         shapes = []
         for key, term in zip(fit.problem.system.keys, fit.problem.system.terms, strict=True):
-            own = isinstance(term, Learned) and isinstance(term, RICHER) == richer
+            own = isinstance(term, LearnedCurve) and isinstance(term, RICHER) == richer
             if own and key not in fit.problem.active:
                 self.say(f"score test of {key}")
-                shapes.append(shape_of(fit, slopes, key))
+                shapes.append(run_curve_test(fit, slopes, key))
         short = max(weight for _, weight in self.visits.values()) - self.visits[fit.problem.active][1]
         settings = fit.problem.settings
         price = math.log(self.many) + 1.0 + CHOICES + settings.select.decisive
@@ -103,16 +103,16 @@ class Search:
             self.visit(fit_curve(fit, shape))
 
     def bare(self, fit: Fit) -> Fit:
-        """Return a fit with a richer curve without the named terms that are not decisive beside it.
+        """Return a fit with a richer curve without the named terms that are not decisive in addition to it.
 
-        Laws that had stood in for a force over two things, or with a memory, are not needed any more.
+        Laws that had imitated a force over two variables, or one with a memory, are not needed any more.
         """
-        curves = _curves(fit.problem)
-        if not any(isinstance(term_of(fit.problem, key)[0], RICHER) for key in curves):
+        curves = _list_curves(fit.problem)
+        if not any(isinstance(find_term(fit.problem, key)[0], RICHER) for key in curves):
             return fit
         for key in sorted(fit.problem.active - set(curves)):
             self.say(f"learned curves without {key}")
-            less = maximise(fit.problem.reduced(key, fit.values), rounds=2 * ROUNDS, tolerance=0.3)
+            less = maximise(fit.problem.remove_term(key, fit.values), rounds=2 * ROUNDS, tolerance=0.3)
             if self.visit(less) > self.visits[fit.problem.active][1] - fit.problem.settings.select.decisive:
                 fit = less
         return fit
@@ -120,9 +120,9 @@ class Search:
 
 @dataclass
 class CurveSearch:
-    """All that is asked of learned curves in one diagnosis, where `many` terms of the library are tried.
+    """The searches for learned curves in one diagnosis, where `many` terms of the library are tried.
 
-    What was learned on top of a nominal fit is kept: a selection asks for it early, and the end of a diagnosis again.
+    Results for a nominal fit are stored: a selection needs them early, and the end of a diagnosis again.
     """
 
     many: int
@@ -130,12 +130,12 @@ class CurveSearch:
     kept: list[tuple[Fit, Fit, Search]] = field(default_factory=list)
 
     def _begun(self, nominal: Fit) -> tuple[Fit, Search]:
-        """Return a nominal fit in a system with every curve, on samples that curves are sought on, and its search."""
+        """Return a nominal fit in a system with every curve, on the samples for the search, and its search."""
         for fit, before, search in self.kept:
             if fit is nominal:
                 return before, search
-        before = _shortened(transplanted(nominal))
-        learned = sum(isinstance(term, Learned) for term in before.problem.system.terms)
+        before = _shorten_fit(add_all_curves(nominal))
+        learned = sum(isinstance(term, LearnedCurve) for term in before.problem.system.terms)
         search = Search(self.many + learned, self.say)
         search.visit(before)
         self.kept.append((nominal, before, search))
@@ -151,52 +151,56 @@ class CurveSearch:
     def unknown(self, nominal: Fit, chosen: Fit) -> UnknownForce | None:
         """Return the learned curves that explain decisively more than the terms of the library, or None.
 
-        Curves are tried on top of the chosen terms and of the nominal model alone: where they do without the terms,
-        these are dropped, and else the names are kept.
+        Curves are tried in addition to the chosen terms and to the nominal model alone: where they do not need the
+        terms, these are dropped, and otherwise the names are kept.
         """
-        before, search = self._begun(nominal)
-        after = _shortened(transplanted(chosen)) if chosen.problem.active else before
+        (before, search), limits = self._begun(nominal), nominal.problem.settings.unknown
+        after = _shorten_fit(add_all_curves(chosen)) if chosen.problem.active else before
         bar = max(search.visits[before.problem.active][1], search.visit(after))
         search.learn(after)
         if chosen.problem.active:
             search.learn(before, 1)
-        plain = _best(search)
-        if plain is None or significant_random_force(plain) > 0.0:
+        plain = _select_best(search)
+        if plain is None or compute_random_force_gain(plain) > 0.0:
             search.learn(after, richer=True)
             search.learn(before, 1, richer=True)
-        best = _best(search)
-        if best is not None and _takes_over(best, after):
+        best = _select_best(search)
+        if best is not None and _changes_named_law(best, after):
             best = search.bare(best)
-        if best is None or _takes_over(best, after):
+        if best is None or _changes_named_law(best, after):
             return None
-        while len(_curves(best.problem)) < MOST_CURVES and significant_random_force(best) > 0.0:
+        while len(_list_curves(best.problem)) < int(limits.most_curves) and compute_random_force_gain(best) > 0.0:
             search.learn(best, 1)
-            further = _best(search, best.problem.active) or best
+            further = _select_best(search, best.problem.active) or best
             if further.problem.active == best.problem.active:
                 break
             best = further
         gain = search.visits[best.problem.active][1] - bar
-        if gain < best.problem.settings.select.decisive or not _worth(best, after) or _takes_over(best, after):
+        if (
+            gain < best.problem.settings.select.decisive
+            or not _reduces_random_force(best, after)
+            or _changes_named_law(best, after)
+        ):
             return None
-        alone = bool(chosen.problem.active) and best.problem.active == frozenset(_curves(best.problem))
+        alone = bool(chosen.problem.active) and best.problem.active == frozenset(_list_curves(best.problem))
         if chosen.problem.samples > best.problem.samples:
-            self.say("learned curves on all of the recording")
+            self.say("fit of the learned curves on all samples")
             whole = best.problem.on(chosen.problem.observations)
             best = maximise(whole, best.theta, rounds=ROUNDS, tolerance=0.3)
-        return UnknownForce(best, _curves(best.problem), gain, alone)
+        return UnknownForce(best, _list_curves(best.problem), gain, alone)
 
 
-def fewer(unknown: UnknownForce, key: str) -> UnknownForce | None:
-    """Return the learned curves without one of them, fitted anew; None where the rest explains nothing decisive."""
+def drop_curve(unknown: UnknownForce, key: str) -> UnknownForce | None:
+    """Return the learned curves without one of them, refitted; None where the rest is not decisive."""
     keys = tuple(k for k in unknown.keys if k != key)
     if not keys:
         return None
-    fit = maximise(unknown.fit.problem.reduced(key, unknown.fit.values), rounds=ROUNDS, tolerance=0.3)
+    fit = maximise(unknown.fit.problem.remove_term(key, unknown.fit.values), rounds=ROUNDS, tolerance=0.3)
     gain = unknown.gain + fit.log_evidence - unknown.fit.log_evidence
     return replace(unknown, fit=fit, keys=keys, gain=gain) if gain > fit.problem.settings.select.decisive else None
 
 
-def _shortened(fit: Fit) -> Fit:
+def _shorten_fit(fit: Fit) -> Fit:
     """Return the fit on the beginnings of its recordings where they are long: curves have dozens of coefficients."""
     observations, share = fit.problem.observations, MOST_SAMPLES / fit.problem.samples
     if share >= 1.0:
@@ -205,29 +209,29 @@ def _shortened(fit: Fit) -> Fit:
     return maximise(fit.problem.on(parts), fit.theta, rounds=ROUNDS)
 
 
-def _curves(problem: Problem) -> tuple[str, ...]:
+def _list_curves(problem: Problem) -> tuple[str, ...]:
     pairs = zip(problem.system.keys, problem.system.terms, strict=True)
-    active = {key for key, term in pairs if isinstance(term, Learned) and key in problem.active}
+    active = {key for key, term in pairs if isinstance(term, LearnedCurve) and key in problem.active}
     seen = dict.fromkeys(f.key.rpartition(".")[0] for f in problem.free)
     return tuple(key for key in seen if key in active)
 
 
-def _best(search: Search, beyond: frozenset[str] = frozenset()) -> Fit | None:
-    """Return the best fit with curves, and with all terms that it is to go `beyond`; None without any.
+def _select_best(search: Search, beyond: frozenset[str] = frozenset()) -> Fit | None:
+    """Return the best fit with curves that contains all terms in `beyond`; None without any.
 
-    One with a curve more has to be decisively better than the one without.
+    A fit with one more curve has to be decisively better than the one without.
     """
-    fits = [(f, w) for active, (f, w) in search.visits.items() if active >= beyond and _curves(f.problem)]
-    return max(fits, key=_less_curves)[0] if fits else None
+    fits = [(f, w) for active, (f, w) in search.visits.items() if active >= beyond and _list_curves(f.problem)]
+    return max(fits, key=_penalise_curves)[0] if fits else None
 
 
-def _less_curves(pair: tuple[Fit, float]) -> float:
+def _penalise_curves(pair: tuple[Fit, float]) -> float:
     fit, weight = pair
-    return weight - fit.problem.settings.select.decisive * len(_curves(fit.problem))
+    return weight - fit.problem.settings.select.decisive * len(_list_curves(fit.problem))
 
 
-def _takes_over(fit: Fit, without: Fit) -> bool:
-    """Return whether curves change the size of a named law by much: then they are its shape, and no more.
+def _changes_named_law(fit: Fit, without: Fit) -> bool:
+    """Return whether curves change the size of a named law by much: then they belong to its shape.
 
     A curve over velocity can be a part of dry friction; where the law is named, its size is to be that of the law.
     """
@@ -238,8 +242,9 @@ def _takes_over(fit: Fit, without: Fit) -> bool:
     return any(abs(new[key] - old[key]) > kept * abs(old[key]) for key in amplitudes)
 
 
-def _worth(fit: Fit, without: Fit) -> bool:
-    """Return whether curves take enough off a random force that was beyond the usual."""
+def _reduces_random_force(fit: Fit, without: Fit) -> bool:
+    """Return whether curves reduce a random force that was above the usual by enough."""
     at, then = (f.theta[f.problem.keys.index(RANDOM)] for f in (fit, without))
-    cap = without.problem.free[without.problem.keys.index(RANDOM)].mean + 2.0 * math.log(3.0)
-    return bool(then <= cap or at < then + math.log(1.0 - fit.problem.settings.select.share))
+    limits = fit.problem.settings
+    cap = without.problem.free[without.problem.keys.index(RANDOM)].mean + 2.0 * math.log(limits.unknown.usual)
+    return bool(then <= cap or at < then + math.log(1.0 - limits.select.share))

@@ -1,4 +1,4 @@
-"""Fits where no sensor shows the position: where the motion begins, and a random force that explains too much."""
+"""Fits where no sensor shows the position: initial states by smoothing, and a random force that is too large."""
 
 from __future__ import annotations
 
@@ -8,19 +8,19 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.inference.fit import Fit, Local, maximise
-from lostmotion.inference.mixture import nodes_of, root_of
-from lostmotion.likelihood.initial import placed
+from lostmotion.inference.fit import Expansion, Fit, maximise
+from lostmotion.inference.mixture import compute_nodes, compute_root
+from lostmotion.likelihood.initial import shows_place
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import RANDOM, Problem
 
 WIDER = 10.0
-"""A motion begins within so many standard deviations of what the whole recording says: that is used twice then, and
-counts for a hundredth of itself beside what it says in the fit."""
+"""A motion begins within this many standard deviations of its smoothed initial state: the recording is used twice then,
+and the first use counts for a hundredth of its information."""
 AGAIN = 3
 MOVED = 1.0
 COOLER = (0.0, 2.0, 4.0, 6.0)
-"""Random forces, in log intensity above the usual, from which a fit is begun again."""
+"""Random forces, in log intensity above the usual, from which a fit is started again."""
 GAINED = 1.0
 
 
@@ -32,14 +32,14 @@ class BodyPosition:
     sd: Array
 
 
-def place_of_body(fit: Fit, observation: Observation) -> BodyPosition:
-    """Return where the body was during a recording, by smoothing over the posterior about a fit.
+def smooth_body_position(fit: Fit, observation: Observation) -> BodyPosition:
+    """Return the position of the body during a recording, by smoothing over the posterior about a fit.
 
-    The level of the random force, which lets a position drift, is integrated on a grid; how the other parameters move
-    the position is taken for straight within their deviations. Infinite deviations where no smoother gets through.
+    The level of the random force, which lets a position drift, is integrated on a grid; the position is linearised in
+    the other parameters within their deviations. Infinite deviations where every smoother diverges.
     """
     problem = fit.problem.on((observation,))
-    nodes = nodes_of(fit)
+    nodes = compute_nodes(fit)
     means, variances, weights = [], [], []
     for node in nodes:
         seen = problem.smooth(node.local.theta)
@@ -53,51 +53,54 @@ def place_of_body(fit: Fit, observation: Observation) -> BodyPosition:
     mean = share @ np.array(means)
     variance = share @ (np.array(variances) + (np.array(means) - mean) ** 2)
     return BodyPosition(
-        mean, np.sqrt(variance + _shifted(problem, nodes[int(np.argmax([n.weight for n in nodes]))].local))
+        mean,
+        np.sqrt(
+            variance + _compute_parameter_variance(problem, nodes[int(np.argmax([n.weight for n in nodes]))].local)
+        ),
     )
 
 
-def _shifted(problem: Problem, local: Local) -> Array:
+def _compute_parameter_variance(problem: Problem, local: Expansion) -> Array:
     """Return the variance (samples,) that unknown parameters add to the position at one level of the random force."""
     at = problem.smooth(local.theta).states[:, 0]
     total = np.zeros_like(at)
     held = np.array([key == RANDOM for key in problem.keys])
-    for way in root_of(local).T:
+    for way in compute_root(local).T:
         seen = problem.smooth(problem.clip(local.theta + np.where(held, 0.0, way)))
         if seen.innovations.finite.all():
             total += (seen.states[:, 0] - at) ** 2
     return total
 
 
-def blind(problem: Problem) -> bool:
-    """Return whether there is a recording of which no sensor shows a position."""
-    return not all(placed(observation) for observation in problem.observations)
+def lacks_position(problem: Problem) -> bool:
+    """Return whether there is a recording in which no sensor shows a position."""
+    return not all(shows_place(observation) for observation in problem.observations)
 
 
-def with_less_random_force(fit: Fit) -> Fit:
-    """Return the fit where no sensor shows the position: begun where the recording says, and with less random force.
+def refit_without_position(fit: Fit) -> Fit:
+    """Return the fit where no sensor shows the position: with smoothed initial states, and with less random force.
 
-    Other fits are returned as they are.
+    Other fits are returned unchanged.
     """
-    if not blind(fit.problem) or fit.status == "diverged":
+    if not lacks_position(fit.problem) or fit.status == "diverged":
         return fit
-    return cooled(begun(cooled(begun(fit))))
+    return reduce_random_force(refit_start(reduce_random_force(refit_start(fit))))
 
 
-def begun(fit: Fit) -> Fit:
-    """Return the fit from where the recording says that its motion began, found by smoothing, again until it stands.
+def refit_start(fit: Fit) -> Fit:
+    """Return the fit with the initial state from smoothing, repeated until it converges.
 
-    Position and velocity at the first sample are anywhere in the motion. Spread so wide, a filter through a gap or a
-    cubic spring takes a straight line for a force that bends, and is wrong for long after. So the recording is
-    smoothed back to its first sample, and the filter begins there (an iterated smoother: Bell, SIAM J. Optimization 4
-    (1994) 626-636).
+    Position and velocity at the first sample may be anywhere in the motion. With such a wide prior, a filter through a
+    gap or a cubic spring linearises a force that bends, and is wrong for long after. So the recording is smoothed back
+    to its first sample, and the filter begins there (an iterated smoother: Bell, SIAM J. Optimization 4 (1994)
+    626-636).
     """
-    if not blind(fit.problem):
+    if not lacks_position(fit.problem):
         return fit
     for _ in range(AGAIN):
         observations, far = [], 0.0
         for i, observation in enumerate(fit.problem.observations):
-            found, moved = _begun(fit, observation, i)
+            found, moved = _smooth_start(fit, observation, i)
             observations.append(found)
             far = max(far, moved)
         problem = fit.problem.on(tuple(observations))
@@ -110,9 +113,9 @@ def begun(fit: Fit) -> Fit:
     return fit
 
 
-def _begun(fit: Fit, observation: Observation, index: int) -> tuple[Observation, float]:
-    """Return an observation with what is known of its first states, and how many deviations these have moved."""
-    if placed(observation):
+def _smooth_start(fit: Fit, observation: Observation, index: int) -> tuple[Observation, float]:
+    """Return an observation with its smoothed initial states, and their change in standard deviations."""
+    if shows_place(observation):
         return observation, 0.0
     problem, n = fit.problem, len(fit.problem.system.model.states)
     wide = problem.on(tuple(replace(o, begun=None) for o in problem.observations)).points(fit.theta[None], index)
@@ -124,19 +127,21 @@ def _begun(fit: Fit, observation: Observation, index: int) -> tuple[Observation,
     sd = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
     prior = wide.covariance[0, :n, :n]
     unit = np.sqrt(np.diag(prior))
-    shared = np.linalg.inv(np.eye(n) + np.linalg.inv(_scaled(covariance, unit) * WIDER**2 + 1e-12 * np.eye(n)))
+    shared = np.linalg.inv(
+        np.eye(n) + np.linalg.inv(_scale_covariance(covariance, unit) * WIDER**2 + 1e-12 * np.eye(n))
+    )
     return replace(observation, begun=(mean, shared * np.outer(unit, unit))), float(np.max(np.abs(mean - before) / sd))
 
 
-def _scaled(covariance: Array, unit: Array) -> Array:
+def _scale_covariance(covariance: Array, unit: Array) -> Array:
     return covariance / np.outer(unit, unit)
 
 
-def cooled(fit: Fit) -> Fit:
-    """Return the best of fits that begin at this one with less random force, again as long as that gains.
+def reduce_random_force(fit: Fit) -> Fit:
+    """Return the best of fits that begin at this one with less random force, repeated as long as that gains.
 
-    An accelerometer sees the random force of the moment. So one that is large explains whatever it shows, at any
-    parameters, and a search stops at one of many maxima where it does.
+    An accelerometer sees the random force of the moment. So a large one explains any readings, at any parameters, and a
+    search stops at one of many maxima there.
     """
     if fit.problem.dynamics.random != "held":
         return fit

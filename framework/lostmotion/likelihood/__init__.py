@@ -1,5 +1,5 @@
-"""The likelihood of recordings: what measures, what is free, and the engines that filter many points at once.
+"""The likelihood of recordings: sensors, free parameters, and the engines that filter many parameter points at once.
 
-`Sensor` and `Observation` say what was measured, `ParameterSpace` what is to be estimated, `System` what moves, and an
-`Engine` returns one-step errors; `Problem` puts them together into the posterior density that fits and samplers see.
+`Sensor` and `Observation` describe what was measured, `ParameterSpace` what is estimated and `System` the model with
+its terms. An `Engine` returns innovations. `Problem` combines them into the posterior density for fits and samplers.
 """

@@ -1,4 +1,4 @@
-"""What acts in place of a recorded input, once terms of the drive and delays of a sensor have had their way."""
+"""The input that acts in place of a recorded one, after terms of the drive and delays of a sensor are applied."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ class Recorded:
         return self.columns[order](t)
 
 
-def of_order(u: Input, order: int, t: Array) -> Array:
-    """Return the input of some order at times (s)."""
+def evaluate_order(u: Input, order: int, t: Array) -> Array:
+    """Return the input of an order (0 value, 1 derivative) at times (s)."""
     return u(t, order)
 
 
-def through(term: DriveTerm | SensorTerm, u: Input, p: tuple[float, ...], since: float) -> Input:
-    """Return an input after one term, from a time (s) on; a sensor that is late sees what an earlier input has done."""
+def apply_term(term: DriveTerm | SensorTerm, u: Input, p: tuple[float, ...], since: float) -> Input:
+    """Return an input after one term that acts from `since` (s) on; a late sensor shows the effect of earlier input."""
     if isinstance(term, DriveTerm):
         if since <= ALWAYS:
             return lambda t, order: term.true(u, t, p, order)

@@ -1,4 +1,4 @@
-"""Points that are filtered together: equal ones once, those whose sensors are late alike, and put together again."""
+"""Batches of points: equal points are filtered once, points with the same sensor delays together."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from lostmotion.contracts import Array
 from lostmotion.likelihood.engine import Innovations
 
 
-def realigned(found: Innovations, late: Sequence[int]) -> Innovations:
-    """Return innovations in the order of the readings, of which those of sensor i came `late[i]` samples early."""
+def realign(found: Innovations, late: Sequence[int]) -> Innovations:
+    """Return innovations in the order of the readings, where those of sensor i came `late[i]` samples early."""
     errors, variances = found.errors.copy(), found.variances.copy()
     for sensor, lag in enumerate(late):
         errors[..., sensor] = np.roll(errors[..., sensor], lag, axis=1)
@@ -22,16 +22,16 @@ def realigned(found: Innovations, late: Sequence[int]) -> Innovations:
     return replace(found, errors=errors, variances=variances)
 
 
-def grouped(rows: NDArray[np.intp], views: Sequence[tuple[Any, ...]]) -> list[NDArray[np.intp]]:
-    """Return the rows in groups that see the readings alike: moved by the same whole samples, and put right alike."""
+def group_rows(rows: NDArray[np.intp], views: Sequence[tuple[Any, ...]]) -> list[NDArray[np.intp]]:
+    """Return the rows in groups with the same view of the readings: equal shifts and equal corrections."""
     groups: dict[tuple[Any, ...], list[int]] = {}
     for row, shift in zip(rows.tolist(), views, strict=True):
         groups.setdefault(shift, []).append(row)
     return [np.array(some, dtype=np.intp) for some in groups.values()]
 
 
-def distinct(used: Array) -> tuple[NDArray[np.intp], NDArray[np.intp] | None]:
-    """Return the first row of each distinct one of `used` (points, n), and which one each point is; None if its own."""
+def find_distinct(used: Array) -> tuple[NDArray[np.intp], NDArray[np.intp] | None]:
+    """Return the first of each set of equal rows of `used` (points, n), and that of each point; None if all differ."""
     _, rows, inverse = np.unique(used, axis=0, return_index=True, return_inverse=True)
     if len(rows) == len(used):
         return np.arange(len(used)), None
@@ -41,8 +41,8 @@ def distinct(used: Array) -> tuple[NDArray[np.intp], NDArray[np.intp] | None]:
     return rows[order], place[inverse.reshape(-1)]
 
 
-def joined(parts: Sequence[Innovations]) -> Innovations:
-    """Return innovations at the points of all parts, one after the other."""
+def join_innovations(parts: Sequence[Innovations]) -> Innovations:
+    """Return the innovations of all parts, one after the other."""
     errors, variances, finite = (
         np.concatenate([getattr(p, name) for p in parts]) for name in ("errors", "variances", "finite")
     )

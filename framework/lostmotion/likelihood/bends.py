@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 ROUNDS = 30
 CLOSE, NUDGE = 1e-10, 1e-6
-"""A reading is put right to this share of its range; slopes are taken over this share of it."""
+"""A reading is corrected to this share of its range; slopes are differences over this share of it."""
 
 
 class Bend(NamedTuple):
@@ -33,15 +33,15 @@ class Bend(NamedTuple):
 
 
 class Corrections(NamedTuple):
-    """What has to be undone in the readings of a recording: nonlinear sensors, and the changes of each sensor."""
+    """The corrections of the readings of a recording: nonlinear sensors, and the changes of each sensor."""
 
     bends: tuple[Bend, ...] = ()
     changes: tuple[tuple[SensorChange, ...], ...] = ()
 
 
-def corrections_of(system: System, active: frozenset[str], full: Array, sensors: Sequence[Sensor]) -> Corrections:
-    """Return the corrections that the active terms of a system ask for at a full vector (parameters,)."""
-    if not active & {*system.bending, *system.rescaling}:
+def list_corrections(system: System, active: frozenset[str], full: Array, sensors: Sequence[Sensor]) -> Corrections:
+    """Return the corrections for the active terms of a system at a full vector (parameters,)."""
+    if not active & {*system.bending_terms, *system.rescaling}:
         return Corrections()
     bends = tuple(
         Bend(s, term, p)
@@ -53,11 +53,11 @@ def corrections_of(system: System, active: frozenset[str], full: Array, sensors:
     return Corrections(bends, changes if any(changes) else ())
 
 
-def correct(seen: Observation, corrections: Corrections) -> tuple[Observation, Array | None]:
+def correct_readings(seen: Observation, corrections: Corrections) -> tuple[Observation, Array | None]:
     """Return an observation with its readings corrected, and the slopes (samples, sensors) of that; None without."""
     if not any(corrections):
         return seen, None
-    seen, slopes = unbent(seen, corrections.bends)
+    seen, slopes = correct_bends(seen, corrections.bends)
     readings, time = seen.readings.copy(), seen.time
     for sensor, changes in enumerate(corrections.changes):
         for change in reversed(changes):
@@ -66,10 +66,10 @@ def correct(seen: Observation, corrections: Corrections) -> tuple[Observation, A
     return replace(seen, readings=readings), slopes
 
 
-def unbent(seen: Observation, bends: Sequence[Bend]) -> tuple[Observation, Array]:
-    """Return an observation with its readings put right, and by how much they grow (samples, sensors) as they change.
+def correct_bends(seen: Observation, bends: Sequence[Bend]) -> tuple[Observation, Array]:
+    """Return an observation with corrected readings, and the slopes (samples, sensors) of readings over true values.
 
-    What is right is looked for by x = z - (bent(x) - x), again and again, damped by the slope.
+    The true value x of a reading z is found by the iteration x = z - (bent(x) - x), damped by the slope.
     """
     slopes = np.ones(seen.readings.shape)
     if not bends:
@@ -83,23 +83,23 @@ def unbent(seen: Observation, bends: Sequence[Bend]) -> tuple[Observation, Array
         x = z.copy()
         for _ in range(ROUNDS):
             miss = term.bent(x, p) - z
-            x = x - miss / _slope(term, x, p, size)
+            x = x - miss / _compute_slope(term, x, p, size)
             if not np.nanmax(np.abs(miss), initial=0.0) > CLOSE * size:
                 break
-        readings[:, sensor], slopes[:, sensor] = x, slopes[:, sensor] / _slope(term, x, p, size)
+        readings[:, sensor], slopes[:, sensor] = x, slopes[:, sensor] / _compute_slope(term, x, p, size)
     return replace(seen, readings=readings), slopes
 
 
-def _slope(term: SensorTerm, x: Array, p: Values, size: float) -> Array:
-    """Return by how much more a sensor shows (samples,) where it should show a little more."""
+def _compute_slope(term: SensorTerm, x: Array, p: Values, size: float) -> Array:
+    """Return the slope (samples,) of the reading of a sensor over the true value."""
     step = NUDGE * size
     return np.maximum((term.bent(x + step, p) - term.bent(x - step, p)) / (2.0 * step), FLATTEST)
 
 
-def stretched(found: Innovations, slopes: Array) -> Innovations:
-    """Return innovations of readings that were put right as those of the readings themselves, which are wider.
+def rescale_innovations(found: Innovations, slopes: Array) -> Innovations:
+    """Return the innovations of corrected readings in the scale of the readings themselves.
 
-    The likelihood is then the density of what the sensors have shown, whatever bends them.
+    The likelihood is then the density of the readings, for any nonlinearity of the sensors.
     """
     kept = np.where(np.isfinite(slopes), slopes, 1.0)
     read = found.errors != 0.0

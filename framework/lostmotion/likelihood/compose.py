@@ -1,9 +1,9 @@
-"""The kernels of a model and of its laws: source text is written, kept in a cache folder, and compiled once.
+"""The kernels of a model and of its laws: source text is written, cached in a folder, and compiled once.
 
-A model is compiled without any law: its kernel calls those laws that are active by their addresses, which stand in the
-wires. Each law is a kernel of its own that knows nothing of the model, and is compiled once for all models and places.
-So one compilation serves each subset of the terms, and a new model costs no compilation of the library. The points are
-the innermost loop of both, which the compiler turns into vector instructions. The same text runs as plain Python.
+A model is compiled without any law: its kernel calls the active laws by their addresses, which are in the wires. Each
+law is a kernel of its own, independent of the model, and is compiled once for all models and places. So one compilation
+serves every subset of the terms, and a new model needs no compilation of the library. The points are the innermost loop
+of both, which the compiler turns into vector instructions. The same text runs as plain Python.
 """
 
 from __future__ import annotations
@@ -18,17 +18,17 @@ from numba import types
 
 from lostmotion.kernels import plain, vector, windows
 from lostmotion.kernels.vector import BARE
-from lostmotion.likelihood.adopted import adopted, defined, fingerprint, kept_as, with_clear_errors
+from lostmotion.likelihood.adopted import adopt_function, compute_fingerprint, define_module, explain_errors, store_text
 from lostmotion.likelihood.plan import Blueprint, Law
 
 FIRST = 11
-"""Where the wires tell how many forces and how many sensors act; then where the table of each of these begins."""
+"""Position in the wires of the number of forces and the number of sensor laws; then the offset of each table."""
 X, V, PUSH, STATES = 1, 2, 3, 4
-"""Rows of the desk of a law."""
+"""Rows of the desk of a law: position, velocity, force and first state."""
 HEAD = 7
-"""Entries of the table of a law in front of its copies: address, number, place, own row, onset row, copies, returns."""
+"""Entries of the table of a law before its copies: address, number, place, own row, onset row, copies, returns."""
 SENSOR = -1
-"""The place of a law that moves the states of a sensor."""
+"""The place of a law that integrates the states of a sensor."""
 
 _OFFERED = ("value", "assign", "load", "store", "larger", "select", "WIDTH")
 _KERNEL = types.void(windows.BLOCK, windows.NUMBERS, types.intp)
@@ -39,7 +39,7 @@ _LAW = types.void(windows.BLOCK, windows.BLOCK, types.intp)
 class Functions:
     """The functions of a model as an engine calls them: addresses of compiled ones, or plain Python.
 
-    `derive(block, wires, lanes)` writes derivatives of the states, `observe` then what the sensors see.
+    `derive(block, wires, lanes)` writes the derivatives of the states, `observe` then the channels.
     """
 
     derive: Any
@@ -47,14 +47,14 @@ class Functions:
     held: tuple[Any, ...] = ()
 
 
-def _pushed(plan: Blueprint, row: int, inertia: int, push: str) -> str:
-    """Return the line that adds what a force does to the derivatives of one body."""
+def _write_push(plan: Blueprint, row: int, inertia: int, push: str) -> str:
+    """Return the line that adds the effect of a force to the derivatives of one body."""
     target, inverse = plan.rows.derivatives + row, plan.inverse(inertia)
     return f"            store(block, {target}, o, load(block, {target}, o) + {push} * load(block, {inverse}, o))"
 
 
-def _place_lines(index: int, plan: Blueprint) -> tuple[list[str], list[str]]:
-    """Return the lines that tell a law the motion at a place, and those that hand its force to the bodies there."""
+def _write_place(index: int, plan: Blueprint) -> tuple[list[str], list[str]]:
+    """Return the lines that give a law the motion at a place, and those that apply its force to the bodies there."""
     place, rows = plan.places[index], plan.rows
     lever = "" if place.lever is None else f"(block, {rows.params + place.lever}, "
     moved = f"column(block, {rows.states}, l, {plan.states}), u{lever and f', value{lever}l)'}"
@@ -73,29 +73,29 @@ def _place_lines(index: int, plan: Blueprint) -> tuple[list[str], list[str]]:
         f"            begun = larger(0.5 + 0.5 * since / load(block, {rows.step}, o), 0.0)",
         "            begun = select(begun > 1.0, 1.0, begun)",
         f"            push = begun * load(block, {rows.desk + PUSH}, o)",
-        _pushed(plan, place.row, place.inertia, "push"),
+        _write_push(plan, place.row, place.inertia, "push"),
     ]
     if place.against:
         share = f"-1.0 * push * load{lever}o)" if lever else "-1.0 * push"
-        after.append(_pushed(plan, *place.against, share))
+        after.append(_write_push(plan, *place.against, share))
     return before, after
 
 
-def _latent_lines(index: int, plan: Blueprint) -> list[str]:
-    """Return the lines that let a force push one body which is a state of its own, where there is one."""
+def _write_latent(index: int, plan: Blueprint) -> list[str]:
+    """Return the lines for a latent force on one body, which is a state of its own."""
     rows, body = plan.rows, plan.bodies[index]
     return [
         f"    latent = wires[{FIRST + 2 + index}]",
         "    if latent >= 0:",
         "        for o in range(0, lanes, WIDTH):",
         f"            push = load(block, {rows.states} + latent, o)",
-        _pushed(plan, body.row, body.inertia, "push"),
+        _write_push(plan, body.row, body.inertia, "push"),
         f"            store(block, {rows.derivatives} + latent, o, -1.0 * load(block, {rows.pace}, o) * push)",
     ]
 
 
-def _model_arguments(plan: Blueprint, dydt: str) -> str:
-    """Return what the functions of a model are told, with `dydt` behind the states."""
+def _write_arguments(plan: Blueprint, dydt: str) -> str:
+    """Return the arguments of the functions of a model, with `dydt` after the states."""
     rows = plan.rows
     return (
         f"value(block, 0, l), column(block, {rows.states}, l, {plan.states}), {dydt}"
@@ -103,21 +103,21 @@ def _model_arguments(plan: Blueprint, dydt: str) -> str:
     )
 
 
-def _observe_lines(plan: Blueprint) -> list[str]:
-    """Return the lines that write what the sensors of a model see, one step further in."""
+def _write_observe(plan: Blueprint) -> list[str]:
+    """Return the lines that write the channels of a model, indented by one more level."""
     slopes = f"column(block, {plan.rows.derivatives}, l, {plan.states})"
     return [
         "    for l in range(lanes):",
         f"        seen = column(block, {plan.rows.channels}, l, {plan.channels})",
-        f"        model_observe({_model_arguments(plan, slopes + ', ')}, seen)",
+        f"        model_observe({_write_arguments(plan, slopes + ', ')}, seen)",
     ]
 
 
-def model_text(plan: Blueprint) -> str:
+def write_model(plan: Blueprint) -> str:
     """Return the source of a model that calls its laws, for many points at once."""
     rows, tables = plan.rows, FIRST + 2 + len(plan.bodies)
     slopes = f"column(block, {rows.derivatives}, l, {plan.states})"
-    both = [_place_lines(i, plan) for i in range(len(plan.places))]
+    both = [_write_place(i, plan) for i in range(len(plan.places))]
     lines = [
         '"""Written by lostmotion.likelihood.compose: a model that calls its laws, at many points at once."""',
         "",
@@ -142,14 +142,14 @@ def model_text(plan: Blueprint) -> str:
         "def derive(block, wires, lanes):",
         "    failed = 0",
         "    for l in range(lanes):",
-        f"        model_rhs({_model_arguments(plan, '')}, {slopes})",
+        f"        model_rhs({_write_arguments(plan, '')}, {slopes})",
         "    for o in range(0, lanes, WIDTH):",
         f"        store(block, {rows.desk}, o, load(block, 0, o))",
         f"    for i in range(wires[{FIRST}]):",
         f"        failed |= apply_law(block, wires, wires[{tables} + i], lanes)",
-        *(line for i in range(len(plan.bodies)) for line in _latent_lines(i, plan)),
+        *(line for i in range(len(plan.bodies)) for line in _write_latent(i, plan)),
         f"    if wires[{FIRST + 1}] > 0:",
-        *(f"    {line}" for line in _observe_lines(plan)),
+        *(f"    {line}" for line in _write_observe(plan)),
         f"    for i in range(wires[{FIRST}], wires[{FIRST}] + wires[{FIRST + 1}]):",
         f"        failed |= apply_law(block, wires, wires[{tables} + i], lanes)",
         "    if failed != 0:",
@@ -157,13 +157,13 @@ def model_text(plan: Blueprint) -> str:
         "",
         "@kernel",
         "def observe(block, wires, lanes):",
-        *_observe_lines(plan),
+        *_write_observe(plan),
     ]
     return "\n".join(lines) + "\n"
 
 
-def law_text(law: Law, inputs: int) -> str:
-    """Return the source of a law at many points at once, which is handed its own numbers and its desk."""
+def write_law(law: Law, inputs: int) -> str:
+    """Return the source of a law for many points at once; it reads its own numbers and its desk."""
     own = "(" + "".join(f"value(own, {a}, l), " for a in range(law.width)) + ")"
     if law.prepared:
         own = f"column(own, 0, l, {law.width})"
@@ -186,66 +186,68 @@ def law_text(law: Law, inputs: int) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _model_parts(plan: Blueprint) -> dict[str, Callable[..., Any]]:
+def _list_model_parts(plan: Blueprint) -> dict[str, Callable[..., Any]]:
     """Return the functions of a model under the names they have in its text."""
     motions = {f"motion_{i}": place.motion for i, place in enumerate(plan.places)}
     return {"model_rhs": plan.rhs, "model_observe": plan.observe, **motions}
 
 
-def _parts(law: Law) -> dict[str, Callable[..., Any]]:
+def _list_parts(law: Law) -> dict[str, Callable[..., Any]]:
     """Return the functions of a law under the names they have in its text."""
     force = {"force": law.force} if law.channel is None else {}
     return {**force, **({"rate": law.rate} if law.states else {})}
 
 
-def _compiled(text: str, parts: Mapping[str, Any], numbers: Mapping[str, Any], signature: Any) -> dict[str, Any]:
-    """Return the kernels of a text, compiled or from the cache, by name."""
-    also = "".join(f"{name}{fingerprint(part)}" for name, part in sorted(parts.items())) + repr(numbers)
-    path = kept_as(text, also)
-    given = {name: adopted(part, path.stem) for name, part in parts.items()}
+def _compile_text(text: str, parts: Mapping[str, Any], numbers: Mapping[str, Any], signature: Any) -> dict[str, Any]:
+    """Return the kernels of a text by name, compiled or from the cache."""
+    also = "".join(f"{name}{compute_fingerprint(part)}" for name, part in sorted(parts.items())) + repr(numbers)
+    path = store_text(text, also)
+    given = {name: adopt_function(part, path.stem) for name, part in parts.items()}
     offered = {name: getattr(vector, name) for name in _OFFERED}
     offered |= {"column": windows.column, "offset_rows": windows.offset_rows, "invoke_law": windows.invoke_law}
     kernel = numba.njit(signature, **BARE, cache=True)
     part = numba.njit(**BARE)
-    space = with_clear_errors(defined)(text, str(path), {**given, **numbers, **offered, "kernel": kernel, "part": part})
+    space = explain_errors(define_module)(
+        text, str(path), {**given, **numbers, **offered, "kernel": kernel, "part": part}
+    )
     kernels = {name: getattr(made, "overloads", {}) for name, made in space.items()}
     return {name: made[signature.args] for name, made in kernels.items() if signature.args in made}
 
 
-def _address(made: Any) -> int:
+def _find_address(made: Any) -> int:
     return int(made.library.get_pointer_to_function(made.fndesc.llvm_func_name))
 
 
 @cache  # wires hold addresses alone: what stands there has to stay
-def law_kernel(law: Law, inputs: int) -> tuple[int, Any]:
-    """Return where the compiled kernel of a law stands in memory, and what keeps it there."""
+def compile_law(law: Law, inputs: int) -> tuple[int, Any]:
+    """Return the address of the compiled kernel of a law, and the object that keeps it in memory."""
     numbers = {"fields": law.fields} if law.fields else {}
-    made = _compiled(law_text(law, inputs), _parts(law), numbers, _LAW)["law"]
-    return _address(made), made
+    made = _compile_text(write_law(law, inputs), _list_parts(law), numbers, _LAW)["law"]
+    return _find_address(made), made
 
 
-def _plain_law(law: Law, inputs: int) -> Callable[..., Any]:
+def _define_plain_law(law: Law, inputs: int) -> Callable[..., Any]:
     """Return a law as plain Python."""
-    space = {**_parts(law), "fields": law.fields, **plain.SPACE, "kernel": plain.jit}
-    return with_clear_errors(defined(law_text(law, inputs), "<slow twin of a law>", space)["law"])
+    space = {**_list_parts(law), "fields": law.fields, **plain.SPACE, "kernel": plain.jit}
+    return explain_errors(define_module(write_law(law, inputs), "<slow twin of a law>", space)["law"])
 
 
 @lru_cache(maxsize=64)
-def functions(plan: Blueprint) -> Functions:
-    """Return the compiled functions of a model for many points at once; they serve whatever laws it may have."""
-    made = _compiled(model_text(plan), _model_parts(plan), {}, _KERNEL)
-    return Functions(_address(made["derive"]), _address(made["observe"]), tuple(made.values()))
+def compile_functions(plan: Blueprint) -> Functions:
+    """Return the compiled functions of a model for many points at once, for any of its laws."""
+    made = _compile_text(write_model(plan), _list_model_parts(plan), {}, _KERNEL)
+    return Functions(_find_address(made["derive"]), _find_address(made["observe"]), tuple(made.values()))
 
 
 @lru_cache(maxsize=64)
-def plain_functions(plan: Blueprint) -> Functions:
-    """Return the functions of a model with its laws as plain Python: the slow twin of all that is compiled."""
-    laws = [_plain_law(law, plan.inputs_of(law)) for law in plan.laws]
+def define_plain_functions(plan: Blueprint) -> Functions:
+    """Return the functions of a model with its laws as plain Python, equivalent to the compiled ones."""
+    laws = [_define_plain_law(law, plan.inputs_of(law)) for law in plan.laws]
 
     def invoke_law(wires: Any, at: int, own: Any, desk: Any, lanes: int) -> int:
         laws[wires[at + 1]](own, desk, lanes)
         return 0
 
-    given = {**_model_parts(plan), **plain.SPACE, "invoke_law": invoke_law, "kernel": plain.jit, "part": plain.jit}
-    space = defined(model_text(plan), "<slow twin>", given)
-    return Functions(with_clear_errors(space["derive"]), with_clear_errors(space["observe"]))
+    given = {**_list_model_parts(plan), **plain.SPACE, "invoke_law": invoke_law, "kernel": plain.jit, "part": plain.jit}
+    space = define_module(write_model(plan), "<slow twin>", given)
+    return Functions(explain_errors(space["derive"]), explain_errors(space["observe"]))

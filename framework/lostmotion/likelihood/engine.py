@@ -1,4 +1,4 @@
-"""What an engine is handed and what it returns: plain arrays, many parameter points at once."""
+"""The arguments and results of an engine: plain arrays for many parameter points at once."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ from lostmotion.likelihood.system import System
 Random = Literal["white", "held", "latent"]
 """How the random force acts: white; held over each sample, where a sensor sees it at once; or with a memory."""
 RUNAWAY = 1e12
-"""A filter ran away where its errors are so many of their own deviations (rms). It was unstable, so neither its errors
-nor their differences mean anything, and the squares of their derivatives overflow."""
+"""A filter has diverged where the rms of its standardised innovations exceeds this. Its errors and their differences
+are then meaningless, and the squares of their derivatives overflow."""
 
 
 @dataclass(frozen=True)
 class Dynamics:
-    """What moves: a system with those terms that are active, integrated in at most `nsub` steps to a sample.
+    """A system with its active terms, integrated in at most `nsub` steps to a sample.
 
-    A random force pushes each body; one with a memory (`latent`) the first body alone. Of the latter two each force is
-    a state of its own, behind those of model and terms.
+    A random force acts on each body; one with a memory (`latent`) on the first body alone. With `held` and `latent`
+    each force is a state of its own, after those of model and terms.
     """
 
     system: System
@@ -49,13 +49,12 @@ class Dynamics:
 class Points:
     """Parameter points for one observation; the first axis of each array runs over them.
 
-    `params` (points, parameters) are in the order of `System.slots`; `process` is the intensity (N^2 s, N^2 m^2 s) of
-    the random force and `pace` (1/s) how fast a latent one fades; for each sensor, (points, sensors), `white` and
-    `slow` are the variances of white noise and of noise with a memory, of which the share `fade` is left after a
-    sample, `gain` and `offset` what the sensor makes of its channel, and `lag` (s) by how much it is late: a part of a
-    sample, either way. The states of model and terms begin at `mean`
-    (points, n) with `covariance` (points, n, n). `drives` are what drives them, `which` (points,) of them each point,
-    and `first` (points,) the sample of its drive at which a simulation begins.
+    `params` (points, parameters) are in the order of `System.slots`. `process` is the intensity (N^2 s, N^2 m^2 s) of
+    the random force and `pace` (1/s) the decay rate of a latent one. For each sensor, (points, sensors): `white` and
+    `ar1` are the variances of white and of AR(1) noise, `ar1_share` is the AR(1) coefficient per sample, `gain` and
+    `offset` relate the reading to the channel, and `lag` (s) is its delay within half a sample either way. The states
+    of model and terms begin at `mean` (points, n) with `covariance` (points, n, n). `drives` are the inputs, `which`
+    (points,) the one of each point, and `first` (points,) the sample of its drive at which a simulation begins.
     """
 
     params: Array
@@ -76,7 +75,7 @@ class Points:
     def __len__(self) -> int:
         return len(self.params)
 
-    def taken(self, rows: Any) -> Points:
+    def select(self, rows: Any) -> Points:
         """Return some of the points: a slice, or an array of their numbers."""
         arrays = {f.name: getattr(self, f.name)[rows] for f in fields(self) if f.name != "drives"}
         return replace(self, **arrays)
@@ -84,10 +83,10 @@ class Points:
 
 @dataclass(frozen=True)
 class Innovations:
-    """One-step errors and their variances, and which points got through all samples without running away.
+    """One-step errors and their variances, and which points were filtered over all samples without divergence.
 
-    Of an engine both are (points, samples, sensors) and `finite` is (points,); where nothing was read the error is 0
-    and the variance 1 / (2 pi), which adds nothing. `reached` counts the samples that were got through.
+    From an engine both are (points, samples, sensors) and `finite` is (points,); where nothing was read the error is 0
+    and the variance 1 / (2 pi), which adds nothing. `reached` counts the samples that were computed.
     """
 
     errors: Array
@@ -97,14 +96,14 @@ class Innovations:
 
     @classmethod
     def of(cls, errors: Array, variances: Array, reached: NDArray[np.int64]) -> Innovations:
-        """Return the innovations of an engine, which has got through so many samples at each point."""
+        """Return the innovations of an engine that computed `reached` samples at each point."""
         with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
             kept = np.sum(errors * errors / variances, axis=(1, 2)) <= RUNAWAY**2 * errors.shape[1]
         return cls(errors, variances, (reached == errors.shape[1]) & kept, reached)
 
     @property
     def log_likelihood(self) -> Any:
-        """The log-likelihood by its one-step errors, (points,) or one number; minus infinity after a divergence."""
+        """The log-likelihood from the innovations, (points,) or one number; minus infinity after a divergence."""
         axes = tuple(range(np.ndim(self.finite), self.errors.ndim))
         with np.errstate(all="ignore"):
             told = -0.5 * np.sum(self.errors**2 / self.variances + np.log(2.0 * np.pi * self.variances), axis=axes)
@@ -120,9 +119,9 @@ class Innovations:
 
 @dataclass(frozen=True)
 class Smoothed:
-    """The states (samples, n) of one point with their covariances (samples, n, n): after each sample, and after all.
+    """The filtered and smoothed states (samples, n) of one point, with their covariances (samples, n, n).
 
-    Behind the states of model and terms stand the random forces that are states.
+    The random forces that are states come after the states of model and terms.
     """
 
     filtered: Array

@@ -1,4 +1,4 @@
-"""Where the states of a recording begin: mean and covariance at the first sample, as far as its sensors tell."""
+"""The initial states of a recording: mean and covariance at the first sample, from what its sensors show."""
 
 from __future__ import annotations
 
@@ -8,18 +8,18 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lostmotion.contracts import Array, SensorTerm
-from lostmotion.likelihood.observation import Observation, static_equilibrium
+from lostmotion.likelihood.observation import Observation, find_static_equilibrium
 from lostmotion.quantities import quantity_of
 
 if TYPE_CHECKING:
     from lostmotion.likelihood.problem import Problem
 
 
-def initial(problem: Problem, fulls: Array, gain: Array, offset: Array, index: int = 0) -> tuple[Array, Array]:
+def compute_initial(problem: Problem, fulls: Array, gain: Array, offset: Array, index: int = 0) -> tuple[Array, Array]:
     """Return mean (points, n) and covariance (points, n, n) of the states of model and terms at the first sample.
 
-    `fulls` (points, parameters), `gain` and `offset` (points, sensors). Where a force was measured, the place depends
-    on the parameters: it is that where the model shows this force.
+    `fulls` (points, parameters), `gain` and `offset` (points, sensors). Where a force was measured, the position
+    depends on the parameters: it is the one at which the model shows this force.
     """
     observation, scales, model = problem.observations[index], problem.scales, problem.system.model
     n = problem.dynamics.states
@@ -32,16 +32,18 @@ def initial(problem: Problem, fulls: Array, gain: Array, offset: Array, index: i
         mean[:, known], cov[known, known] = observation.begun
         return mean, np.tile(cov, (len(fulls), 1, 1))
     if all(sensor.channel.endswith("force") for sensor in observation.sensors):
-        return _by_force(problem, fulls, offset[:, 0], (mean, cov), index)
+        return _begin_by_force(problem, fulls, offset[:, 0], (mean, cov), index)
     for number, sensor in enumerate(observation.sensors):
         state = model.states.index(sensor.channel) if sensor.channel in model.states else -1
         if quantity_of(sensor.channel) == "position" and state >= 0 and not np.isnan(observation.first[number][0]):
-            _at_reading(observation, number, (state, scales.length), (mean, cov), gain[:, number], offset[:, number])
+            _begin_at_reading(
+                observation, number, (state, scales.length), (mean, cov), gain[:, number], offset[:, number]
+            )
     return mean, np.tile(cov, (len(fulls), 1, 1))
 
 
 def _begin_terms(problem: Problem, begun: tuple[Array, Array], gain: Array, offset: Array, index: int) -> None:
-    """Let states of terms begin: what may be anything at its natural size, and a sensor at its first reading."""
+    """Initialise the states of terms: a free one with its natural size, that of a sensor at its first reading."""
     (mean, cov), scales, system = begun, problem.scales, problem.system
     observation = problem.observations[index]
     places = {sensor.place: i for i, sensor in enumerate(observation.sensors)}
@@ -57,12 +59,12 @@ def _begin_terms(problem: Problem, begun: tuple[Array, Array], gain: Array, offs
             cov[first, first] = (10.0 * observation.noises[number]) ** 2 + (1e-2 * size) ** 2
 
 
-def placed(observation: Observation) -> bool:
-    """Return whether a sensor tells where the body stands at the first sample."""
+def shows_place(observation: Observation) -> bool:
+    """Return whether a sensor shows where the body is at the first sample."""
     return any(sensor.channel == "force" or quantity_of(sensor.channel) == "position" for sensor in observation.sensors)
 
 
-def _at_reading(
+def _begin_at_reading(
     observation: Observation,
     number: int,
     state: tuple[int, float],
@@ -70,7 +72,7 @@ def _at_reading(
     gain: Array,
     offset: Array,
 ) -> None:
-    """Let a position and the velocity behind it begin where a sensor shows them."""
+    """Initialise a position and the velocity after it from the first readings of a sensor."""
     (mean, cov), (at, length) = begun, state
     place, speed = observation.first[number]
     mean[:, at] = (place - offset) / gain
@@ -80,10 +82,10 @@ def _at_reading(
         cov[at + 1, at + 1] *= 0.25
 
 
-def _by_force(
+def _begin_by_force(
     problem: Problem, fulls: Array, offset: Array, begun: tuple[Array, Array], index: int
 ) -> tuple[Array, Array]:
-    """Return mean and covariance where the first sensor shows a force: the body stands where it is felt."""
+    """Return mean and covariance where the first sensor shows a force: the body is where the model gives this force."""
     observation, model = problem.observations[index], problem.system.model
     mean, cov = begun
     mean[:, :2] = observation.inputs[0, :2]
@@ -91,6 +93,6 @@ def _by_force(
     covariance = np.tile(cov, (len(fulls), 1, 1))
     for point, full in enumerate(fulls):
         shown = replace(observation, readings=observation.readings - offset[point])
-        mean[point, 0], spread = static_equilibrium(shown, model, full[: len(model.params)])
+        mean[point, 0], spread = find_static_equilibrium(shown, model, full[: len(model.params)])
         covariance[point, 0, 0] = spread**2 + (1e-3 * problem.scales.length) ** 2
     return mean, covariance

@@ -14,19 +14,27 @@ from lostmotion.kernels.inputs import DRAWN, DRIVES, SOURCES
 from lostmotion.kernels.smooth import smooth
 from lostmotion.kernels.vector import STRIDE
 from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Smoothed
-from lostmotion.likelihood.kernels import filter_kernels
-from lostmotion.likelihood.motion import block, lanes_for, model_block, model_wires, require_sound, run, spread
+from lostmotion.likelihood.kernels import build_filter
+from lostmotion.likelihood.motion import (
+    count_lanes,
+    make_block,
+    make_model_block,
+    make_model_wires,
+    require_no_failure,
+    run_freely,
+    spread_points,
+)
 from lostmotion.likelihood.observation import Observation
 
 _NONE = (np.zeros((1, 1)), np.zeros((1, 1, 1)), np.zeros((1, 1)), np.zeros((1, 1, 1)), np.zeros((1, 1, 1)))
 
 Kept = tuple[Array, Array, Array, Array, Array]
-"""What a smoother needs: states and covariances after and before each sample, and the steps between."""
+"""The input of a smoother: states and covariances after and before each sample, and the transition matrices between."""
 
 
 @dataclass(frozen=True)
 class Lanes(Engine):
-    """Filters up to 32 points at once, as numbers in lanes; `compiled=False` runs the same source as plain Python."""
+    """Filters up to 32 points at once in vector lanes; `compiled=False` runs the same source as plain Python."""
 
     compiled: bool = True
     name: ClassVar[str] = "lanes"
@@ -38,46 +46,48 @@ class Lanes(Engine):
         """Return one-step errors and their variances, (points, samples, sensors)."""
         shape = (len(points), observation.samples, len(observation.sensors))
         errors, variances, reached = np.zeros(shape), np.ones(shape), np.zeros(len(points), dtype=np.int64)
-        for rows in _alike(points):
+        for rows in _group_points(points):
             written = (errors[rows], variances[rows], reached[rows])
-            self._track(dynamics, observation, points.taken(rows), written, _NONE)
+            self._run_filter(dynamics, observation, points.select(rows), written, _NONE)
             if not isinstance(rows, slice):
                 errors[rows], variances[rows], reached[rows] = written
         return Innovations.of(errors, variances, reached)
 
     def smooth(self, dynamics: Dynamics, observation: Observation, points: Points) -> Smoothed:
         """Return filtered and smoothed states of one point, and their covariances."""
-        kept, innovations = self.kept(dynamics, observation, points)
+        kept, innovations = self.run_for_smoother(dynamics, observation, points)
         states, covariance = smooth(*kept)
         return Smoothed(kept[0], kept[1], states, covariance, innovations)
 
-    def kept(self, dynamics: Dynamics, observation: Observation, points: Points) -> tuple[Kept, Innovations]:
-        """Return what a smoother needs of one point, and its innovations."""
+    def run_for_smoother(
+        self, dynamics: Dynamics, observation: Observation, points: Points
+    ) -> tuple[Kept, Innovations]:
+        """Return the input of a smoother at one point, and its innovations."""
         rows, n = observation.samples, dynamics.states + dynamics.forces
         square = (rows, n, n)
         kept = (np.zeros((rows, n)), np.zeros(square), np.zeros((rows, n)), np.zeros(square), np.zeros(square))
         shape = (1, rows, len(observation.sensors))
         written = (np.zeros(shape), np.ones(shape), np.zeros(1, dtype=np.int64))
-        self._track(dynamics, observation, points.taken(slice(0, 1)), written, kept)
+        self._run_filter(dynamics, observation, points.select(slice(0, 1)), written, kept)
         return kept, Innovations.of(*written)
 
     def simulate(
         self, dynamics: Dynamics, points: Points, start: Array, steps: int, kicks: Array | None = None
     ) -> Array:
-        """Return the states (points, steps, n) of free runs from `start` (points, n), NaN where they leave numbers."""
+        """Return the states (points, steps, n) of free runs from `start` (points, n), NaN after a divergence."""
         states = np.empty((len(points), steps, dynamics.states))
         for number, drive in enumerate(points.drives):
             rows = np.flatnonzero(points.which == number)
             if len(rows):
                 packed = dynamics.system.pack(points.params[rows], drive.dt / dynamics.nsub, drive.harmonic)
-                found = run(
+                found = run_freely(
                     dynamics.system, dynamics.active, packed, start[rows], drive, dynamics.nsub, points.first[rows],
                     steps, kicks=None if kicks is None else kicks[rows], compiled=self.compiled,
                 )  # fmt: skip
                 states[rows] = found[0]
         return states
 
-    def _track(
+    def _run_filter(
         self,
         dynamics: Dynamics,
         observation: Observation,
@@ -85,67 +95,67 @@ class Lanes(Engine):
         written: tuple[Array, Array, NDArray[np.int64]],
         kept: Kept,
     ) -> None:
-        """Run the filter at up to `STRIDE` points, into the given arrays."""
+        """Run the filter at up to `STRIDE` points, and write into the given arrays."""
         system, n = dynamics.system, dynamics.states + dynamics.forces
-        drives = [drive.widened(len(system.model.inputs)) for drive in points.drives]
-        harmonic, dt, nsub = drives[0].harmonic, observation.dt, fine_steps(dynamics.nsub)
-        numbers = _numbers_of(observation, dynamics, points)
+        drives = [drive.pad_inputs(len(system.model.inputs)) for drive in points.drives]
+        harmonic, dt, nsub = drives[0].harmonic, observation.dt, count_fine_steps(dynamics.nsub)
+        numbers = _list_sensor_numbers(observation, dynamics, points)
         forces = tuple(dynamics.states + i for i in range(dynamics.forces))
         packed = system.pack(points.params, dt / nsub, harmonic)
         packed[:, system.blueprint.rows.pace - system.blueprint.rows.params] = points.pace
-        wires = model_wires(system, dynamics.active, forces, compiled=self.compiled)
-        noise, wires[SOURCES], wires[DRAWN] = _noise_of(dynamics, points, dt)
+        wires = make_model_wires(system, dynamics.active, forces, compiled=self.compiled)
+        noise, wires[SOURCES], wires[DRAWN] = _list_noise(dynamics, points, dt)
         used = np.unique(points.which)
         inputs = drives[used[0]].cubics if len(used) == 1 else np.concatenate([drives[i].cubics for i in used])
         wires[DRIVES] = len(used)
         each = np.searchsorted(used, points.which) * observation.samples
         which = each[np.minimum(np.arange(STRIDE), len(points) - 1)].astype(np.int64)
         levels = np.stack([points.white, points.ar1, points.ar1_share, points.gain, points.offset, points.lag], axis=2)
-        mean, covariance = _begun(dynamics, points)
-        kernels = filter_kernels(n, self.compiled)
+        mean, covariance = _compute_start(dynamics, points)
+        kernels = build_filter(n, self.compiled)
         many = int(numbers[:, 2].max()) + 1
         blocks = (
-            model_block(system, packed),
-            block(kernels["NOISE"] + (2 + 2 * n) * wires[SOURCES]),
-            block(many * (2 + n + many) + 1),
-            spread(np.full((1, 1), drives[0].begin)),
-            spread(levels.reshape(len(points), -1)),
-            spread(noise),
-            spread(np.concatenate([mean, covariance.reshape(len(points), -1)], axis=1)),
+            make_model_block(system, packed),
+            make_block(kernels["NOISE"] + (2 + 2 * n) * wires[SOURCES]),
+            make_block(many * (2 + n + many) + 1),
+            spread_points(np.full((1, 1), drives[0].begin)),
+            spread_points(levels.reshape(len(points), -1)),
+            spread_points(noise),
+            spread_points(np.concatenate([mean, covariance.reshape(len(points), -1)], axis=1)),
         )
         made = system.functions(self.compiled)
-        lanes = lanes_for(len(points))
-        padded = _padded(written, lanes)
+        lanes = count_lanes(len(points))
+        padded = _pad_arrays(written, lanes)
         failed = kernels["run_filter"](
             (made.derive, made.observe), blocks, wires, inputs, which, np.ascontiguousarray(observation.readings),
-            numbers, unsure_of(dynamics, observation), dt, nsub, padded, kept, lanes,
+            numbers, find_input_variance(dynamics, observation), dt, nsub, padded, kept, lanes,
         )  # fmt: skip
-        require_sound(failed, system, blocks[0], wires)
+        require_no_failure(failed, system, blocks[0], wires)
         for mine, theirs in zip(written, padded, strict=True):
             if mine is not theirs:
                 mine[:] = theirs[: len(mine)]
 
 
-def unsure_of(dynamics: Dynamics, observation: Observation) -> Array:
-    """Return the variance (samples,) of a force that is held, of how the measured one goes between samples."""
+def find_input_variance(dynamics: Dynamics, observation: Observation) -> Array:
+    """Return the variance (samples,) that interpolation of the measured force between samples adds to a held force."""
     forced = dynamics.random == "held" and dynamics.system.model.inputs[observation.lead] == "force"
-    return observation.unsure if forced else np.zeros(observation.samples)
+    return observation.input_variance if forced else np.zeros(observation.samples)
 
 
-def _padded(written: tuple[Any, ...], lanes: int) -> tuple[Any, ...]:
+def _pad_arrays(written: tuple[Any, ...], lanes: int) -> tuple[Any, ...]:
     """Return arrays with a row for each lane: the given ones where they have as many."""
     if len(written[0]) == lanes:
         return written
     return tuple(np.zeros((lanes, *array.shape[1:]), dtype=array.dtype) for array in written)
 
 
-def fine_steps(steps: int) -> int:
-    """Return how many fine steps a sample is halved into: a power of two, and at least so many."""
+def count_fine_steps(steps: int) -> int:
+    """Return the number of fine steps of a sample: the smallest power of two that is at least `steps`."""
     return int(1 << (max(steps, 1) - 1).bit_length())
 
 
-def _alike(points: Points) -> Iterator[slice | NDArray[np.intp]]:
-    """Yield which points are computed together: up to `STRIDE` of which the same sensors are late."""
+def _group_points(points: Points) -> Iterator[slice | NDArray[np.intp]]:
+    """Yield the points that are computed together: up to `STRIDE` with the same late sensors."""
     late = points.lag != 0.0
     if not late.any():
         yield from (slice(begin, begin + STRIDE) for begin in range(0, len(points), STRIDE))
@@ -155,8 +165,8 @@ def _alike(points: Points) -> Iterator[slice | NDArray[np.intp]]:
         yield from (rows[begin : begin + STRIDE] for begin in range(0, len(rows), STRIDE))
 
 
-def _numbers_of(observation: Observation, dynamics: Dynamics, points: Points) -> NDArray[np.int64]:
-    """Return of each sensor channel, directly shown state, place among those with slow noise, and whether it is late.
+def _list_sensor_numbers(observation: Observation, dynamics: Dynamics, points: Points) -> NDArray[np.int64]:
+    """Return for each sensor its channel, directly shown state, place among the AR(1) sensors, and whether it is late.
 
     The shape is (sensors, 4).
     """
@@ -169,8 +179,8 @@ def _numbers_of(observation: Observation, dynamics: Dynamics, points: Points) ->
     return np.array(rows, dtype=np.int64)
 
 
-def _noise_of(dynamics: Dynamics, points: Points, dt: float) -> tuple[Array, int, int]:
-    """Return which states the random force enters, with its intensities, (points, rows), and how many of each kind."""
+def _list_noise(dynamics: Dynamics, points: Points, dt: float) -> tuple[Array, int, int]:
+    """Return the states that the random force enters with its intensities, (points, rows), and how many of each."""
     plan, n = dynamics.system.blueprint, dynamics.states
     if dynamics.random == "latent":
         return np.column_stack([np.full(len(points), float(n)), points.process * points.pace**2]), 1, 0
@@ -183,7 +193,7 @@ def _noise_of(dynamics: Dynamics, points: Points, dt: float) -> tuple[Array, int
     return np.column_stack([column for row in rows for column in row]), len(rows), 0
 
 
-def _begun(dynamics: Dynamics, points: Points) -> tuple[Array, Array]:
+def _compute_start(dynamics: Dynamics, points: Points) -> tuple[Array, Array]:
     """Return mean and covariance of all states at the first sample, random forces included."""
     m, n = dynamics.states, dynamics.states + dynamics.forces
     mean, covariance = np.zeros((len(points), n)), np.zeros((len(points), n, n))

@@ -1,4 +1,4 @@
-"""The missing force over time: a latent force in the filter, smoothed backwards, with its band."""
+"""The smoothed latent force: an Ornstein-Uhlenbeck force in the filter, smoothed backwards, with its band."""
 
 from __future__ import annotations
 
@@ -13,21 +13,22 @@ from lostmotion.likelihood.problem import PACE, RANDOM, FreeParameter, Problem
 
 SHARES = (1e-3, 3e-3, 1e-2, 3e-2, 1e-1, 3e-1)
 PACES = (4.0, 12.0, 40.0)
-"""Correlation times that are tried, as fractions of the natural time of the motion."""
+"""Inverse correlation times that are tried, in units of one over the natural time of the motion."""
 FASTEST = 1.5
-"""A force that fades by more than this exponent in a sample is not told from one that acts between samples alone: the
-smoothed force came out twice as large as the law (dry friction in a decay, exponent 2), or five times (exponent 10)."""
+"""The largest decay exponent per sample that is tried. A faster force cannot be distinguished from one that acts
+between samples only: the smoothed force was twice as large as the law (dry friction in a decay, exponent 2), or five
+times (exponent 10)."""
 
 
 @dataclass(frozen=True)
-class Missing:
+class LatentForce:
     """The smoothed latent force of one recording: mean and standard deviation (samples,), in N or N m.
 
-    `states` (samples, n) are those of model and terms, smoothed.
+    `states` (samples, n) are the smoothed states of model and terms.
 
-    `share` is its prior standard deviation in units of the drive and `time` its correlation time in s, both chosen
-    by the likelihood; `log_gain` is what the likelihood prefers it by over a latent force of `SHARES[0]`. `levers` are
-    those of `System.lever` by place.
+    `share` is its prior standard deviation in units of the drive and `time` its correlation time in s, both chosen by
+    the likelihood; `log_gain` is its gain in log-likelihood over a latent force of `SHARES[0]`. `levers` are those of
+    `System.lever` by place.
     """
 
     force: Array
@@ -49,16 +50,17 @@ class Missing:
         return self.states[:, 1]
 
 
-def missing_force(problem: Problem, theta: Array, index: int = 0) -> Missing:
-    """Return what is missing in recording `index` at fixed parameters: an Ornstein-Uhlenbeck force, smoothed.
+def smooth_latent_force(problem: Problem, theta: Array, index: int = 0) -> LatentForce:
+    """Return the latent force of recording `index` at fixed parameters: an Ornstein-Uhlenbeck force, smoothed.
 
-    Alvarez, Luengo, Lawrence (2009); Rogers, Friis, MSSP 2022 (arXiv 2109.10681). Locate with it, do not name with it:
-    a force that correlates with a base parameter is shrunk by it.
+    Alvarez, Luengo, Lawrence (2009); Rogers, Friis, MSSP 2022 (arXiv 2109.10681). It shows on what a missing force
+    depends. It is not used to name the force, because the base parameters absorb the part of a force that correlates
+    with them.
     """
     single = problem.on((problem.observations[index],))
     step = single.observations[0].dt / problem.scales.time
     grid = [(s, p) for p in PACES if p == min(PACES) or p * step < FASTEST for s in SHARES]
-    forced, thetas = _with_force(single, theta, grid)
+    forced, thetas = _add_force(single, theta, grid)
     heights = forced.log_likelihoods(thetas)
     best = int(np.argmax(heights))
     seen = forced.smooth(thetas[best])
@@ -68,28 +70,28 @@ def missing_force(problem: Problem, theta: Array, index: int = 0) -> Missing:
     gain = float(heights[best] - base)
     full, places = single.full(theta), problem.system.model.interfaces
     levers = {place.name: problem.system.lever(full, place) for place in places}
-    return Missing(seen.states[:, -1], sd, seen.states[:, :-1], share, problem.scales.time / pace, gain, levers)
+    return LatentForce(seen.states[:, -1], sd, seen.states[:, :-1], share, problem.scales.time / pace, gain, levers)
 
 
-def expected_force(problem: Problem, theta: Array, index: int = 0) -> tuple[Array, Array]:
-    """Return the smoothed states (samples, n) of a recording, and the random force (samples,) that is expected.
+def smooth_expected_force(problem: Problem, theta: Array, index: int = 0) -> tuple[Array, Array]:
+    """Return the smoothed states (samples, n) of a recording, and the expected random force (samples,).
 
-    It is proportional to the gradient of the log-likelihood with respect to an added force: a law that belongs there
-    goes with it, however much of the law is shrunk away.
+    It is proportional to the gradient of the log-likelihood with respect to an added force. So a missing law correlates
+    with it, even where the base parameters absorb most of the law.
     """
     single = problem.on((problem.observations[index],))
     pace = problem.scales.time / problem.observations[index].dt
     intensity, _ = problem.noise(theta, index)
     share = math.sqrt(0.5 * intensity * pace / problem.scales.time) / problem.scales.force
-    forced, thetas = _with_force(single, theta, [(share, pace)])
+    forced, thetas = _add_force(single, theta, [(share, pace)])
     states = forced.smooth(thetas[0]).states
     return states[:, :-1], states[:, -1]
 
 
-def _with_force(problem: Problem, theta: Array, grid: list[tuple[float, float]]) -> tuple[Problem, Array]:
-    """Return the problem and coordinates (points, n) with latent forces of given shares of the drive and paces."""
+def _add_force(problem: Problem, theta: Array, grid: list[tuple[float, float]]) -> tuple[Problem, Array]:
+    """Return the problem and coordinates (points, n) with latent forces of given shares of the drive and rates."""
     kept = [i for i, f in enumerate(problem.free) if f.parameter not in (RANDOM, PACE)]
-    frees = (*(problem.free[i] for i in kept), fixed(RANDOM), fixed(PACE))
+    frees = (*(problem.free[i] for i in kept), make_fixed(RANDOM), make_fixed(PACE))
     rows = []
     for share, relative in grid:
         pace = relative / problem.scales.time
@@ -98,6 +100,6 @@ def _with_force(problem: Problem, theta: Array, grid: list[tuple[float, float]])
     return replace(problem, free=frees), np.array(rows)
 
 
-def fixed(key: str) -> FreeParameter:
+def make_fixed(key: str) -> FreeParameter:
     """Return a level without bounds, for a point that is given and not estimated."""
     return FreeParameter(key, "1", 0.0, -math.inf, math.inf)

@@ -1,4 +1,4 @@
-"""Where each number of a model with its terms stands: parameters, onsets, states, and what each law is handed."""
+"""The positions of all numbers of a model with its terms: parameters, onsets, states, and the arguments of each law."""
 
 from __future__ import annotations
 
@@ -16,25 +16,25 @@ from lostmotion.likelihood.drive import SILENT, DriveHarmonic
 from lostmotion.quantities import TIME
 
 ALWAYS = -1e9
-"""The onset (s) of a term that was there from the beginning."""
+"""The onset (s) of a term that acts from the beginning."""
 ONSET = Param("since", "time from which on it acts", TIME, null=ALWAYS)
 NUMB = -1
-"""The index of an observed channel that is no state and has to be linearised."""
+"""The index of an observed channel that is not a state and has to be linearised."""
 
 
-def since_of(key: str) -> str:
+def onset_key(key: str) -> str:
     """Return the key of the onset of a term."""
     return f"{key}.since"
 
 
 def key_of(term: Term) -> str:
-    """Return the name of a term, with its place when that is neither the ground nor plain: `coulomb_friction@base`."""
+    """Return the name of a term, with its place (`coulomb_friction@base`) unless that is ground, drive or sensor."""
     return term.name if term.at in ("ground", "drive", "sensor") else f"{term.name}@{term.at}"
 
 
 @dataclass(frozen=True)
 class Slot:
-    """A parameter of the whole system: `key` is `c` for the model's, `coulomb_friction.force` for a term's."""
+    """A parameter of the whole system: `key` is `c` for one of the model, `coulomb_friction.force` of a term."""
 
     key: str
     param: Param
@@ -44,7 +44,7 @@ class Slot:
 
 @dataclass(frozen=True)
 class Layout:
-    """A model and the terms it may have, as numbers: the full vector of parameters, and which entry is which."""
+    """A model and its possible terms as numbers: the full vector of parameters, and the meaning of each entry."""
 
     model: Model
     terms: tuple[Term, ...] = ()
@@ -70,17 +70,17 @@ class Layout:
 
     @cached_property
     def onsets(self) -> tuple[Slot, ...]:
-        """The time from which on each term acts: `key.since`; of forces first, then of the drive, then of sensors.
+        """The time from which each term acts: `key.since`; of forces first, then of the drive, then of sensors.
 
-        They stand behind all parameters in the full vector.
+        They come after all parameters in the full vector.
         """
         keys = [key for key, _ in self.forces] + [k for k, t in self.channel_terms.items() if t.acts == "drive"]
         keys += self.rescaling
-        return tuple(Slot(since_of(key), ONSET, "s", self.keys.index(key)) for key in keys)
+        return tuple(Slot(onset_key(key), ONSET, "s", self.keys.index(key)) for key in keys)
 
     @cached_property
     def rescaling(self) -> tuple[str, ...]:
-        """The keys of the sensor terms that are a gain or an offset and nothing else: these may set in at a time."""
+        """The keys of the sensor terms that are a gain or an offset and nothing else: these may have an onset."""
         plain = ("delay", "bent", "rounded", "quantisation", "rate")
         return tuple(
             key
@@ -95,8 +95,8 @@ class Layout:
         return {slot.key: i for i, slot in enumerate((*self.slots, *self.onsets))}
 
     def onset(self, full: Array, key: str) -> float:
-        """Return since when (s) a term acts, `ALWAYS` if from the beginning; `full` is (parameters,)."""
-        at = self.index.get(since_of(key))
+        """Return the time (s) from which a term acts, `ALWAYS` if from the beginning; `full` is (parameters,)."""
+        at = self.index.get(onset_key(key))
         return ALWAYS if at is None else float(full[at])
 
     def slot(self, name: str) -> Slot:
@@ -110,14 +110,14 @@ class Layout:
         )
 
     def vector(self, values: Mapping[str, float]) -> Array:
-        """Return the full parameter vector; what is not given is `null`, or one for a shape parameter, or zero."""
-        full = np.array([_default(slot) for slot in (*self.slots, *self.onsets)])
+        """Return the full parameter vector; the default is `null`, or one for a shape parameter, or zero."""
+        full = np.array([_find_default(slot) for slot in (*self.slots, *self.onsets)])
         for name, value in values.items():
             full[self.index[self.slot(name).key]] = value
         return full
 
     def states(self, active: Iterable[str]) -> int:
-        """Return how many states the model has with these terms."""
+        """Return the number of states of the model with these terms."""
         chosen = set(active)
         return len(self.model.states) + sum(
             len(term.states) for key, term in zip(self.keys, self.terms, strict=True) if key in chosen
@@ -125,9 +125,9 @@ class Layout:
 
     @cached_property
     def forces(self) -> tuple[tuple[str, Term], ...]:
-        """The terms that the kernel knows, with their keys, in its order: forces, and sensors that have states.
+        """The terms in the kernel, with their keys, in its order: forces, and sensors that have states.
 
-        Those that feel the acceleration come behind all other forces, which make it.
+        Those that need the acceleration come after all other forces, which determine it.
         """
         pairs = list(zip(self.keys, self.terms, strict=True))
         own = [(k, t) for k, t in pairs if t.acts == "motion" or (t.acts == "sensor" and t.states)]
@@ -161,7 +161,7 @@ class Layout:
         return () if place.lever is None else (full[..., self.index[place.lever]],)
 
     def wiring(self, active: Iterable[str]) -> tuple[NDArray[np.bool_], NDArray[np.int64]]:
-        """Return the switches of the terms, and where in `y` the states of each begin."""
+        """Return the switches of the terms, and the index in `y` of the first state of each."""
         chosen = set(active)
         if unknown := chosen - set(self.keys):
             raise ContractError(
@@ -175,11 +175,11 @@ class Layout:
         return on, at
 
     def pack(self, fulls: Array, step: float, harmonic: DriveHarmonic = SILENT, *, line: int = 1) -> Array:
-        """Return what a model and its forces are handed, (points, params): each force has what it needs behind its own.
+        """Return the parameters of a model and its forces, (points, params): each force has its needs behind its own.
 
-        `fulls` is (points, parameters); `step` is that of the integration (s), of which a law that jumps at rest takes
-        `line` to pass its steep line. Behind the parameters of the model stand the pace of a latent force, the step,
-        and one over each inertia; then what each force is handed, and the onset of each.
+        `fulls` is (points, parameters); `step` is that of the integration (s); a law that jumps at rest takes `line`
+        steps to cross its steep line. After the parameters of the model come the decay rate of a latent force, the
+        step, and one over each inertia; then the numbers of each force, and the onset of each.
         """
         base = fulls[:, : len(self.model.params)]
         onsets = fulls[:, len(self.slots) : len(self.slots) + len(self.forces)]
@@ -202,13 +202,13 @@ class Layout:
         return np.column_stack([base, silent, steps, *inverse, *columns, onsets])
 
     def values(self, full: Array, key: str, harmonic: DriveHarmonic) -> tuple[float, ...]:
-        """Return `p` of a term beside the machine: its own parameters, and behind them what it needs of the drive."""
+        """Return `p` of a term outside of the kernel: its own parameters, then what it needs of the drive."""
         known = {"omega": harmonic.omega, "amplitude": harmonic.amplitude}
         return tuple(float(full[i] if kind == "own" else known.get(kind, 0.0)) for kind, i in self._sources[key])
 
     @cached_property
     def _sources(self) -> Mapping[str, tuple[tuple[str, int], ...]]:
-        """Where each entry of the `p` of a term comes from: "own" with an index, "mobility" with that of its place."""
+        """The source of each entry of the `p` of a term: "own" with an index, "mobility" with that of its place."""
         return {key: tuple(self._entries(key, term)) for key, term in zip(self.keys, self.terms, strict=True)}
 
     def _entries(self, key: str, term: Term) -> Iterable[tuple[str, int]]:
@@ -228,13 +228,13 @@ class Layout:
                 yield ("own", self.index[name]) if name else ("number", 0)
 
     def _input_of(self, need: str, place: Interface) -> int:
-        """Return which input is the force on the body at a place, or the acceleration of the base; -1 where none is."""
+        """Return the index of the force on the body at a place, or of the base acceleration; -1 where there is none."""
         inputs, first = self.model.inputs, self.model.interfaces[0].row
         name = "base_acceleration" if need == "shake_input" else "force" if place.row == first else "second_force"
         return inputs.index(name) if name in inputs and need != "acceleration" else NUMB
 
 
-def _default(slot: Slot) -> float:
+def _find_default(slot: Slot) -> float:
     if slot.param.null is not None:
         return slot.param.null
     if slot.param.choices:

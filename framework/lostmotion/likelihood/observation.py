@@ -1,4 +1,4 @@
-"""One recording on one even clock: what drove the machine, what its sensors showed, and which sensors they are."""
+"""One recording on one even clock: its inputs, the readings of its sensors, and which sensors they are."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from lostmotion.contracts import Array, Interface, Model
 from lostmotion.errors import CaseError, nearest
 from lostmotion.likelihood.drive import SILENT, Drive, DriveHarmonic
 from lostmotion.likelihood.sensors import NOISES, Sensor
-from lostmotion.likelihood.space import level_of
-from lostmotion.likelihood.splines import smoothing_spline
+from lostmotion.likelihood.space import make_level_name
+from lostmotion.likelihood.splines import fit_smoothing_spline
 from lostmotion.quantities import quantity_of
 from lostmotion.recording import Recording
 
@@ -27,28 +27,29 @@ if TYPE_CHECKING:
 
 
 FIRST = 9
-"""Readings of a sensor that tell where the motion begins."""
+"""Readings of a sensor from which the initial states are estimated."""
 HEARD, GUARD = 5.0, 4
-"""A hit stands so many deviations of the noise out of it, and begins and ends so many samples further out."""
+"""A hit exceeds the noise by this many standard deviations, and is extended by this many samples at either end."""
 EDGES = 0.65
 QUIET, STRUCK = 0.5, 6.0
-"""Between hits a force is quiet for this share of the time at least; a hit is so many of its deviations high, and a
-thousandth of its peak is the usual noise: the gauge was chosen for the hits, however quiet it is between them."""
+"""A force that hits is quiet for at least this share of the time; a hit is this many standard deviations of it high,
+and the usual noise is a thousandth of its peak: the gauge was chosen for the hits, however low its noise is between
+them."""
 
 
 FEWEST_PERIODS, LINE = 4, 0.75
-"""A drive with a period repeats so often at least, and its line holds this share of the power (a square wave: 0.81)."""
+"""A periodic drive has at least this many periods, and its line this share of the spectral power (a square: 0.81)."""
 
 
 @dataclass(frozen=True)
 class Observation:
     """One recording as an engine sees it: `inputs` (samples, inputs) and `readings` (samples, sensors), every `dt` s.
 
-    A reading that is NaN was not taken. `begin` is where it starts in the recording, in samples; `held` says that the
-    inputs are constant between the samples; `tone` is the drive of the whole recording. `driven` are the inputs that
-    were recorded, by name, none where the machine is left to itself; `lead` is the column of the one that drives it
-    and `slope` that of its time derivative, where the model has this as an input of its own. `begun` are mean (n,) and
-    covariance (n, n) of the states of the model at the first sample, where more is known than the readings there show.
+    A reading that is NaN was not taken. `begin` is its first sample in the recording; `held` says that the inputs are
+    constant between the samples; `harmonic` is the drive of the whole recording. `driven` are the names of the inputs
+    that were recorded, none where the machine is left to itself; `lead` is the column of the one that drives it and
+    `slope` that of its time derivative, where the model has this as an input of its own. `begun` are mean (n,) and
+    covariance (n, n) of the states of the model at the first sample, where more is known than the first readings show.
     """
 
     name: str
@@ -72,7 +73,7 @@ class Observation:
 
     @property
     def response(self) -> Array:
-        """The readings (samples,) of the first sensor: the one in whose unit errors are told."""
+        """The readings (samples,) of the first sensor; errors are given in its unit."""
         return self.readings[:, 0]
 
     @property
@@ -82,7 +83,7 @@ class Observation:
 
     def level(self, name: str, sensor: int) -> str:
         """Return the parameter for a level of a sensor: `log_noise`, or `log_noise:name` where there are several."""
-        return level_of(name, self.sensors[sensor].label, len(self.sensors) > 1)
+        return make_level_name(name, self.sensors[sensor].label, len(self.sensors) > 1)
 
     @property
     def samples(self) -> int:
@@ -129,8 +130,8 @@ class Observation:
     def recorded(self, column: int, t: Array) -> Array:
         """Return a recorded input at times `t` (s, from the start of the recording), of any shape.
 
-        Beyond its ends it stays what it is there. One that is held between the samples is the mean over a quarter of a
-        sample.
+        Outside of the recording it keeps its first or last value. One that is held between the samples is averaged over
+        a quarter of a sample.
         """
         start, last = self.begin * self.dt, (self.samples - 1) * self.dt
         if not self.held:
@@ -161,16 +162,16 @@ class Observation:
     @cached_property
     def period(self) -> float | None:
         """The period of the drive in samples, or None where no line stands out of the spectrum of the input."""
-        return period_of(self.excitation)
+        return find_period(self.excitation)
 
     @cached_property
     def noises(self) -> tuple[float, ...]:
-        """The standard deviation of white noise of each sensor, from fourth differences (an upper guess)."""
-        return tuple(_noise(z) for z in self.readings.T)
+        """The standard deviation of white noise of each sensor, from fourth differences (an upper estimate)."""
+        return tuple(_estimate_noise(z) for z in self.readings.T)
 
     @property
     def noise(self) -> float:
-        """The standard deviation of white noise of the first sensor (an upper guess)."""
+        """The standard deviation of white noise of the first sensor (an upper estimate)."""
         return self.noises[0]
 
     @cached_property
@@ -189,21 +190,21 @@ class Observation:
         return math.sqrt(2.0) * float(np.std(self.excitation))
 
     @cached_property
-    def struck(self) -> float:
-        """The highest peak of the first input where that hits, as a hammer does, else zero."""
+    def hit_peak(self) -> float:
+        """The highest peak of the first input where that consists of hits, as of a hammer, else zero."""
         u = self.excitation
         peak = float(np.abs(u - np.median(u)).max())
         return peak if peak > STRUCK * float(np.std(u)) else 0.0
 
     @cached_property
-    def unsure(self) -> Array:
-        """The variance (samples,) of the mean of the first input up to the next sample, of how it goes between them.
+    def input_variance(self) -> Array:
+        """The variance (samples,) of the mean of the first input up to the next sample, from its interpolation.
 
-        A hit that begins between two samples has an edge that no sample shows: whatever goes through the samples is off
-        by some per cent of the peak over one of them. It shows in how far two ways to interpolate are apart; their
-        distance is `EDGES` of the error for half-sines of 6 to 25 samples. Other inputs are known well.
+        The edge of a hit that begins between two samples is not sampled: any interpolation is wrong by some per cent of
+        the peak over one sample. The difference of two interpolations is a measure of that; it is `EDGES` of the error
+        for half-sines of 6 to 25 samples. Other inputs are known well.
         """
-        if self.held or not self.struck:
+        if self.held or not self.hit_peak:
             return np.zeros(self.samples)
         t, u = np.arange(self.samples) * self.dt, self.excitation
         ways = (CubicSpline(t, u), Akima1DInterpolator(t, u))
@@ -216,19 +217,19 @@ class Observation:
 
         NaN for a sensor that has fewer than three readings among the first samples.
         """
-        return tuple(_begun(z, self.dt) for z in self.readings[: FIRST * self.sparsest].T)
+        return tuple(_estimate_start(z, self.dt) for z in self.readings[: FIRST * self.sparsest].T)
 
     @cached_property
     def sparsest(self) -> int:
-        """The samples from one reading to the next of the slowest sensor; 1 where each sample has all of them."""
+        """The number of samples between two readings of the slowest sensor; 1 where each sample has all of them."""
         counts = np.count_nonzero(np.isfinite(self.readings), axis=0)
         return max(1, round(self.samples / max(int(counts.min()), 1)))
 
 
-def shifted(observation: Observation, late: Sequence[int], most: int) -> Observation:
+def shift_sensors(observation: Observation, late: Sequence[int], most: int) -> Observation:
     """Return an observation with each sensor moved ahead by the samples that it is `late`.
 
-    Of each sensor the first `most` readings are left out, so that as many remain whatever its delay is.
+    The first `most` readings of each sensor are left out, so that the number of readings does not depend on the delay.
     """
     readings = np.full_like(observation.readings, np.nan)
     for sensor, lag in enumerate(late):
@@ -237,7 +238,7 @@ def shifted(observation: Observation, late: Sequence[int], most: int) -> Observa
     return replace(observation, readings=readings)
 
 
-def _begun(z: Array, dt: float) -> tuple[float, float]:
+def _estimate_start(z: Array, dt: float) -> tuple[float, float]:
     """Return value and time derivative at the first of a few readings (samples,)."""
     kept = np.flatnonzero(np.isfinite(z))[:FIRST]
     if len(kept) < 3:
@@ -246,18 +247,18 @@ def _begun(z: Array, dt: float) -> tuple[float, float]:
     return float(bend(0.0)), float(bend.deriv()(0.0))
 
 
-def _noise(z: Array) -> float:
-    """Return the standard deviation of white noise in readings (samples,), from fourth differences of those taken."""
+def _estimate_noise(z: Array) -> float:
+    """Return the standard deviation of white noise in readings (samples,), from fourth differences."""
     fourth = np.diff(z[np.isfinite(z)], 4)
     size = float(np.median(np.abs(fourth)) / 0.6745 / math.sqrt(70.0)) if len(fourth) else 0.0
     return max(size, 1e-7 * math.sqrt(2.0) * float(np.nanstd(z)))
 
 
-def static_equilibrium(observation: Observation, model: Model, p: Array) -> tuple[float, float]:
-    """Return where a body moved by its base stands at the first sample, and how far that is open (m or rad).
+def find_static_equilibrium(observation: Observation, model: Model, p: Array) -> tuple[float, float]:
+    """Return the position of a body moved by its base at the first sample, and its uncertainty (m or rad).
 
-    It is where the model, with the parameters `p` and moving with its base, shows the force that was measured, give or
-    take ten times the noise. Inside a gap that is the whole gap: a recording of force had better begin in contact.
+    It is where the model, with the parameters `p` and moving with its base, shows the measured force, within ten times
+    the noise. Inside a gap that is the whole gap: a recording of force should begin in contact.
     """
     y, seen = np.zeros(len(model.states)), np.zeros(len(model.channels))
     u, still = observation.inputs[0], np.zeros(len(model.states))
@@ -281,7 +282,7 @@ def static_equilibrium(observation: Observation, model: Model, p: Array) -> tupl
     return 0.5 * (ends[0] + ends[1]), 0.5 * (ends[0] - ends[1])
 
 
-def observation_of(recording: Recording, model: Model, *, held: bool = False) -> Observation:
+def make_observation(recording: Recording, model: Model, *, held: bool = False) -> Observation:
     """Return the observation of a recording for `model`; the velocity of a measured base motion comes from a spline.
 
     An input of the model that was not recorded is zero. Raises `CaseError` for inputs and channels the model lacks.
@@ -294,29 +295,29 @@ def observation_of(recording: Recording, model: Model, *, held: bool = False) ->
                 f"{model.name} is driven by {' and '.join(model.inputs)}, but the excitation of {recording.name} is a"
                 f" {name}{nearest(name, model.inputs)}: choose another model or another column"
             )
-        u = rounded(np.asarray(array.values, dtype=float))
-        inputs[:, model.inputs.index(name)] = u if held or quantity_of(name) != "force" else windowed(u)
+        u = round_values(np.asarray(array.values, dtype=float))
+        inputs[:, model.inputs.index(name)] = u if held or quantity_of(name) != "force" else window_force(u)
     if "base_velocity" in driven and "base_position" not in driven:
         raise CaseError(f"{recording.name} has the velocity of the base without its position: give base_position")
     if "base_position" in driven and "base_velocity" in model.inputs and "base_velocity" not in driven:
-        spline = smoothing_spline(inputs[:, model.inputs.index("base_position")], recording.dt)
+        spline = fit_smoothing_spline(inputs[:, model.inputs.index("base_position")], recording.dt)
         inputs[:, model.inputs.index("base_velocity")] = spline.derivative()(np.arange(recording.n) * recording.dt)
         inputs[:, model.inputs.index("base_position")] = spline(np.arange(recording.n) * recording.dt)
-    readings = np.stack([rounded(np.asarray(array.values, dtype=float)) for array in recording.sensors], axis=1)
-    sensors = tuple(_sensor(array, model, recording.name) for array in recording.sensors)
+    readings = np.stack([round_values(np.asarray(array.values, dtype=float)) for array in recording.sensors], axis=1)
+    sensors = tuple(_make_sensor(array, model, recording.name) for array in recording.sensors)
     lead = model.inputs.index(driven[0]) if driven else 0
     bare = Observation(recording.name, readings, inputs, recording.dt, sensors, held=held, driven=driven, lead=lead)
-    return replace(bare, slope=slope_of(model.inputs, lead), harmonic=harmonic_of(bare))
+    return replace(bare, slope=find_slope_column(model.inputs, lead), harmonic=find_harmonic(bare))
 
 
-def slope_of(inputs: Sequence[str], lead: int) -> int | None:
+def find_slope_column(inputs: Sequence[str], lead: int) -> int | None:
     """Return the column of the time derivative of an input of a model; None where the model has no such input."""
     moved = inputs[lead] == "base_position" and "base_velocity" in inputs
     return list(inputs).index("base_velocity") if moved else None
 
 
-def _sensor(array: xr.DataArray, model: Model, recording: str) -> Sensor:
-    """Return the sensor behind an array of a recording; one of a channel that the model does not show is refused."""
+def _make_sensor(array: xr.DataArray, model: Model, recording: str) -> Sensor:
+    """Return the sensor of an array of a recording; raise `CaseError` for a channel that the model lacks."""
     channel, name = str(array.attrs["of"]), str(array.attrs["sensor"])
     if channel not in model.channels:
         raise CaseError(
@@ -326,15 +327,14 @@ def _sensor(array: xr.DataArray, model: Model, recording: str) -> Sensor:
     return Sensor(channel, name, NOISES[str(array.attrs["noise"])]())
 
 
-def windowed(force: Array) -> Array:
+def window_force(force: Array) -> Array:
     """Return a measured force (samples,) with nothing but its mean between hits, where it shows only white noise.
 
     The force window of impact testing (Halvorsen, Brown, Sound and Vibration 11 (1977) 8-21). Between hits the noise of
-    the gauge would be handed to the model as a force that is known; a body at rest does not answer it, as if friction
-    held it. Any other force is returned as it is: one that is quiet for less than `QUIET` of the time, or not white
-    then.
+    the gauge would be an input of the model; a body at rest does not respond to it, and seems to be held by friction.
+    Any other force is returned unchanged: one that is quiet for less than `QUIET` of the time, or not white then.
     """
-    middle, noise = float(np.median(force)), _noise(force)
+    middle, noise = float(np.median(force)), _estimate_noise(force)
     loud = np.abs(force - middle) > HEARD * noise
     near = binary_dilation(loud, iterations=GUARD)
     rest = force[~near] - middle
@@ -348,10 +348,10 @@ def windowed(force: Array) -> Array:
     return np.where(near, force, force[~near].mean())
 
 
-def rounded(values: Array) -> Array:
-    """Return values (samples,) to ten digits of the largest, so that a change of units changes no bit of them.
+def round_values(values: Array) -> Array:
+    """Return values (samples,) rounded to ten digits of the largest, so that a change of units changes no bit of them.
 
-    A filter through kinks makes a difference in the last digit of a double one in the fourth digit of an answer.
+    A filter through kinks amplifies a difference in the last digit of a double to the fourth digit of a result.
     """
     peak = float(np.nanmax(np.abs(values), initial=0.0))
     if not 0.0 < peak < math.inf:
@@ -360,17 +360,17 @@ def rounded(values: Array) -> Array:
     return np.asarray(np.round(values / grain) * grain, dtype=float)
 
 
-def harmonic_of(observation: Observation) -> DriveHarmonic:
-    """Return the frequency (rad/s, 0 where there is none) and the amplitude of what drives a recording."""
+def find_harmonic(observation: Observation) -> DriveHarmonic:
+    """Return the frequency (rad/s, 0 where there is none) and the amplitude of the drive of a recording."""
     return DriveHarmonic(
         2.0 * math.pi / (observation.period * observation.dt) if observation.period else 0.0, observation.travel
     )
 
 
-def period_of(signal: Array) -> float | None:
-    """Return the period of a signal in samples, or None where no line stands out of its spectrum.
+def find_period(signal: Array) -> float | None:
+    """Return the period of a signal in samples, or None where no line dominates its spectrum.
 
-    A step has most of its power at the lowest frequencies, and of a multisine neighbouring lines lie close together.
+    A step has most of its power at the lowest frequencies; the lines of a multisine are close together.
     """
     u = signal - signal.mean()
     if not u.any():
@@ -381,11 +381,11 @@ def period_of(signal: Array) -> float | None:
     peak = int(np.argmax(power))
     if peak < FEWEST_PERIODS or power[max(peak - 3, 0) : peak + 4].sum() < LINE * power.sum():
         return None
-    return float(size / _refined(u * np.hanning(size), peak))
+    return float(size / _refine_line(u * np.hanning(size), peak))
 
 
-def _refined(windowed: Array, peak: int) -> float:
-    """Return where between the bins the line next to bin `peak` is highest: two hundred times finer than a bin."""
+def _refine_line(windowed: Array, peak: int) -> float:
+    """Return the frequency (bins) of the spectral maximum next to bin `peak`, two hundred times finer than a bin."""
     angle = 2.0j * math.pi * np.arange(len(windowed)) / len(windowed)
 
     def depth(place: float) -> float:

@@ -1,4 +1,4 @@
-"""All that decides what is compiled: a model by its functions and numbers, and every law that it may have."""
+"""The description of a kernel: a model by its functions and numbers, and all laws that it may have."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from lostmotion.contracts import Array, Term, Values
 from lostmotion.errors import ContractError
 
 ROOM = 16
-"""States for which a block of a model has room beside its own; where laws have more, so many more again."""
+"""Additional states for which a block has room; where laws have more, in multiples of this."""
 
 
 @dataclass(frozen=True)
 class Place:
-    """Where a force acts: the row of `dydt`, the index of the inertia in `p`, and the relative motion there.
+    """A place where a force acts: the row of `dydt`, the index of the inertia in `p`, and the relative motion there.
 
     `against` is row and inertia of a body that feels the opposite force, times the parameter with index `lever`.
     """
@@ -35,12 +35,12 @@ class Place:
 
 @dataclass(frozen=True)
 class Law:
-    """A term as the kernel sees it: where it acts, its functions, and how many of `w` and of `y` are its own.
+    """A term as the kernel sees it: its place, its functions, and its numbers of parameters (`width`) and of states.
 
-    `steps` are those of its own numbers that are the step of the integration. `fields` are the numbers of the term
-    itself, handed to functions that are methods and not static ones. The numbers of a law that is `prepared` may be
-    many: it is handed a window on them. `felt` are those of its own numbers that are the acceleration of the body. One
-    of a sensor is no force, and is told what its `channel` shows.
+    `steps` are the indices of its numbers that are the step of the integration. `fields` are the numbers of the term
+    itself, passed to functions that are methods and not static ones. A law that is `prepared` may have many numbers: it
+    receives a view on them. `felt` are the indices of its numbers that are the acceleration of the body. A law of a
+    sensor is not a force, and receives what its `channel` shows.
     """
 
     place: int
@@ -58,10 +58,10 @@ class Law:
     def reads_inputs(self) -> bool:
         """Whether its functions read `u`, the inputs."""
         parts = (self.force, *((self.rate,) if self.states else ()))
-        return any(_reads(getattr(part, "py_func", part), 3 + bool(self.fields)) for part in parts)
+        return any(_reads_argument(getattr(part, "py_func", part), 3 + bool(self.fields)) for part in parts)
 
 
-def _reads(function: Any, number: int) -> bool:
+def _reads_argument(function: Any, number: int) -> bool:
     """Return whether a function reads one of its arguments."""
     code = function.__code__
     name = code.co_varnames[number]
@@ -70,12 +70,12 @@ def _reads(function: Any, number: int) -> bool:
 
 
 class Rows(NamedTuple):
-    """Where in the block of a model its quantities begin.
+    """The first row of each quantity in the block of a model.
 
-    `desk` is what the law that is computed sees: time, position, velocity and force, then its states, their rates, and
-    the inputs. `params` are those of the model, `pace` how fast latent forces fade, `step` is that of the integration
-    (s), `inverse` one over each inertia, `own` the parameters of the laws, and `onset` the times (s) from which on each
-    law acts. All but the last two are the same for a model whatever laws it may have.
+    `desk` holds the arguments of the law that is computed: time, position, velocity and force, then its states, their
+    rates, and the inputs. `params` are those of the model, `pace` the decay rate of latent forces, `step` that of the
+    integration (s), `inverse` one over each inertia, `own` the parameters of the laws, and `onset` the times (s) from
+    which each law acts. All but the last two are the same for a model with any laws.
     """
 
     time: int
@@ -95,7 +95,7 @@ class Rows(NamedTuple):
 
 @dataclass(frozen=True)
 class Blueprint:
-    """All that decides the text of a kernel: a model by its functions and numbers, and every law it may have."""
+    """The description of the text of a kernel: a model by its functions and numbers, and all laws that it may have."""
 
     states: int
     inputs: int
@@ -110,7 +110,7 @@ class Blueprint:
 
     @cached_property
     def bare(self) -> Blueprint:
-        """The same model without laws, and with room for theirs."""
+        """The same model without laws, with room for their states."""
         return replace(self, laws=())
 
     @cached_property
@@ -126,7 +126,7 @@ class Blueprint:
 
     @cached_property
     def rows(self) -> Rows:
-        """Where the quantities stand in a block; there is room for the states of all laws and a force on each body."""
+        """The rows of the quantities in a block, with room for the states of all laws and a force on each body."""
         states = self.states + self.room
         sizes = [1, states, states, self.inputs, self.channels, 4 + 2 * states + self.inputs]
         sizes += [self.params, 1, 1, len(self.inertias), sum(law.width for law in self.laws), len(self.laws)]
@@ -139,7 +139,7 @@ class Blueprint:
         return tuple(self.rows.own + sum(widths[:i]) for i in range(len(widths)))
 
     def inputs_of(self, law: Law) -> int:
-        """Return how many inputs a law is shown: none where it reads none."""
+        """Return the number of inputs that a law receives: none where it reads none."""
         return self.inputs if law.reads_inputs else 0
 
     def inverse(self, inertia: int) -> int:
@@ -147,19 +147,19 @@ class Blueprint:
         return self.rows.inverse + self.inertias.index(inertia)
 
 
-def room_for(laws: Sequence[Law], bodies: int) -> int:
-    """Return how much room a block needs for the states of laws and for a force on each body."""
+def compute_room(laws: Sequence[Law], bodies: int) -> int:
+    """Return the number of rows that a block needs for the states of laws and for a force on each body."""
     needed = sum(law.states for law in laws) + bodies
     return ROOM * max(-(-needed // ROOM), 1)
 
 
-def law_of(term: Term, place: int, channel: int | None = None) -> Law:
+def make_law(term: Term, place: int, channel: int | None = None) -> Law:
     """Return a term as a law at a place of the model, or one of a sensor with its channel.
 
-    Where its functions are methods and not static ones, they are handed the numbers among the fields of the term.
+    Where its functions are methods and not static ones, they receive the numbers among the fields of the term.
     """
     cls, numbers = type(term), {f.name: getattr(term, f.name) for f in fields(term) if f.name != "at"}  # type: ignore[arg-type]
-    numbers = {name: value for name, value in numbers.items() if numeric(value)}
+    numbers = {name: value for name, value in numbers.items() if is_numeric(value)}
     own = [name for name in ("force", "rate") if not isinstance(inspect.getattr_static(cls, name), staticmethod)]
     made = namedtuple("Fields", numbers)(**numbers) if own else None
     if own and not numbers:
@@ -179,13 +179,13 @@ def law_of(term: Term, place: int, channel: int | None = None) -> Law:
     return Law(place, width, len(term.states), cls.force, cls.rate, steps, made, prepared, felt, channel)
 
 
-def handed(term: Term, own: Sequence[float] | Array) -> Values:
-    """Return what `force` and `rate` of a term get as `p` at one point, for its parameters and needs `own`."""
+def prepare_values(term: Term, own: Sequence[float] | Array) -> Values:
+    """Return the argument `p` of `force` and `rate` of a term at one point, for its parameters and needs `own`."""
     return tuple(term.prepared(np.array([own], dtype=float))[0].tolist())
 
 
-def numeric(value: Any) -> bool:
-    """Return whether a field of a term can be handed to a compiled law: a number, or several."""
+def is_numeric(value: Any) -> bool:
+    """Return whether a field of a term can be passed to a compiled law: a number, or several."""
     return isinstance(value, bool | int | float) or (
         isinstance(value, tuple) and len(value) > 0 and all(isinstance(v, int | float) for v in value)
     )

@@ -1,4 +1,4 @@
-"""Predictions of data that no fit has seen: one step ahead, running free, and how fast errors grow."""
+"""Predictions of held-out data: one step ahead, free runs, and the growth of errors."""
 
 from __future__ import annotations
 
@@ -11,18 +11,17 @@ from numpy.typing import NDArray
 
 from lostmotion.contracts import Array
 from lostmotion.kernels.filter import UNREAD_VARIANCE
-from lostmotion.likelihood.motion import derivatives
+from lostmotion.likelihood.motion import compute_derivatives
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem
+from lostmotion.settings import DEFAULT
 
-ENOUGH = 0.4
-"""A prediction is valid until its error exceeds this share of the standard deviation of the response."""
 WORST = 1e3
-"""An error in standard deviations of the response; a run that leaves all bounds errs by so much, and none by more."""
+"""The largest error, in standard deviations of the response; a run that diverges has this error."""
 NEAR = 1e-6
-"""How far near runs are apart, as a share of the motion."""
+"""The distance of neighbouring runs, as a share of the motion."""
 MANY = 2000
-"""So many pieces of a run are computed side by side."""
+"""The number of pieces of a run that are computed at once."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +34,7 @@ class Filtered:
 
     @property
     def taken(self) -> NDArray[np.bool_]:
-        """Which readings (samples, sensors) were taken: of the others an engine notes a variance of its own."""
+        """Which readings (samples, sensors) were taken; for the others an engine stores a fixed variance."""
         return np.abs(self.variances - UNREAD_VARIANCE) > 1e-12
 
     def log_score(self, held: slice) -> float:
@@ -52,7 +51,7 @@ class Filtered:
         return np.asarray(np.sum(-0.5 * (e * e / v + np.log(2.0 * np.pi * v)), axis=1))
 
     def expected_score(self, held: slice) -> float:
-        """Return what `log_score` would be if the errors were as large as their variances say."""
+        """Return the value of `log_score` for errors as large as their variances."""
         v = self.variances[held]
         return float(np.mean(np.sum(-0.5 * (self.taken[held] + np.log(2.0 * np.pi * v)), axis=1)))
 
@@ -63,26 +62,27 @@ class FreeRuns:
 
     lead: Array
     error: Array
+    valid: float = DEFAULT.heldout.valid
 
     def growth(self, scale: float) -> Array:
         """Return the rms error over the starts at each lead, over `scale`."""
         return np.asarray(np.sqrt(np.nanmean(self.error**2, axis=0)) / scale)
 
     def valid_time(self, scale: float) -> float:
-        """Return the median time (s) until the error exceeds `ENOUGH` of `scale`."""
-        beyond = np.abs(self.error) > ENOUGH * scale
+        """Return the median time (s) until the error exceeds the share `valid` of `scale`."""
+        beyond = np.abs(self.error) > self.valid * scale
         first = np.where(beyond.any(axis=1), beyond.argmax(axis=1), len(self.lead) - 1)
         return float(np.median(self.lead[first]))
 
 
-def filtered(problem: Problem, theta: Array) -> Filtered:
+def filter_recording(problem: Problem, theta: Array) -> Filtered:
     """Return the first recording of a problem, filtered at coordinates."""
     seen = problem.smooth(theta)
     errors, variances = (a[0] for a in (seen.innovations.errors, seen.innovations.variances))
     return Filtered(seen.filtered[:, : problem.dynamics.states], errors, variances)
 
 
-def free_runs(
+def predict_freely(
     problem: Problem, theta: Array, states: Array, starts: Array, steps: int, *, index: int = 0
 ) -> tuple[FreeRuns, ...]:
     """Return free predictions of `steps` samples of a recording, for each sensor.
@@ -90,25 +90,25 @@ def free_runs(
     They begin at the filtered `states` at the sample numbers `starts`.
     """
     observation = problem.observations[index]
-    runs = _runs(problem, theta, states[starts], starts, steps, index)
+    runs = _simulate_runs(problem, theta, states[starts], starts, steps, index)
     lead = np.asarray(np.arange(steps) * observation.dt, dtype=float)
     found = []
     for sensor, z in enumerate(observation.readings.T):
         error = np.full((len(starts), steps), np.nan)
         for row, start in enumerate(starts):
-            seen = observed(problem, theta, runs[row], (int(start), index), sensor)
+            seen = observe_states(problem, theta, runs[row], (int(start), index), sensor)
             error[row] = seen - z[start : start + steps]
             error[row, ~np.isfinite(seen)] = math.inf
         worst = WORST * float(np.nanstd(z))
-        found.append(FreeRuns(lead, np.clip(error, -worst, worst)))
+        found.append(FreeRuns(lead, np.clip(error, -worst, worst), problem.settings.heldout.valid))
     return tuple(found)
 
 
-def _runs(
+def _simulate_runs(
     problem: Problem, theta: Array, y0: Array, starts: Array, steps: int, index: int, kicks: Array | None = None
 ) -> Array:
     """Return the states (runs, steps, n) of free runs from `y0` (runs, n) at the sample numbers `starts`."""
-    one = problem.points(theta[None], index).taken(np.zeros(len(starts), dtype=np.int64))
+    one = problem.points(theta[None], index).select(np.zeros(len(starts), dtype=np.int64))
     begun = replace(one, first=np.asarray(starts, dtype=np.int64))
     dynamics = problem.dynamics
     begin = np.ascontiguousarray(y0[:, : dynamics.states])
@@ -116,22 +116,26 @@ def _runs(
     return states
 
 
-def free_run(problem: Problem, theta: Array, y0: Array, start: int, steps: int, index: int = 0) -> Array:
+def simulate_run(problem: Problem, theta: Array, y0: Array, start: int, steps: int, index: int = 0) -> Array:
     """Return the states (steps, n) of a free run that begins at sample `start` of a recording."""
-    run: Array = _runs(problem, theta, y0[None], np.array([start]), steps, index)[0]
+    run: Array = _simulate_runs(problem, theta, y0[None], np.array([start]), steps, index)[0]
     return run
 
 
-def kicked_run(problem: Problem, theta: Array, y0: Array, kicks: Array, index: int = 0) -> Array:
+def simulate_kicked(problem: Problem, theta: Array, y0: Array, kicks: Array, index: int = 0) -> Array:
     """Return the states (steps, n) of a run from the first sample, to which `kicks` (steps, n) are added."""
-    run: Array = _runs(problem, theta, y0[None], np.zeros(1, dtype=np.int64), len(kicks), index, kicks[None])[0]
+    run: Array = _simulate_runs(problem, theta, y0[None], np.zeros(1, dtype=np.int64), len(kicks), index, kicks[None])[
+        0
+    ]
     return run
 
 
-def observed(problem: Problem, theta: Array, states: Array, where: tuple[int, int] = (0, 0), sensor: int = 0) -> Array:
-    """Return what a sensor would show of the `states` (steps, n), from sample `where[0]` of a recording."""
+def observe_states(
+    problem: Problem, theta: Array, states: Array, where: tuple[int, int] = (0, 0), sensor: int = 0
+) -> Array:
+    """Return the readings of a sensor for the `states` (steps, n), from sample `where[0]` of a recording."""
     system, (start, index) = problem.system, where
-    observation, (gain, offset, lag) = problem.observations[index], problem.gauge(theta, index, sensor)
+    observation, (gain, offset, lag) = problem.observations[index], problem.compute_gauge(theta, index, sensor)
     channel, direct = system.shown(observation.sensors[sensor], problem.active)
     if direct >= 0:
         shown = states[:, direct]
@@ -140,7 +144,7 @@ def observed(problem: Problem, theta: Array, states: Array, where: tuple[int, in
         packed = system.pack(problem.full(theta, index)[None], drive.dt / problem.nsub, drive.harmonic)
         times = drive.begin + (start + np.arange(len(states))) * drive.dt
         inputs = drive.inputs[start : start + len(states)]
-        shown = derivatives(system, problem.active, packed, states, inputs, times)[1][:, channel]
+        shown = compute_derivatives(system, problem.active, packed, states, inputs, times)[1][:, channel]
     if lag:
         at = np.arange(len(shown)) - lag / observation.dt
         shown = np.interp(at, np.arange(len(shown)), shown, left=shown[0])
@@ -153,12 +157,12 @@ def observed(problem: Problem, theta: Array, states: Array, where: tuple[int, in
     return np.asarray(seen)
 
 
-def growth_rates(problem: Problem, theta: Array, y0: Array, index: int = 0) -> Array:
-    """Return how fast (1/s, base e) near runs part in each natural time, (pieces,); none where they cannot be told.
+def compute_growth_rates(problem: Problem, theta: Array, y0: Array, index: int = 0) -> Array:
+    """Return the divergence rate (1/s, base e) of neighbouring runs in each piece, (pieces,); empty on failure.
 
-    Runs a millionth of the motion apart are brought together again after each piece; Benettin, Galgani, Giorgilli,
-    Strelcyn, Meccanica 15 (1980) 9-20. All pieces of a run from `y0` are computed side by side, with one run beside it
-    for each state, and put together after. The first tenth is not counted.
+    Runs a millionth of the motion apart are renormalised after each piece (Benettin, Galgani, Giorgilli, Strelcyn,
+    Meccanica 15 (1980) 9-20). All pieces of a run from `y0` are computed at once, with one neighbouring run for each
+    state, and combined afterwards. The first tenth is not counted.
     """
     observation = problem.observations[index]
     piece = max(int(problem.scales.time * 3.0 / observation.dt), 8)
@@ -167,11 +171,12 @@ def growth_rates(problem: Problem, theta: Array, y0: Array, index: int = 0) -> A
     starts = np.arange(0, observation.samples - piece, piece)
     if not len(starts):
         return np.zeros(0)
-    path = _runs(problem, theta, y0[None], np.zeros(1, dtype=np.int64), observation.samples, index)[0]
+    path = _simulate_runs(problem, theta, y0[None], np.zeros(1, dtype=np.int64), observation.samples, index)[0]
     maps = [
-        _parted(problem, theta, path[k], k, piece, unit, index) for k in np.array_split(starts, len(starts) // MANY + 1)
+        _separate_runs(problem, theta, path[k], k, piece, unit, index)
+        for k in np.array_split(starts, len(starts) // MANY + 1)
     ]
-    direction, rates = _direction(len(y0)), []
+    direction, rates = _choose_direction(len(y0)), []
     for start, grown in zip(starts, np.concatenate(maps), strict=True):
         direction = direction @ grown
         gap = float(np.linalg.norm(direction))
@@ -183,22 +188,22 @@ def growth_rates(problem: Problem, theta: Array, y0: Array, index: int = 0) -> A
     return np.array(rates)
 
 
-def _parted(
+def _separate_runs(
     problem: Problem, theta: Array, begun: Array, starts: NDArray[Any], piece: int, unit: Array, index: int
 ) -> Array:
-    """Return how runs that are a little apart in each state are apart after a piece, (starts, states, states).
+    """Return the derivatives of the final states of a piece over its initial ones, (starts, states, states).
 
     They begin at the samples `starts`, from the states `begun` (starts, n); distances are in `unit` (n,).
     """
     n = len(unit)
     shifts = NEAR * np.vstack([np.zeros(n), np.diag(unit)])
     begin = (begun[:, None] + shifts).reshape(-1, n)
-    runs = _runs(problem, theta, begin, np.repeat(starts, n + 1), piece + 1, index)
+    runs = _simulate_runs(problem, theta, begin, np.repeat(starts, n + 1), piece + 1, index)
     ends = runs[:, -1].reshape(len(starts), n + 1, n)
     return np.asarray((ends[:, 1:] - ends[:, :1]) / (NEAR * unit))
 
 
-def _direction(n: int) -> Array:
+def _choose_direction(n: int) -> Array:
     direction = np.zeros(n)
     direction[0] = direction[1] = math.sqrt(0.5)
     return direction
@@ -206,7 +211,7 @@ def _direction(n: int) -> Array:
 
 @dataclass(frozen=True)
 class Horizon:
-    """Over what time a free prediction is judged: `steps` samples, `number` of `unit` ("Lyapunov times" or another)."""
+    """The time over which a free prediction is judged: `steps` samples, `number` of `unit` ("Lyapunov times", ...)."""
 
     steps: int
     number: float
@@ -214,15 +219,15 @@ class Horizon:
     unit_time: float
 
 
-def horizon_of(observation: Observation, exponent: float, natural: float) -> Horizon:
+def choose_horizon(observation: Observation, exponent: float, natural: float) -> Horizon:
     """Return half a Lyapunov time when the motion is chaotic, else one drive period, else one natural cycle."""
     period = observation.period
     cycle = period * observation.dt if period else 2.0 * math.pi * natural
     if math.isfinite(exponent) and exponent * cycle > 0.1:
-        return Horizon(_steps(0.5 / exponent, observation), 0.5, "Lyapunov times", 1.0 / exponent)
+        return Horizon(_count_steps(0.5 / exponent, observation), 0.5, "Lyapunov times", 1.0 / exponent)
     unit = "drive periods" if period else "natural periods"
-    return Horizon(_steps(cycle, observation), 1.0, unit, cycle)
+    return Horizon(_count_steps(cycle, observation), 1.0, unit, cycle)
 
 
-def _steps(time: float, observation: Observation) -> int:
+def _count_steps(time: float, observation: Observation) -> int:
     return int(min(max(round(time / observation.dt), 2), observation.samples // 4))

@@ -1,4 +1,4 @@
-"""What is to be estimated from which recordings: the posterior density that every fit and every sampler sees."""
+"""The posterior density that every fit and every sampler uses: recordings, a system, and its free parameters."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from numpy.typing import NDArray
 
 from lostmotion.contracts import Array, Engine
 from lostmotion.kernels.threads import each
-from lostmotion.likelihood.batches import distinct, grouped, joined, realigned
-from lostmotion.likelihood.bends import Corrections, correct, corrections_of, stretched
-from lostmotion.likelihood.drive import Drive, widened
+from lostmotion.likelihood.batches import find_distinct, group_rows, join_innovations, realign
+from lostmotion.likelihood.bends import Corrections, correct_readings, list_corrections, rescale_innovations
+from lostmotion.likelihood.drive import Drive, pad_inputs
 from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Random, Smoothed
-from lostmotion.likelihood.initial import initial
+from lostmotion.likelihood.initial import compute_initial
 from lostmotion.likelihood.lanes import Lanes
-from lostmotion.likelihood.motion import lanes_for
-from lostmotion.likelihood.observation import Observation, shifted
+from lostmotion.likelihood.motion import count_lanes
+from lostmotion.likelihood.observation import Observation, shift_sensors
 from lostmotion.likelihood.sensors import AR1
 from lostmotion.likelihood.space import (
     AR1_LEVEL,
@@ -41,21 +41,22 @@ from lostmotion.settings import DEFAULT, Settings
 __all__ = ["LEVELS", "NOISE", "OFFSET", "PACE", "RANDOM", "USUAL", "FreeParameter", "Innovations", "Problem", "Scales"]
 
 USUAL = 1e-3
-"""The noise of a measured excitation as a share of the drive that is usual, and no mechanism left out."""
+"""The usual noise of a measured excitation as a share of the drive, which is no missing mechanism."""
 LATEST = 0.5
-"""Of several sensors, one may be late by so many natural times of the motion, a radian of it."""
+"""One of several sensors may be late by at most this many natural times of the motion (half a radian)."""
 TOGETHER = 16
-"""Points that are computed at once, where the cores have enough of them: more only wait for memory."""
+"""Points that are computed at once where there are enough for all cores; more are limited by memory."""
 
 
 @dataclass(frozen=True)
 class Problem:
-    """Recordings, a system, what is known of it (`known`, full vector) and what is free.
+    """Recordings, a system, its known parameters (`known`, full vector) and its free ones.
 
     A key such as `c[run 1]` is the parameter `c` of the recording "run 1" alone; without brackets all share it.
 
-    The random force is white, or, when `PACE` is among the free parameters, an Ornstein-Uhlenbeck force of the same
-    intensity at low frequency: it stands for what no term explains, and keeps slow leftovers from posing as evidence.
+    The random force (process noise) is white, or, when `PACE` is among the free parameters, an Ornstein-Uhlenbeck force
+    of the same intensity at low frequency. It represents what no term explains; with a memory it also absorbs slow
+    residuals, which would otherwise count as evidence.
     """
 
     system: System
@@ -70,11 +71,9 @@ class Problem:
     settings: Settings = DEFAULT
 
     def __post_init__(self) -> None:
-        """Set the inputs to zero that a recording lacks."""
-        count = len(self.system.model.inputs)
-        whole = [
-            replace(o, inputs=widened(o.inputs, count)) if o.inputs.shape[1] < count else o for o in self.observations
-        ]
+        """Pad the inputs that a recording lacks with zeros."""
+        count, given = len(self.system.model.inputs), self.observations
+        whole = (o if o.inputs.shape[1] >= count else replace(o, inputs=pad_inputs(o.inputs, count)) for o in given)
         object.__setattr__(self, "observations", tuple(whole))
 
     @cached_property
@@ -103,60 +102,60 @@ class Problem:
         return any(f.parameter == PACE for f in self.free)
 
     @cached_property
-    def routes(self) -> tuple[RecordingCoordinates, ...]:
-        """Which coordinate stands for what in each recording."""
+    def coordinates(self) -> tuple[RecordingCoordinates, ...]:
+        """The coordinates of each parameter in each recording."""
         return tuple(RecordingCoordinates.of(self.keys, observation.name) for observation in self.observations)
 
-    def _seen(self, index: int, late: tuple[int, ...] = ()) -> Observation:
-        """Return a recording as an engine sees it: with the noise that its sensors have, moved by whole samples.
+    def _make_view(self, index: int, late: tuple[int, ...] = ()) -> Observation:
+        """Return a recording as an engine sees it: with the noise kinds of its sensors, moved by whole samples.
 
-        `late` says by how many samples each sensor is late. Where sensors may be late, the same first readings are
-        left out whatever `late` says, so that likelihoods can be compared.
+        `late` says by how many samples each sensor is late. Where sensors may be late, the same first readings are left
+        out for any `late`, so that likelihoods can be compared.
         """
         if (index, late) not in self._views:
-            observation, columns = self.observations[index], self.routes[index].columns
+            observation, columns = self.observations[index], self.coordinates[index].columns
             sensors = tuple(
                 replace(s, noise=AR1()) if observation.level(AR1_LEVEL, i) in columns else s
                 for i, s in enumerate(observation.sensors)
             )
-            view, most = replace(observation, sensors=sensors), self._latest(index)
-            self._views[index, late] = shifted(view, late or (0,) * len(sensors), most) if most else view
+            view, most = replace(observation, sensors=sensors), self._count_latest(index)
+            self._views[index, late] = shift_sensors(view, late or (0,) * len(sensors), most) if most else view
         return self._views[index, late]
 
     @cached_property
     def _views(self) -> dict[tuple[int, tuple[int, ...]], Observation]:
-        """The recordings as an engine has seen them, so that what they tell of themselves is computed once."""
+        """The recordings as an engine has seen them, so that their cached properties are computed once."""
         return {}
 
-    def _latest(self, index: int) -> int:
+    def _count_latest(self, index: int) -> int:
         """Return by how many samples a sensor can be late: where there are several, and terms that make one late."""
         observation = self.observations[index]
-        if len(observation.sensors) == 1 or not self.system.delaying:
+        if len(observation.sensors) == 1 or not self.system.has_delay_terms:
             return 0
         return min(math.ceil(LATEST * self.scales.time / observation.dt), observation.samples // 20)
 
     @cached_property
     def dynamics(self) -> Dynamics:
-        """What moves, as an engine sees it."""
+        """The system with its active terms, as an engine sees it."""
         random: Random = "white"
         if self.coloured:
             random = "latent"
-        elif any(self.system.feels(s.channel) for o in self.observations for s in o.sensors):
+        elif any(self.system.senses_force(s.channel) for o in self.observations for s in o.sensors):
             random = "held"
         return Dynamics(self.system, self.active, self.nsub, random)
 
     @cached_property
     def _slots(self) -> tuple[tuple[int, FreeParameter], ...]:
-        """Where each free parameter of the system stands in the full vector."""
+        """The index of each free parameter of the system in the full vector."""
         frees = {f.parameter: f for f in self.free}
         return tuple((self.system.index[name], f) for name, f in frees.items() if f.level not in LEVELS)
 
     def full(self, theta: Array, index: int = 0) -> Array:
         """Return the full parameter vector of the system in a recording at coordinates (n,), or (points, n)."""
-        route = self.routes[index]
+        coordinates = self.coordinates[index]
         full = np.tile(self.known, (*theta.shape[:-1], 1))
         for slot, f in self._slots:
-            full[..., slot] = f.value(route.at(theta, f.parameter))
+            full[..., slot] = f.value(coordinates.at(theta, f.parameter))
         return full
 
     def values(self, theta: Array) -> dict[str, float]:
@@ -173,7 +172,7 @@ class Problem:
 
     def innovations(self, theta: Array) -> Innovations:
         """Return the one-step prediction errors of the filter at the coordinates `theta`, all readings in a row."""
-        return self.many(theta[None])[0]
+        return self.filter_many(theta[None])[0]
 
     def log_posterior(self, theta: Array) -> float:
         """Return log-likelihood plus log prior at the coordinates `theta`."""
@@ -189,104 +188,104 @@ class Problem:
 
     def log_likelihoods(self, thetas: Array) -> Array:
         """Return the log-likelihood (points,) at coordinates (points, n); minus infinity where it diverges."""
-        return np.asarray(sum(part.log_likelihood for part in self._filtered(np.asarray(thetas))))
+        return np.asarray(sum(part.log_likelihood for part in self._filter_all(np.asarray(thetas))))
 
-    def many(self, thetas: Array) -> Innovations:
+    def filter_many(self, thetas: Array) -> Innovations:
         """Return the innovations (points, readings) at coordinates (points, n), all recordings in a row."""
-        parts = self._filtered(np.asarray(thetas))
+        parts = self._filter_all(np.asarray(thetas))
         flat = [(p.errors.reshape(len(p), -1), p.variances.reshape(len(p), -1)) for p in parts]
         errors, variances = (
             np.concatenate([f[k] for f in flat], axis=1) if len(flat) > 1 else flat[0][k] for k in (0, 1)
         )
         return Innovations(errors, variances, np.all([p.finite for p in parts], axis=0))
 
-    def _filtered(self, thetas: Array) -> list[Innovations]:
-        """Return the innovations of each recording; points that differ in nothing that matters are filtered once."""
+    def _filter_all(self, thetas: Array) -> list[Innovations]:
+        """Return the innovations of each recording; points that are equal in all that matters are filtered once."""
         tasks, places = [], []
-        for index, route in enumerate(self.routes):
-            rows, inverse = distinct(thetas[:, route.used])
+        for index, coordinates in enumerate(self.coordinates):
+            rows, inverse = find_distinct(thetas[:, coordinates.used])
             places.append(inverse)
-            share = min(lanes_for(-(-len(rows) // self.jobs)), TOGETHER)
-            alike = grouped(rows, self._views_of(thetas[rows], index))
+            share = min(count_lanes(-(-len(rows) // self.jobs)), TOGETHER)
+            alike = group_rows(rows, self._list_views(thetas[rows], index))
             tasks += [(index, some[k : k + share]) for some in alike for k in range(0, len(some), share)]
             if len(alike) > 1:  # the order of the tasks is another than that of the rows
                 place = np.empty(len(thetas), dtype=np.intp)
                 place[np.concatenate(alike)] = np.arange(len(rows))
                 places[-1] = place[rows if inverse is None else rows[inverse]]
-        done = self._each(tasks, thetas)
+        done = self._filter_tasks(tasks, thetas)
         found = []
         for index, inverse in enumerate(places):
             parts = [part for (i, _), part in zip(tasks, done, strict=True) if i == index]
-            whole = parts[0] if len(parts) == 1 else joined(parts)
+            whole = parts[0] if len(parts) == 1 else join_innovations(parts)
             found.append(whole if inverse is None else whole[inverse])
         return found
 
-    def late(self, thetas: Array, index: int = 0) -> list[tuple[int, ...]]:
-        """Return for each of some coordinates (points, n) by how many whole samples each sensor is late."""
+    def count_delays(self, thetas: Array, index: int = 0) -> list[tuple[int, ...]]:
+        """Return for each of some coordinates (points, n) the delay of each sensor in whole samples."""
         observation = self.observations[index]
-        if not self._latest(index) or not self.system.gauging(self.active):
+        if not self._count_latest(index) or not self.system.has_sensor_terms(self.active):
             return [(0,) * len(observation.sensors)] * len(thetas)
-        late = self._gauged(self.full(thetas, index), index)[2] / observation.dt
+        late = self._compute_gauges(self.full(thetas, index), index)[2] / observation.dt
         return [tuple(row) for row in np.rint(late).astype(int).tolist()]
 
-    def _each(self, tasks: Sequence[tuple[int, NDArray[np.intp]]], thetas: Array) -> list[Innovations]:
+    def _filter_tasks(self, tasks: Sequence[tuple[int, NDArray[np.intp]]], thetas: Array) -> list[Innovations]:
         def work(task: tuple[int, NDArray[np.intp]]) -> Innovations:
             index, rows = task
-            late = self.late(thetas[rows[:1]], index)[0]
-            seen, slopes = correct(self._seen(index, late), self._corrections(thetas[rows[0]], index))
-            awake = self._awake(thetas[rows[0]], index)
+            late = self.count_delays(thetas[rows[:1]], index)[0]
+            seen, slopes = correct_readings(
+                self._make_view(index, late), self._list_corrections(thetas[rows[0]], index)
+            )
+            awake = self._drop_idle_lags(thetas[rows[0]], index)
             found = self.engine.filter(awake.dynamics, seen, awake.points(thetas[rows], index))
-            found = found if slopes is None else stretched(found, slopes)
-            return realigned(found, late) if any(late) else found
+            found = found if slopes is None else rescale_innovations(found, slopes)
+            return realign(found, late) if any(late) else found
 
         return each(work, tasks, self.jobs)
 
-    def _views_of(self, thetas: Array, index: int) -> list[tuple[Any, ...]]:
-        """Return for each of some coordinates (points, n) what makes readings another view: delays, bends and lags."""
-        late = self.late(thetas, index)
-        if not self.active & {*self.system.bending, *self.system.lagging, *self.system.rescaling}:
+    def _list_views(self, thetas: Array, index: int) -> list[tuple[Any, ...]]:
+        """Return for each of some coordinates (points, n) what changes the view of the readings: delay, bend, lag."""
+        late = self.count_delays(thetas, index)
+        if not self.active & {*self.system.bending_terms, *self.system.lagging_terms, *self.system.rescaling}:
             return list(late)
-        corrections = [self._corrections(theta, index) for theta in thetas]
-        awake = [self._awake(theta, index).active for theta in thetas]
+        corrections = [self._list_corrections(theta, index) for theta in thetas]
+        awake = [self._drop_idle_lags(theta, index).active for theta in thetas]
         return list(zip(late, corrections, awake, strict=True))
 
-    def _awake(self, theta: Array, index: int) -> Problem:
-        """Return the problem without sensors that lag by nothing at some coordinates: a lag of zero has no rate."""
-        lagging = self.active & set(self.system.lagging)
-        idle = {key for key in lagging if self.system.idle(self.full(theta, index), key)}
+    def _drop_idle_lags(self, theta: Array, index: int) -> Problem:
+        """Return the problem without sensors that have no lag at some coordinates: a lag of zero has no rate."""
+        lagging = self.active & set(self.system.lagging_terms)
+        idle = {key for key in lagging if self.system.is_idle(self.full(theta, index), key)}
         return replace(self, active=self.active - idle) if idle else self
 
-    def _corrections(self, theta: Array, index: int) -> Corrections:
-        """Return what has to be undone in the readings of a recording at some coordinates."""
-        return corrections_of(self.system, self.active, self.full(theta, index), self.observations[index].sensors)
+    def _list_corrections(self, theta: Array, index: int) -> Corrections:
+        """Return the corrections of the readings of a recording at some coordinates."""
+        return list_corrections(self.system, self.active, self.full(theta, index), self.observations[index].sensors)
 
     def points(self, thetas: Array, index: int = 0) -> Points:
         """Return coordinates (points, n) as an engine takes them, for one recording."""
         observation, fulls = self.observations[index], self.full(thetas, index)
-        route, shape = self.routes[index], (len(thetas), len(observation.sensors))
-        pace = np.exp(route.at(thetas, PACE)) if self.coloured else np.zeros(len(thetas))
-        columns = [self._sensor(thetas, index, s) for s in range(shape[1])]
+        coordinates, shape = self.coordinates[index], (len(thetas), len(observation.sensors))
+        pace = np.exp(coordinates.at(thetas, PACE)) if self.coloured else np.zeros(len(thetas))
+        columns = [self._compute_levels(thetas, index, s) for s in range(shape[1])]
         white, ar1, ar1_share, offset = (
             np.stack([np.broadcast_to(c[k], len(thetas)) for c in columns], axis=1) for k in range(4)
         )
-        gain, more, lag = self._gauged(fulls, index)
+        gain, more, lag = self._compute_gauges(fulls, index)
         lag = lag - np.rint(lag / observation.dt) * observation.dt
-        drives, which = self._drives(fulls, index)
-        mean, covariance = initial(self, fulls, gain, offset + more, index)
-        process = np.exp(route.at(thetas, RANDOM))
+        drives, which = self._make_drives(fulls, index)
+        mean, covariance = compute_initial(self, fulls, gain, offset + more, index)
+        process = np.exp(coordinates.at(thetas, RANDOM))
         first = np.zeros(len(thetas), dtype=np.int64)
-        return Points(
-            fulls, process, pace, white, ar1, ar1_share, gain, offset + more, lag, mean, covariance, drives, which,
-            first,
-        )  # fmt: skip
+        sensing = (white, ar1, ar1_share, gain, offset + more, lag)
+        return Points(fulls, process, pace, *sensing, mean, covariance, drives, which, first)  # fmt: skip
 
-    def _sensor(self, thetas: Array, index: int, sensor: int) -> tuple[Any, Any, Any, Any]:
-        """Return the variances of white and of slow noise, the share of it that a sample leaves, and the zero."""
-        observation, route = self.observations[index], self.routes[index]
+    def _compute_levels(self, thetas: Array, index: int, sensor: int) -> tuple[Any, Any, Any, Any]:
+        """Return the variances of white and of AR(1) noise, the AR(1) coefficient per sample, and the offset."""
+        observation, coordinates = self.observations[index], self.coordinates[index]
 
         def level(name: str) -> Any:
             key = observation.level(name, sensor)
-            return route.at(thetas, key) if key in route.columns else None
+            return coordinates.at(thetas, key) if key in coordinates.columns else None
 
         noise, ar1, ar1_share, offset = (level(name) for name in (NOISE, AR1_LEVEL, AR1_MEMORY, OFFSET))
         if ar1 is None:
@@ -294,34 +293,34 @@ class Problem:
         left = np.exp(-observation.dt / np.exp(ar1_share))
         return np.exp(2.0 * noise), np.exp(2.0 * ar1), left, 0.0 if offset is None else offset
 
-    def _gauged(self, fulls: Array, index: int) -> tuple[Array, Array, Array]:
-        """Return what each sensor shows of one unit, and of nothing, and how late (s) it is, (points, sensors) each.
+    def _compute_gauges(self, fulls: Array, index: int) -> tuple[Array, Array, Array]:
+        """Return gain, offset, and delay (s) of each sensor, (points, sensors) each.
 
-        One that is alone never is late: what makes it so delays the drive.
+        A sensor that is alone is never late: its delay term delays the drive.
         """
         observation = self.observations[index]
         shape = (len(fulls), len(observation.sensors))
         gain, offset, lag = np.ones(shape), np.zeros(shape), np.zeros(shape)
-        if self.system.gauging(self.active):
+        if self.system.has_sensor_terms(self.active):
             for s, sensor in enumerate(observation.sensors):
                 for i, full in enumerate(fulls):
                     terms = self.system.at_sensor(full, self.active, sensor.place)
                     gain[i, s] = math.prod(term.gain(p) for term, p in terms)
                     offset[i, s] = sum(term.offset(p) for term, p in terms)
                     lag[i, s] = sum(term.delay(p) for term, p in terms)
-        return gain, offset, np.clip(lag, 0.0, self._latest(index) * observation.dt)
+        return gain, offset, np.clip(lag, 0.0, self._count_latest(index) * observation.dt)
 
-    def _drives(self, fulls: Array, index: int) -> tuple[tuple[Drive, ...], NDArray[np.int64]]:
-        """Return the distinct inputs that act in a recording, and which of them acts at each point."""
+    def _make_drives(self, fulls: Array, index: int) -> tuple[tuple[Drive, ...], NDArray[np.int64]]:
+        """Return the distinct inputs that act in a recording, and the number of that of each point."""
         observation = self.observations[index]
-        keys = self.system.shaping(self.active, alone=len(observation.sensors) == 1)
+        keys = self.system.list_input_terms(self.active, alone=len(observation.sensors) == 1)
         if not keys:
             return (observation.drive,), np.zeros(len(fulls), dtype=np.int64)
         numbers: dict[Any, int] = {}
         drives: list[Drive] = []
         which = []
         for full in fulls:
-            acts = [key for key in keys if not self.system.idle(full, key)]
+            acts = [key for key in keys if not self.system.is_idle(full, key)]
             values = tuple(
                 (key, self.system.onset(full, key), self.system.values(full, key, observation.harmonic)) for key in acts
             )
@@ -336,26 +335,26 @@ class Problem:
 
     def drive(self, index: int, theta: Array) -> Drive:
         """Return the input that acts in a recording at the coordinates `theta`."""
-        return self._drives(self.full(theta, index)[None], index)[0][0]
+        return self._make_drives(self.full(theta, index)[None], index)[0][0]
 
     def noise(self, theta: Array, index: int = 0, sensor: int = 0) -> tuple[float, float]:
         """Return the intensity of the random force (N^2 s) and the variance of the white noise of a sensor."""
-        return math.exp(self.routes[index].at(theta, RANDOM)), float(self._sensor(theta, index, sensor)[0])
+        return math.exp(self.coordinates[index].at(theta, RANDOM)), float(self._compute_levels(theta, index, sensor)[0])
 
     def ar1(self, theta: Array, index: int = 0, sensor: int = 0) -> tuple[float, float]:
-        """Return the variance of noise with a memory of a sensor, and the share that is left after a sample."""
-        _, variance, left, _ = self._sensor(theta, index, sensor)
+        """Return the variance of the AR(1) noise of a sensor, and its coefficient per sample."""
+        _, variance, left, _ = self._compute_levels(theta, index, sensor)
         return float(variance), float(left)
 
     def measurement(self, theta: Array, index: int = 0, sensor: int = 0) -> float:
         """Return the variance of all noise of a sensor, white and AR(1)."""
         return self.noise(theta, index, sensor)[1] + self.ar1(theta, index, sensor)[0]
 
-    def gauge(self, theta: Array, index: int = 0, sensor: int = 0) -> tuple[float, float, float]:
-        """Return what a sensor shows of one unit, what at zero (unit of the channel), and how late it is (s)."""
+    def compute_gauge(self, theta: Array, index: int = 0, sensor: int = 0) -> tuple[float, float, float]:
+        """Return the gain of a sensor, its reading at zero (unit of the channel), and its delay (s)."""
         fulls = self.full(theta, index)[None]
-        gain, more, lag = self._gauged(fulls, index)
-        zero = float(self._sensor(theta, index, sensor)[3])
+        gain, more, lag = self._compute_gauges(fulls, index)
+        zero = float(self._compute_levels(theta, index, sensor)[3])
         return float(gain[0, sensor]), zero + float(more[0, sensor]), float(lag[0, sensor])
 
     def begun(self, theta: Array, index: int = 0) -> Array:
@@ -365,20 +364,22 @@ class Problem:
 
     def smooth(self, theta: Array, index: int = 0) -> Smoothed:
         """Return the filtered and the smoothed states of a recording at the coordinates `theta`."""
-        seen, _ = correct(self._seen(index, self.late(theta[None], index)[0]), self._corrections(theta, index))
+        seen, _ = correct_readings(
+            self._make_view(index, self.count_delays(theta[None], index)[0]), self._list_corrections(theta, index)
+        )
         return self.engine.smooth(self.dynamics, seen, self.points(theta[None], index))
 
-    def extended(self, more: Iterable[FreeParameter], active: Iterable[str]) -> Problem:
+    def extend(self, more: Iterable[FreeParameter], active: Iterable[str]) -> Problem:
         """Return the problem with further free parameters and terms."""
         return replace(self, free=(*self.free, *more), active=self.active | frozenset(active))
 
-    def knowing(self, values: Mapping[str, float]) -> Problem:
+    def hold_values(self, values: Mapping[str, float]) -> Problem:
         """Return the problem with further parameters held at `values`."""
         known = self.known.copy()
         known[[self.system.index[key] for key in values]] = list(values.values())
         return replace(self, known=known)
 
-    def reduced(self, key: str, values: Mapping[str, float]) -> Problem:
+    def remove_term(self, key: str, values: Mapping[str, float]) -> Problem:
         """Return the problem without the term `key`; `values` become the new starting points."""
         kept = tuple(
             replace(f, start=f.coordinate(values.get(f.key, f.value(f.start))))

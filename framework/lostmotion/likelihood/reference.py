@@ -1,4 +1,4 @@
-"""The engine that computes one point after the other in plain NumPy: the others are held against it."""
+"""The engine that computes one point after the other in plain NumPy; other engines are tested against it."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from lostmotion.kernels.crossing import BEND_LIMIT, PACED_LIMIT, PACED_SHARE, ST
 from lostmotion.kernels.filter import INNER_POINT, INNER_WEIGHT, OUTER_POINT, OUTER_WEIGHT, UNREAD_VARIANCE
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Smoothed
-from lostmotion.likelihood.lanes import fine_steps, unsure_of
+from lostmotion.likelihood.lanes import count_fine_steps, find_input_variance
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
 
@@ -34,7 +34,7 @@ class Reference(Engine):
 
     def filter(self, dynamics: Dynamics, observation: Observation, points: Points) -> Innovations:
         """Return one-step errors and their variances, (points, samples, sensors)."""
-        runs = [_Run.of(dynamics, observation, points.taken(slice(i, i + 1))) for i in range(len(points))]
+        runs = [_Run.of(dynamics, observation, points.select(slice(i, i + 1))) for i in range(len(points))]
         reached = np.array([run.filter() for run in runs], dtype=np.int64)
         return Innovations.of(np.array([r.errors for r in runs]), np.array([r.variances for r in runs]), reached)
 
@@ -55,10 +55,10 @@ class Reference(Engine):
     def simulate(
         self, dynamics: Dynamics, points: Points, start: Array, steps: int, kicks: Array | None = None
     ) -> Array:
-        """Return the states (points, steps, n) of free runs by RK4, NaN where they leave all numbers."""
+        """Return the states (points, steps, n) of free runs by RK4, NaN after a divergence."""
         states = np.full((len(points), steps, dynamics.states), np.nan)
         for i in range(len(points)):
-            machine = _Machine.of(dynamics, points.taken(slice(i, i + 1)), dynamics.nsub)
+            machine = _Machine.of(dynamics, points.select(slice(i, i + 1)), dynamics.nsub)
             y, h = start[i].astype(float), machine.drive.dt / dynamics.nsub
             for k in range(steps):
                 if kicks is not None and k:
@@ -67,7 +67,7 @@ class Reference(Engine):
                 if k == steps - 1 or not np.isfinite(y).all():
                     break
                 for j in range(dynamics.nsub):
-                    y = machine.stepped(y, (int(points.first[i]) + k, j / dynamics.nsub, 1.0 / dynamics.nsub), h)
+                    y = machine.take_step(y, (int(points.first[i]) + k, j / dynamics.nsub, 1.0 / dynamics.nsub), h)
         states[~np.isfinite(states).all(axis=2)] = np.nan
         return states
 
@@ -84,8 +84,8 @@ class _Machine:
 
     @classmethod
     def of(cls, dynamics: Dynamics, points: Points, nsub: int) -> _Machine:
-        """Return the machine of a single point, with what its laws need of steps so fine."""
-        drive = points.drives[points.which[0]].widened(len(dynamics.system.model.inputs))
+        """Return the machine of a single point, with the parameters of its laws for this number of steps."""
+        drive = points.drives[points.which[0]].pad_inputs(len(dynamics.system.model.inputs))
         packed = dynamics.system.pack(points.params, drive.dt / nsub, drive.harmonic)[0]
         return cls(dynamics.system, dynamics, packed, drive, float(points.pace[0]))
 
@@ -93,8 +93,8 @@ class _Machine:
         """Return the inputs at a share of the way through sample `k`."""
         return np.asarray(share ** np.arange(4) @ self.drive.cubics[k], dtype=float)
 
-    def going(self, step: float) -> None:
-        """Tell the laws how long the step is that is tried."""
+    def set_step(self, step: float) -> None:
+        """Set the length of the step in the parameters of the laws."""
         plan = self.system.blueprint
         rows = plan.rows
         for law, start in zip(plan.laws, plan.starts, strict=True):
@@ -103,14 +103,14 @@ class _Machine:
 
     @cached_property
     def paced(self) -> NDArray[np.bool_]:
-        """Which states belong to laws that bound their own pace by the step."""
+        """The states of laws that limit their own rate by the step."""
         paced = np.zeros(self.dynamics.states + self.dynamics.forces, dtype=np.bool_)
         for law, begin in zip(self.system.blueprint.laws, self.system.wiring(self.dynamics.active)[1], strict=True):
             if begin and law.steps:
                 paced[begin : begin + law.states] = True
         return paced
 
-    def slope(self, y: Array, u: Array, t: float) -> Array:
+    def compute_slope(self, y: Array, u: Array, t: float) -> Array:
         """Return the derivatives of all states."""
         system, plan = self.system, self.system.blueprint
         dydt = np.zeros(len(y))
@@ -148,35 +148,35 @@ class _Machine:
             term.rate(t, float(shown[law.channel]), 0.0, u, own, tuple(y[states]), dydt[states])
         return dydt
 
-    def seen(self, y: Array, u: Array, t: float, channel: int) -> float:
-        """Return what a channel shows."""
+    def observe(self, y: Array, u: Array, t: float, channel: int) -> float:
+        """Return the value of a channel."""
         shown = np.zeros(len(self.system.model.channels))
-        self.system.model.observe(t, y, self.slope(y, u, t), u, self.packed, shown)
+        self.system.model.observe(t, y, self.compute_slope(y, u, t), u, self.packed, shown)
         return float(shown[channel])
 
-    def seen_late(self, y: Array, k: int, lag: float, channel: int) -> float:
-        """Return what a channel showed a time `lag` (s) before sample `k`, where the states are `y`."""
+    def observe_late(self, y: Array, k: int, lag: float, channel: int) -> float:
+        """Return the value of a channel a time `lag` (s) before sample `k`, where the states are `y`."""
         dt, begin = self.drive.dt, self.drive.begin + k * self.drive.dt
         if lag:
-            half = y - 0.5 * lag * self.slope(y, self.input(k, 0.0), begin)
-            y = y - lag * self.slope(half, self.input(k, -0.5 * lag / dt), begin - 0.5 * lag)
-        return self.seen(y, self.input(k, -lag / dt), begin - lag, channel)
+            half = y - 0.5 * lag * self.compute_slope(y, self.input(k, 0.0), begin)
+            y = y - lag * self.compute_slope(half, self.input(k, -0.5 * lag / dt), begin - 0.5 * lag)
+        return self.observe(y, self.input(k, -lag / dt), begin - lag, channel)
 
-    def stepped(self, y: Array, where: tuple[int, float, float], h: float) -> Array:
-        """Return the state after a step of RK4; `where` is the sample, where in it the step begins, and its length."""
+    def take_step(self, y: Array, where: tuple[int, float, float], h: float) -> Array:
+        """Return the state after a step of RK4; `where` is the sample, the start of the step in it, and its length."""
         k, share, width = where
         begin = self.drive.begin + (k + share) * self.drive.dt
         early, middle, late = (self.input(k, share + part * width) for part in (0.0, 0.5, 1.0))
-        k1 = self.slope(y, early, begin)
-        k2 = self.slope(y + 0.5 * h * k1, middle, begin + 0.5 * h)
-        k3 = self.slope(y + 0.5 * h * k2, middle, begin + 0.5 * h)
-        k4 = self.slope(y + h * k3, late, begin + h)
+        k1 = self.compute_slope(y, early, begin)
+        k2 = self.compute_slope(y + 0.5 * h * k1, middle, begin + 0.5 * h)
+        k3 = self.compute_slope(y + 0.5 * h * k2, middle, begin + 0.5 * h)
+        k4 = self.compute_slope(y + h * k3, late, begin + h)
         return np.asarray(y + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4))
 
 
 @dataclass
 class _Run:
-    """The filter over one recording at one point: state and covariance, slow noise of sensors, and what is written."""
+    """The filter over one recording at one point: state and covariance, AR(1) noise of sensors, and the results."""
 
     machine: _Machine
     observation: Observation
@@ -196,8 +196,8 @@ class _Run:
 
     @classmethod
     def of(cls, dynamics: Dynamics, observation: Observation, points: Points) -> _Run:
-        """Return the filter at the first sample; slow noise has the mean `slow` and the covariances `shared`."""
-        nsub, n, m = fine_steps(dynamics.nsub), dynamics.states, len(observation.sensors)
+        """Return the filter at the first sample; AR(1) noise has the mean `ar1` and the covariances `shared`."""
+        nsub, n, m = count_fine_steps(dynamics.nsub), dynamics.states, len(observation.sensors)
         total = n + dynamics.forces
         machine = _Machine.of(dynamics, points, nsub)
         y, cov = np.zeros(total), np.zeros((total, total))
@@ -211,51 +211,52 @@ class _Run:
         return cls(machine, observation, points, nsub, y, cov, np.zeros(m), shared, errors, variances, nsub)
 
     def filter(self) -> int:
-        """Run over all samples; return how many were got through."""
+        """Filter all samples; return the number of those that were computed."""
         for k in range(self.observation.samples):
-            self._redrawn()
+            self._redraw_forces()
             self.ahead.append((self.y.copy(), self.cov.copy()))
             for sensor in range(len(self.observation.sensors)):
                 if np.isfinite(self.observation.readings[k, sensor]):
-                    self._corrected(k, sensor)
+                    self._update(k, sensor)
             told = self.variances[k] > 0.0
             if not (np.isfinite(self.y[0]) and np.isfinite(self.cov[1, 1]) and told.all()):
                 return k
             self.seen.append((self.y.copy(), self.cov.copy()))
             if k < self.observation.samples - 1:
-                self._loosened(k)
-                self._crossed(k)
+                self._add_input_variance(k)
+                self._cross_sample(k)
         return self.observation.samples
 
-    def _redrawn(self) -> None:
-        """Draw anew the forces that are held over a sample."""
+    def _redraw_forces(self) -> None:
+        """Reset the forces that are held over a sample to their prior."""
         dynamics, dt = self.machine.dynamics, self.observation.dt
         if dynamics.random == "held":
             for force in range(dynamics.states, len(self.y)):
                 self.y[force], self.cov[force], self.cov[:, force] = 0.0, 0.0, 0.0
                 self.cov[force, force] = self.points.process[0] / dt
 
-    def _loosened(self, k: int) -> None:
-        """Let the first force that is held be less certain on its way to the next sample."""
+    def _add_input_variance(self, k: int) -> None:
+        """Add the uncertainty of the measured input to the variance of the first held force."""
         dynamics = self.machine.dynamics
         if dynamics.random == "held":
-            self.cov[dynamics.states, dynamics.states] += unsure_of(dynamics, self.observation)[k]
+            self.cov[dynamics.states, dynamics.states] += find_input_variance(dynamics, self.observation)[k]
 
-    def _expected(self, k: int, sensor: int) -> tuple[float, Array, float]:
-        """Return what a sensor should show of its channel, its slopes over the states, and the variance of bends."""
+    def _predict_reading(self, k: int, sensor: int) -> tuple[float, Array, float]:
+        """Return the expected value of a sensor's channel, its slopes over the states, and the variance of bends."""
         shown = self.observation.sensors[sensor]
         channel, direct = self.machine.system.shown(shown, self.machine.dynamics.active)
         lag = float(self.points.lag[0, sensor])
         if direct >= 0 and not lag:
             return float(self.y[direct]), np.eye(len(self.y))[direct], 0.0
-        self.machine.going(self._fine)
-        centre = self.machine.seen_late(self.y, k, lag, channel)
+        self.machine.set_step(self._fine_step)
+        centre = self.machine.observe_late(self.y, k, lag, channel)
         sd = np.sqrt(np.diag(self.cov))
         slopes, mean, square = np.zeros(len(sd)), np.zeros(len(sd)), np.zeros(len(sd))
         for far, weight in ((INNER_POINT, INNER_WEIGHT), (OUTER_POINT, OUTER_WEIGHT)):
             reach = far * sd + TINY * (1.0 + np.abs(self.y))
             up, down = (
-                np.array([self.machine.seen_late(self.y + s * row, k, lag, channel) for row in np.diag(reach)]) - centre
+                np.array([self.machine.observe_late(self.y + s * row, k, lag, channel) for row in np.diag(reach)])
+                - centre
                 for s in (1.0, -1.0)
             )
             slopes += weight * far**2 * (up - down) / reach
@@ -264,11 +265,11 @@ class _Run:
         left = np.maximum(square - mean**2 - (slopes * sd) ** 2, 0.0)
         return centre + float(mean.sum()), slopes, float(left.sum())
 
-    def _corrected(self, k: int, sensor: int) -> None:
-        """Correct all that is not known by one reading, in which it shows as `look` says."""
+    def _update(self, k: int, sensor: int) -> None:
+        """Update all states by one reading, with the observation vector `look`."""
         p, n = self.points, len(self.y)
         ar1 = self.observation.sensors[sensor].noise.kind == "ar1"
-        expected, slopes, loose = self._expected(k, sensor)
+        expected, slopes, loose = self._predict_reading(k, sensor)
         look = np.concatenate([p.gain[0, sensor] * slopes, np.zeros(len(self.ar1))])
         look[n + sensor] = 1.0 if ar1 else 0.0
         whole = np.block([[self.cov, self.shared[:, :n].T], [self.shared]])
@@ -283,15 +284,15 @@ class _Run:
         self.cov[np.diag_indices(n)] = np.maximum(np.diag(self.cov), 0.0)
         self.errors[k, sensor], self.variances[k, sensor] = error, variance
 
-    def _crossed(self, k: int) -> None:
-        """Go over one sample, in steps as wide as the force is straight."""
+    def _cross_sample(self, k: int) -> None:
+        """Propagate over one sample, in steps as long as the force is close to linear."""
         place, across = 0, np.eye(len(self.y))
         while place < self.nsub:
             wide = min(place & -place if place else self.nsub, self.wish)
             reach = np.sqrt(3.0 * np.diag(self.cov))
-            while wide > 1 and np.any(wide * self._fine * self.near > self._borne(reach)):
+            while wide > 1 and np.any(wide * self._fine_step * self.near > self._compute_tolerance(reach)):
                 wide //= 2
-            while not self._taken(k, place, wide, reach):
+            while not self._try_step(k, place, wide, reach):
                 wide //= 2
             across = self._step @ across
             place += wide
@@ -305,43 +306,44 @@ class _Run:
         self.shared[:, len(self.y) :] += np.diag((1.0 - ar1_share**2) * self.points.ar1[0])
 
     @property
-    def _fine(self) -> float:
+    def _fine_step(self) -> float:
         return self.observation.dt / self.nsub
 
-    def _borne(self, reach: Array) -> Array:
-        """Return how far off each state may be."""
+    def _compute_tolerance(self, reach: Array) -> Array:
+        """Return the error that each state may have."""
         return np.asarray(BEND_LIMIT * (reach + PACED_SHARE * np.where(self.machine.paced, np.abs(self.y), 0.0)))
 
-    def _taken(self, k: int, place: int, wide: int, reach: Array) -> bool:
-        """Try a step; go it, and return true, where the force is straight along it or it is a fine one."""
+    def _try_step(self, k: int, place: int, wide: int, reach: Array) -> bool:
+        """Try a step; take it and return true where the force is close to linear along it, or where it is fine."""
         machine, y = self.machine, self.y
         share, width = place / self.nsub, wide / self.nsub
         h = width * self.observation.dt
         begin = machine.drive.begin + (k + share) * machine.drive.dt
         early, middle, late = (machine.input(k, share + part * width) for part in (0.0, 0.5, 1.0))
-        machine.going(h)
-        k1 = machine.slope(y, early, begin)
+        machine.set_step(h)
+        k1 = machine.compute_slope(y, early, begin)
         centre = y + 0.5 * h * k1
-        k2 = machine.slope(centre, middle, begin + 0.5 * h)
+        k2 = machine.compute_slope(centre, middle, begin + 0.5 * h)
         end = y + 0.5 * h * k2
-        k3 = machine.slope(end, middle, begin + 0.5 * h)
+        k3 = machine.compute_slope(end, middle, begin + 0.5 * h)
         end = y + h * k3
-        k4 = machine.slope(end, late, begin + h)
+        k4 = machine.compute_slope(end, late, begin + h)
         d = reach + TINY * (1.0 + np.abs(centre))
         up, down = (
-            np.array([machine.slope(centre + s * r, middle, begin + 0.5 * h) for r in np.diag(d)]).T for s in (1, -1)
+            np.array([machine.compute_slope(centre + s * r, middle, begin + 0.5 * h) for r in np.diag(d)]).T
+            for s in (1, -1)
         )
         slopes = (up - down) / (2.0 * d)
         bend = ((up + down - 2.0 * k2[:, None]) * np.diag(self.cov) / (2.0 * d**2)).sum(axis=1)
         square, far = slopes @ slopes, np.zeros(len(y))
         if wide > 1:
-            sides = [machine.slope(end + s * reach, late, begin + h) for s in (1.0, -1.0)]
+            sides = [machine.compute_slope(end + s * reach, late, begin + h) for s in (1.0, -1.0)]
             far = np.abs(0.5 * (sides[0] + sides[1]) - k4)
-            both = machine.slope(centre, early + late - middle, begin + h)
+            both = machine.compute_slope(centre, early + late - middle, begin + h)
             kink = k1 + k4 - k2 - both - slopes @ (y + end - 2.0 * centre)
             bent = np.abs(kink) + self.near + far + 3.0 * np.abs(bend)
             limits = np.where(machine.paced, PACED_LIMIT, STEP_LIMIT)
-            if np.any(h * bent > self._borne(reach)) or np.any(h * h * np.abs(np.diag(square)) > limits):
+            if np.any(h * bent > self._compute_tolerance(reach)) or np.any(h * h * np.abs(np.diag(square)) > limits):
                 return False
         self.near, self.wish = far, 2 * wide
         if np.any(4.0 * h * h * np.abs(np.diag(square))[~machine.paced] > STEP_LIMIT):
@@ -350,22 +352,22 @@ class _Run:
         self._step = np.eye(len(y)) + h * (slopes + h / 2.0 * (square + h / 3.0 * (third + h / 4.0 * fourth)))
         mean = (k1 + 2.0 * k2 + 2.0 * k3 + k4) / 6.0
         self.y = y + h * (mean + h * h / 30.0 * square @ (k3 - k2) + bend)
-        self.cov = self._step @ self.cov @ self._step.T + self._noise(h, slopes, square)
+        self.cov = self._step @ self.cov @ self._step.T + self._compute_noise(h, slopes, square)
         self.shared[:, : len(y)] = self.shared[:, : len(y)] @ self._step.T
         return True
 
-    def _noise(self, h: float, slopes: Array, square: Array) -> Array:
+    def _compute_noise(self, h: float, slopes: Array, square: Array) -> Array:
         """Return the covariance that the random force adds over a step, by two Gauss points."""
         added = np.zeros_like(self.cov)
-        for row, intensity in self._sources():
+        for row, intensity in self._list_sources():
             for part in GAUSS:
                 way = part * h * (slopes[:, row] + 0.5 * part * h * square[:, row])
                 way[row] += 1.0
                 added += 0.5 * h * intensity * np.outer(way, way)
         return added
 
-    def _sources(self) -> Sequence[tuple[int, float]]:
-        """Return the states that noise enters, with its intensities."""
+    def _list_sources(self) -> Sequence[tuple[int, float]]:
+        """Return the states that process noise enters, with its intensities."""
         dynamics, process = self.machine.dynamics, float(self.points.process[0])
         if dynamics.random == "held":
             return ()

@@ -1,4 +1,4 @@
-"""What measures: a sensor sees one channel of the model, with noise of its own."""
+"""Sensors: each sees one channel of the model, with noise of its own."""
 
 from __future__ import annotations
 
@@ -19,21 +19,21 @@ class White:
 
 @dataclass(frozen=True)
 class AR1:
-    """White noise and, beside it, noise with a memory: an autoregressive process of first order."""
+    """White noise and, in addition, correlated noise: an autoregressive process of first order."""
 
     kind: ClassVar[str] = "ar1"
 
 
 @dataclass(frozen=True)
 class Quantised:
-    """White noise of a sensor whose values lie on a lattice, `step` apart (unit of the channel)."""
+    """White noise of a sensor whose values are multiples of a quantisation step, `step` (unit of the channel)."""
 
     step: float = 0.0
     kind: ClassVar[str] = "quantised"
 
     @property
     def variance(self) -> float:
-        """The variance that rounding to the lattice adds: that of a uniform density one step wide."""
+        """The variance that quantisation adds: that of a uniform density one step wide."""
         return self.step**2 / 12.0
 
 
@@ -43,7 +43,7 @@ NOISES: dict[str, type[Noise]] = {noise.kind: noise for noise in (White, AR1, Qu
 
 @dataclass(frozen=True)
 class Sensor:
-    """What is measured: a `channel` of the model, under a `name`, with noise of a kind.
+    """A sensor: a `channel` of the model, under a `name`, with noise of a kind.
 
     Gain, offset and delay of a sensor are parameters like others, and no fields.
     """

@@ -1,4 +1,4 @@
-"""What is free: parameters with their priors, and which coordinate stands for what in which recording."""
+"""Free parameters with their priors, and the coordinates of each recording."""
 
 from __future__ import annotations
 
@@ -21,24 +21,24 @@ OFFSET = "offset"
 AR1_LEVEL = "log_slow_noise"
 AR1_MEMORY = "log_noise_memory"
 LEVELS = (RANDOM, NOISE, PACE, OFFSET, AR1_LEVEL, AR1_MEMORY)
-"""The free parameters that are no physics: intensity and pace of a random force, the measurement noise, the zero of
-the response sensor, and measurement noise with a memory: its size and how long it lasts (s)."""
+"""The free parameters that are no physics: intensity and decay rate of a random force, the measurement noise, the
+offset of the response sensor, and AR(1) measurement noise: its size and its correlation time (s)."""
 _UNIT = NormalDist()
 
 
-def parted(key: str) -> tuple[str, str | None]:
+def split_key(key: str) -> tuple[str, str | None]:
     """Return the parameter and the recording of a key such as `c[run 1]`; no recording where all share it."""
     parameter, bracket, recording = key.partition("[")
     return (parameter, recording[:-1]) if bracket else (key, None)
 
 
-def level_of(level: str, sensor: str, many: bool) -> str:
-    """Return the parameter for a noise level of a sensor: `log_noise`, or `log_noise:name` where there are several."""
+def make_level_name(level: str, sensor: str, many: bool) -> str:
+    """Return the name of a noise level of a sensor: `log_noise`, or `log_noise:name` where there are several."""
     return f"{level}:{sensor}" if many else level
 
 
-def keys_of(parameter: str, recordings: Sequence[str]) -> tuple[str, ...]:
-    """Return the keys of a parameter that each recording has for itself: `c[run 1]`, or `c` if there is only one."""
+def list_keys(parameter: str, recordings: Sequence[str]) -> tuple[str, ...]:
+    """Return the keys of a parameter with a value for each recording: `c[run 1]`, or `c` if there is only one."""
     return tuple(f"{parameter}[{name}]" for name in recordings) if len(recordings) > 1 else (parameter,)
 
 
@@ -47,7 +47,7 @@ class FreeParameter:
     """A parameter to be estimated, in the coordinate in which its prior is simple.
 
     `log` says that the coordinate is the logarithm. The prior is uniform between `low` and `high` (coordinate), or
-    normal with `mean` and `sd` and cut there. `straight` says that one-step errors are close to linear in it.
+    normal with `mean` and `sd` and truncated there. `linear` says that the innovations are almost linear in it.
     """
 
     key: str
@@ -58,27 +58,31 @@ class FreeParameter:
     log: bool = False
     mean: float = 0.0
     sd: float = math.inf
-    straight: bool = False
+    linear: bool = False
 
     @property
-    def pull(self) -> float:
-        """The information that the prior adds about the coordinate: none if it is uniform."""
+    def prior_information(self) -> float:
+        """The information that the prior adds about the coordinate: zero if it is uniform."""
         return 1.0 / self.sd**2 if math.isfinite(self.sd) else 0.0
 
     @property
-    def told(self) -> float:
-        """The information of the prior as the evidence has it: that of a uniform one by its variance."""
-        return self.pull if math.isfinite(self.sd) or not self.high > self.low else 12.0 / (self.high - self.low) ** 2
+    def evidence_information(self) -> float:
+        """The information of the prior in the evidence: that of a uniform one is one over its variance."""
+        return (
+            self.prior_information
+            if math.isfinite(self.sd) or not self.high > self.low
+            else 12.0 / (self.high - self.low) ** 2
+        )
 
     @property
     def parameter(self) -> str:
         """The key without the recording."""
-        return parted(self.key)[0]
+        return split_key(self.key)[0]
 
     @property
     def recording(self) -> str | None:
-        """The name of the recording that has this parameter for itself; None where all share it."""
-        return parted(self.key)[1]
+        """The name of the recording that has this parameter to itself; None where all share it."""
+        return split_key(self.key)[1]
 
     @property
     def level(self) -> str:
@@ -103,7 +107,7 @@ class FreeParameter:
 
     @cached_property
     def log_top(self) -> float:
-        """The log prior density where it is uniform, or at the mean of its bell, normalised within the bounds."""
+        """The log prior density where it is uniform, or at the mean of a normal one, normalised within the bounds."""
         if math.isinf(self.sd):
             return -math.log(self.high - self.low)
         first, last = self._below
@@ -117,7 +121,7 @@ class FreeParameter:
         return self.log_top - 0.5 * away * away
 
     def quantile(self, share: float) -> float:
-        """Return the coordinate below which lies the given share (0 to 1) of the prior, its cut included."""
+        """Return the coordinate below which the given share (0 to 1) of the truncated prior lies."""
         if math.isinf(self.sd):
             return self.low + share * (self.high - self.low)
         first, last = self._below
@@ -128,12 +132,12 @@ class FreeParameter:
 
     @property
     def _side(self) -> float:
-        """Where the shares of the prior are counted from: below, or above where only the upper tail is left."""
+        """The tail from which the shares of the prior are counted: the lower, or the upper where only that is left."""
         return 1.0 if self.low <= self.mean else -1.0
 
     @property
     def _below(self) -> tuple[float, float]:
-        """The shares of the whole normal distribution that lie beyond `low` and `high`, seen from `_side`."""
+        """The shares of the whole normal distribution beyond `low` and `high`, counted from `_side`."""
         first, last = (self._side * (end - self.mean) / self.sd / math.sqrt(2) for end in (self.low, self.high))
         return 0.5 * math.erfc(-first), 0.5 * math.erfc(-last)
 
@@ -142,8 +146,8 @@ class FreeParameter:
 class Scales:
     """The natural sizes of a recorded motion, as amplitudes: generalised force, length, time.
 
-    `usual` is the log intensity (N^2 s) of the random force that the usual noise of a measured excitation makes;
-    `span` is the length of the recording, in s.
+    `usual` is the log intensity (N^2 s) of the random force that the usual noise of a measured excitation makes; `span`
+    is the length of the recording, in s.
     """
 
     force: float
@@ -160,7 +164,7 @@ class Scales:
 
 @dataclass(frozen=True)
 class ParameterSpace:
-    """The free parameters in order: coordinates are vectors of one number each, (count,), or many, (points, count)."""
+    """The free parameters in order; coordinates are vectors, (count,), or many of them, (points, count)."""
 
     free: tuple[FreeParameter, ...]
 
@@ -176,17 +180,17 @@ class ParameterSpace:
 
     @cached_property
     def low(self) -> Array:
-        """The least coordinates."""
+        """The lower bounds of the coordinates."""
         return np.array([f.low for f in self.free])
 
     @cached_property
     def high(self) -> Array:
-        """The greatest coordinates."""
+        """The upper bounds of the coordinates."""
         return np.array([f.high for f in self.free])
 
     @cached_property
     def widths(self) -> Array:
-        """How wide each prior is: its standard deviation, or the distance between its bounds."""
+        """The width of each prior: its standard deviation, or the distance between its bounds."""
         return np.array([min(f.sd, f.high - f.low) for f in self.free])
 
     def clip(self, theta: Array) -> Array:
@@ -219,15 +223,15 @@ class ParameterSpace:
 
     @cached_property
     def _height(self) -> float:
-        """The log density of all priors together, each bell taken at its top."""
+        """The log density of all priors together, each normal one at its mean."""
         return math.fsum(f.log_top for f in self.free)
 
 
 @dataclass(frozen=True)
 class RecordingCoordinates:
-    """Which coordinates stand for each parameter in one recording; several stand for it by their mean.
+    """The coordinates of each parameter in one recording; where there are several, their mean is used.
 
-    They are several where a recording is predicted that has no value of its own: the others stand in for it.
+    There are several where a recording without values of its own is predicted from the other recordings.
     """
 
     columns: Mapping[str, tuple[int, ...]]
@@ -235,11 +239,11 @@ class RecordingCoordinates:
 
     @classmethod
     def of(cls, keys: Sequence[str], recording: str) -> RecordingCoordinates:
-        """Return the route of the recording with that name."""
+        """Return the coordinates of the recording with that name."""
         own: dict[str, tuple[int, ...]] = {}
         others: dict[str, tuple[int, ...]] = {}
         for i, key in enumerate(keys):
-            parameter, name = parted(key)
+            parameter, name = split_key(key)
             table = own if name in (None, recording) else others
             table[parameter] = (*table.get(parameter, ()), i)
         return cls({**others, **own}, len(keys))
@@ -256,7 +260,7 @@ class RecordingCoordinates:
 
     @cached_property
     def used(self) -> NDArray[np.bool_]:
-        """Which coordinates (count,) matter to the recording."""
+        """Which coordinates (count,) the recording depends on."""
         used = np.zeros(self.count, dtype=np.bool_)
         used[[i for columns in self.columns.values() for i in columns]] = True
         return used

@@ -12,11 +12,11 @@ import numpy as np
 
 from lostmotion.kernels.vector import BARE
 from lostmotion.kernels.views import slow_view, view
-from lostmotion.likelihood.adopted import adopted, defined, fingerprint, kept_as, with_clear_errors
+from lostmotion.likelihood.adopted import adopt_function, compute_fingerprint, define_module, explain_errors, store_text
 from lostmotion.likelihood.plan import Blueprint
 
 
-def _parts(plan: Blueprint) -> dict[str, Callable[..., Any]]:
+def _list_parts(plan: Blueprint) -> dict[str, Callable[..., Any]]:
     """Return the functions of the plugins under the names they have in the composed text."""
     parts = {"model_rhs": plan.rhs, "model_observe": plan.observe}
     parts |= {f"motion_{i}": place.motion for i, place in enumerate(plan.places)}
@@ -26,13 +26,13 @@ def _parts(plan: Blueprint) -> dict[str, Callable[..., Any]]:
     return parts
 
 
-def _fields(plan: Blueprint) -> dict[str, Any]:
+def _list_fields(plan: Blueprint) -> dict[str, Any]:
     """Return the numbers of the terms whose functions are methods, under the names they have in a composed text."""
     return {f"fields_{i}": law.fields for i, law in enumerate(plan.laws) if law.fields}
 
 
-def _law_lines(index: int, plan: Blueprint, start: int) -> list[str]:
-    """Return the lines that add one law to `dydt`, behind its switch."""
+def _write_law(index: int, plan: Blueprint, start: int) -> list[str]:
+    """Return the lines that add one law to `dydt`, under its switch."""
     law, i = plan.laws[index], index
     place = plan.places[law.place]
     if law.channel is not None:  # a sensor is no part of the flow
@@ -58,28 +58,28 @@ def _law_lines(index: int, plan: Blueprint, start: int) -> list[str]:
     return lines
 
 
-def _text(plan: Blueprint, states: int) -> str:
-    """Return the source of the map for so many states."""
+def _write_text(plan: Blueprint, states: int) -> str:
+    """Return the source of the map for a number of states."""
     starts = [sum(law.width for law in plan.laws[:i]) for i in range(len(plan.laws))]
-    laws = "\n".join(line for i, start in enumerate(starts) for line in _law_lines(i, plan, start))
+    laws = "\n".join(line for i, start in enumerate(starts) for line in _write_law(i, plan, start))
     text = resources.files("lostmotion.kernels").joinpath("tangent.txt").read_text()
     return text.replace("@N@", str(states)).replace("@LAWS@", laws)
 
 
 @lru_cache(maxsize=64)
-def stroboscopic_map(plan: Blueprint, states: int, compiled: bool = True) -> Callable[..., int]:
-    """Return the map of a plan with so many active states, compiled, or as its plain Python twin."""
-    text, parts, fields = _text(plan, states), _parts(plan), _fields(plan)
+def build_map(plan: Blueprint, states: int, compiled: bool = True) -> Callable[..., int]:
+    """Return the map of a plan with a number of active states, compiled or as plain Python."""
+    text, parts, fields = _write_text(plan, states), _list_parts(plan), _list_fields(plan)
     if compiled:
-        also = "".join(f"{name}{fingerprint(part)}" for name, part in sorted(parts.items())) + repr(fields)
-        path = kept_as(text, also)
-        given = {name: adopted(part, path.stem) for name, part in parts.items()}
+        also = "".join(f"{name}{compute_fingerprint(part)}" for name, part in sorted(parts.items())) + repr(fields)
+        path = store_text(text, also)
+        given = {name: adopt_function(part, path.stem) for name, part in parts.items()}
         whole = numba.njit(**BARE, cache=True)
-        space = defined(text, str(path), {**given, **fields, "jit": whole, "view": view})
+        space = define_module(text, str(path), {**given, **fields, "jit": whole, "view": view})
     else:
-        space = defined(text, "<slow twin>", {**parts, **fields, "jit": lambda f: f, "view": slow_view})
+        space = define_module(text, "<slow twin>", {**parts, **fields, "jit": lambda f: f, "view": slow_view})
 
     def mapped(*args: Any) -> int:
         return int(space["follow_orbit"](*args, np.zeros((10, states)), np.zeros((3, states, states))))
 
-    return with_clear_errors(mapped)
+    return explain_errors(mapped)

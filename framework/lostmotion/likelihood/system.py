@@ -1,4 +1,4 @@
-"""A model with its terms as something that runs: parameter layout, compiled kernels, measured inputs.
+"""A model with its terms: parameter layout, compiled kernels, simulation.
 
 A `System` holds a model and a library of terms, each of which is on or off (`active`) at run time.
 """
@@ -15,22 +15,22 @@ import numpy as np
 
 from lostmotion.contracts import Array, Assembly, DriveTerm, Input, Model, SensorTerm, place_of
 from lostmotion.errors import ContractError, nearest
-from lostmotion.likelihood.acting import Column, Recorded, of_order, through
-from lostmotion.likelihood.compose import Functions, functions, plain_functions
+from lostmotion.likelihood.acting import Column, Recorded, apply_term, evaluate_order
+from lostmotion.likelihood.compose import Functions, compile_functions, define_plain_functions
 from lostmotion.likelihood.drive import SILENT, Drive, DriveHarmonic
-from lostmotion.likelihood.layout import ALWAYS, NUMB, Layout, Slot, key_of, since_of
-from lostmotion.likelihood.motion import derivatives, run
-from lostmotion.likelihood.plan import Blueprint, Place, law_of, room_for
+from lostmotion.likelihood.layout import ALWAYS, NUMB, Layout, Slot, key_of, onset_key
+from lostmotion.likelihood.motion import compute_derivatives, run_freely
+from lostmotion.likelihood.plan import Blueprint, Place, compute_room, make_law
 from lostmotion.likelihood.sensors import Sensor, SensorChange
 
-__all__ = ["ALWAYS", "Clock", "Motion", "Slot", "System", "key_of", "since_of"]
+__all__ = ["ALWAYS", "Clock", "Motion", "Slot", "System", "key_of", "onset_key"]
 
 PIECE = 200_000
 """Steps of a long motion that are computed at a time."""
 
 
 class Clock(NamedTuple):
-    """When a motion is looked at: so many `samples` every `dt` s, with `nsub` steps between two."""
+    """The sampling of a simulation: `samples` every `dt` s, with `nsub` steps between two."""
 
     dt: float
     nsub: int
@@ -39,7 +39,7 @@ class Clock(NamedTuple):
 
 @dataclass(frozen=True)
 class Motion:
-    """A free simulation: `states` (samples, n) at the sample times, and how many of them are finite."""
+    """A free simulation: `states` (samples, n) at the sample times, and the number of finite ones."""
 
     states: Array
     finite: int
@@ -47,7 +47,7 @@ class Motion:
 
 @dataclass(frozen=True)
 class System(Layout):
-    """A model and the terms it may have; all terms are known to the kernel, `active` says which act."""
+    """A model and its possible terms; all terms are known to the kernel, `active` says which act."""
 
     @classmethod
     def of(cls, assembly: Assembly | Model) -> System:
@@ -57,12 +57,12 @@ class System(Layout):
         return cls(assembly.model, assembly.terms)
 
     def functions(self, compiled: bool = True) -> Functions:
-        """Return what derives and what observes the states, the same whatever terms are active."""
-        return functions(self.blueprint.bare) if compiled else plain_functions(self.blueprint)
+        """Return the functions `derive` and `observe` of the model, the same for all active terms."""
+        return compile_functions(self.blueprint.bare) if compiled else define_plain_functions(self.blueprint)
 
     @cached_property
     def blueprint(self) -> Blueprint:
-        """The plan of the kernel of the model with all terms."""
+        """The description of the kernel of the model with all terms."""
         model = self.model
         index = {q.name: i for i, q in enumerate(model.params)}
         places = tuple(
@@ -77,17 +77,17 @@ class System(Layout):
         )
         names = [i.name for i in model.interfaces]
         laws = tuple(
-            law_of(t, 0, model.channels.index(t.channel))
+            make_law(t, 0, model.channels.index(t.channel))
             if isinstance(t, SensorTerm)
-            else law_of(t, names.index(place_of(model, t).name))
+            else make_law(t, names.index(place_of(model, t).name))
             for _, t in self.forces
         )
         sizes = (len(model.states), len(model.inputs), len(model.channels), len(model.params))
-        return Blueprint(*sizes, model.rhs, model.observe, places, laws, room_for(laws, len(places)))
+        return Blueprint(*sizes, model.rhs, model.observe, places, laws, compute_room(laws, len(places)))
 
     @cached_property
     def groups(self) -> tuple[tuple[str, tuple[int, ...]], ...]:
-        """The inputs by name, with their columns among those of the model: of a base motion value and derivative."""
+        """The inputs by name, with their columns among those of the model: for a base motion value and derivative."""
         names = self.model.inputs
         found: list[tuple[str, tuple[int, ...]]] = []
         for i, name in enumerate(names):
@@ -97,10 +97,10 @@ class System(Layout):
                 found.append((name, (i,)))
         return tuple(found)
 
-    def shaping(self, active: Iterable[str], *, alone: bool = True) -> tuple[str, ...]:
-        """Return the keys of those terms that change the input which acts: of the drive, and delays of the sensor.
+    def list_input_terms(self, active: Iterable[str], *, alone: bool = True) -> tuple[str, ...]:
+        """Return the keys of those terms that change the input: of the drive, and delays of the sensor.
 
-        A sensor that is `alone` is late as the drive is; of several, each has a delay of its own.
+        The delay of a sensor that is `alone` is a delay of the drive; of several, each has a delay of its own.
         """
         return tuple(
             k
@@ -108,7 +108,7 @@ class System(Layout):
             if k in set(active) and not t.marked and (alone or isinstance(t, DriveTerm))
         )
 
-    def idle(self, full: Array, key: str) -> bool:
+    def is_idle(self, full: Array, key: str) -> bool:
         """Return whether a term does nothing: all its parameters with a null are at it."""
         term = self.terms[self.keys.index(key)]
         return all(full[self.index[f"{key}.{name}"]] == null for name, null in term.null().items())
@@ -116,33 +116,33 @@ class System(Layout):
     def acting(
         self, columns: Sequence[Column], full: Array, keys: Iterable[str], harmonic: DriveHarmonic, *, lead: int = 0
     ) -> list[Column | None]:
-        """Return what acts in place of the recorded inputs, one function of time (s) for each; None where it is that.
+        """Return the inputs that act, as functions of time (s); None where it is the recorded one.
 
         `keys` are terms of the drive, which act on the input that drives (in column `lead`) unless they name another,
-        and delays of a sensor: one that is late sees what all inputs have done before.
+        and delays of a sensor: a late one shows the effect of earlier inputs.
         """
         made: list[Column | None] = [None] * len(columns)
         for name, places in self.groups:
             if max(places) >= len(columns):  # an input that nothing drives
                 continue
             u: Input = Recorded(tuple(columns[place] for place in places))
-            own = [key for key in keys if self._touches(key, name, lead in places)]
+            own = [key for key in keys if self._acts_on(key, name, lead in places)]
             for key in own:
-                u = through(self.channel_terms[key], u, self.values(full, key, harmonic), self.onset(full, key))
+                u = apply_term(self.channel_terms[key], u, self.values(full, key, harmonic), self.onset(full, key))
             for order, place in enumerate(places if own else ()):
-                made[place] = partial(of_order, u, order)
+                made[place] = partial(evaluate_order, u, order)
         return made
 
-    def _touches(self, key: str, name: str, leads: bool) -> bool:
+    def _acts_on(self, key: str, name: str, leads: bool) -> bool:
         term = self.channel_terms[key]
         return isinstance(term, SensorTerm) or term.at == name or (term.at == "drive" and leads)
 
     def gain(self, full: Array, active: Iterable[str], place: str = "sensor") -> float:
-        """Return what the sensor at a place shows of one unit of its channel."""
+        """Return the gain of the sensor at a place."""
         return math.prod(t.gain(p) for t, p in self.at_sensor(full, active, place))
 
     def at_sensor(self, full: Array, active: Iterable[str], place: str) -> list[tuple[SensorTerm, tuple[float, ...]]]:
-        """Return the terms of the sensor at a place that act from the beginning, with what each is handed."""
+        """Return the terms of the sensor at a place that act from the beginning, with the parameters of each."""
         chosen = set(active)
         return [
             (term, self.values(full, key, SILENT))
@@ -154,7 +154,7 @@ class System(Layout):
         ]
 
     def changes_at_sensor(self, full: Array, active: Iterable[str], place: str) -> tuple[SensorChange, ...]:
-        """Return the changes of gain and offset that the sensor at a place undergoes, those of one with an onset."""
+        """Return the changes of gain and offset of the sensor at a place, from terms with an onset."""
         keys = [key for key in self.rescaling if key in set(active) and self.onset(full, key) > ALWAYS]
         found = []
         for key in keys:
@@ -164,32 +164,32 @@ class System(Layout):
         return tuple(found)
 
     @cached_property
-    def bending(self) -> tuple[str, ...]:
-        """The keys of the terms that bend what a sensor shows."""
+    def bending_terms(self) -> tuple[str, ...]:
+        """The keys of the terms that make a sensor nonlinear."""
         bent = SensorTerm.bent
         return tuple(k for k, t in self.channel_terms.items() if isinstance(t, SensorTerm) and type(t).bent is not bent)
 
     @cached_property
-    def lagging(self) -> tuple[str, ...]:
-        """The keys of the sensors that have states of their own."""
+    def lagging_terms(self) -> tuple[str, ...]:
+        """The keys of the sensor terms that have states of their own."""
         return tuple(key for key, term in self.channel_terms.items() if term.acts == "sensor" and term.states)
 
-    def gauging(self, active: Iterable[str]) -> bool:
+    def has_sensor_terms(self, active: Iterable[str]) -> bool:
         """Return whether any sensor term is active."""
         return any(isinstance(self.channel_terms[key], SensorTerm) for key in set(active) & set(self.channel_terms))
 
     @cached_property
-    def delaying(self) -> bool:
-        """Whether any of the terms makes a sensor late."""
+    def has_delay_terms(self) -> bool:
+        """Whether any of the terms delays a sensor."""
         return any(isinstance(t, SensorTerm) and type(t).delay is not SensorTerm.delay for t in self.terms)
 
-    def feels(self, name: str) -> bool:
+    def senses_force(self, name: str) -> bool:
         """Return whether a channel shows the forces on a body at once, as an accelerometer does."""
         return name in self._felt
 
     @cached_property
     def _felt(self) -> frozenset[str]:
-        """The channels that change with the derivatives of states on which forces act."""
+        """The channels that depend on the derivatives of states on which forces act."""
         model, rng = self.model, np.random.default_rng(0)
         y, u = rng.random(len(model.states)), rng.random(max(len(model.inputs), 1))
         p, seen, pushed = rng.random(len(model.params)), np.zeros(len(model.channels)), np.zeros(len(model.channels))
@@ -200,7 +200,7 @@ class System(Layout):
         return frozenset(name for name, a, b in zip(model.channels, seen, pushed, strict=True) if a != b)
 
     def channel(self, name: str) -> tuple[int, int]:
-        """Return the index of an observed channel, and that of the state it shows directly (-1 when it is none)."""
+        """Return the index of an observed channel, and that of the state that it equals (-1 where there is none)."""
         if name not in self.model.channels:
             known = ", ".join(self.model.channels)
             raise ContractError(
@@ -210,11 +210,11 @@ class System(Layout):
         return self.model.channels.index(name), direct
 
     def shown(self, sensor: Sensor, active: Iterable[str]) -> tuple[int, int]:
-        """Return the index of the channel of a sensor, and that of the state it shows directly (-1 when it is none).
+        """Return the index of the channel of a sensor, and that of the state that it equals (-1 where there is none).
 
         One with a state of its own shows that.
         """
-        chosen = set(active) & set(self.lagging)
+        chosen = set(active) & set(self.lagging_terms)
         if not chosen:
             return self.channel(sensor.channel)
         for (key, term), at in zip(self.forces, self.wiring(active)[1], strict=True):
@@ -225,13 +225,15 @@ class System(Layout):
     def simulate(self, full: Array, active: Iterable[str], y0: Array, drive: Drive, nsub: int = 1) -> Motion:
         """Return the free motion by RK4, `nsub` steps to a sample, from the state `y0` under `drive`.
 
-        What `y0` lacks, the states of terms, begins at zero; inputs that `drive` lacks are zero.
+        States that `y0` lacks, those of terms, begin at zero; inputs that `drive` lacks are zero.
         """
-        chosen, drive = frozenset(active), drive.widened(len(self.model.inputs))
+        chosen, drive = frozenset(active), drive.pad_inputs(len(self.model.inputs))
         start = np.zeros((1, self.states(chosen)))
         start[0, : min(start.shape[1], len(y0))] = y0[: start.shape[1]]
         packed = self.pack(full[None], drive.dt / nsub, drive.harmonic)
-        states, reached = run(self, chosen, packed, start, drive, nsub, np.zeros(1, dtype=np.int64), drive.samples)
+        states, reached = run_freely(
+            self, chosen, packed, start, drive, nsub, np.zeros(1, dtype=np.int64), drive.samples
+        )
         return Motion(states[0], int(reached[0]))
 
     def moved(
@@ -242,9 +244,9 @@ class System(Layout):
         clock: Clock,
         harmonic: DriveHarmonic = SILENT,
     ) -> Motion:
-        """Return the free motion with all terms under inputs that are known at any time (s), one function to each.
+        """Return the free motion with all terms under inputs that are functions of time (s).
 
-        Each step has a cubic of its own, so the inputs may be of any frequency that the steps resolve.
+        Each step has a cubic of its own, so the inputs may have any frequency that the steps resolve.
         """
         dt, count, states, done = clock.dt / clock.nsub, max(PIECE // clock.nsub, 1), [], 0
         start = np.zeros(self.states(self.everything))
@@ -260,11 +262,11 @@ class System(Layout):
         bad = np.flatnonzero(~np.isfinite(seen).all(axis=1))
         return Motion(seen, int(bad[0]) if len(bad) else len(seen))
 
-    def stiffness(self, full: Array, active: Iterable[str], states: Array, inputs: Array) -> float:
+    def find_fastest_rate(self, full: Array, active: Iterable[str], states: Array, inputs: Array) -> float:
         """Return the fastest rate (1/s) of the linearised motion over the given states (points, n) and inputs.
 
-        Infinite where it is beyond all numbers. A state that is the same at all points, as that of a second body where
-        nobody knows it, is moved by as little as the one that varies least.
+        Infinite on overflow. A state that is the same at all points, such as that of a second body with unknown motion,
+        is perturbed by as little as the one that varies least.
         """
         chosen, (points, m) = frozenset(active), states.shape
         wide = np.ptp(states, axis=0)
@@ -275,7 +277,9 @@ class System(Layout):
         for a in range(m):
             moved[a + 1, :, a] += spread[a]
         tiled = np.tile(inputs, (m + 1, 1))
-        rates, _ = derivatives(self, chosen, self.pack(full[None], 1.0), moved.reshape(-1, moved.shape[2]), tiled)
+        rates, _ = compute_derivatives(
+            self, chosen, self.pack(full[None], 1.0), moved.reshape(-1, moved.shape[2]), tiled
+        )
         rates = rates.reshape(moved.shape)[:, :, :m]
         jacobians = np.moveaxis((rates[1:] - rates[0]) / spread[:, None, None], 0, 2)
         if not np.all(np.isfinite(jacobians)):

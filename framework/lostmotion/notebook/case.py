@@ -11,13 +11,14 @@ from typing import Any
 
 import numpy as np
 
-from lostmotion.case import WRITTEN, CaseFile, Experiment, Prior, SensorSpec, check_alike, dump_case
+from lostmotion.case import WRITTEN, CaseFile, Experiment, Prior, SensorSpec, check_same_sensors, dump_case
 from lostmotion.contracts import Model
 from lostmotion.errors import CaseError, PluginError, nearest
-from lostmotion.preparation.prepare import Prepared, case_of, prepared_with
-from lostmotion.preparation.vetting import sound
+from lostmotion.preparation.prepare import Prepared, case_of, prepare_loaded
+from lostmotion.preparation.vetting import make_plugin
 from lostmotion.recording import Recording, load_recording
 from lostmotion.registry import Registry, default
+from lostmotion.settings import DEFAULT, Settings, read
 from lostmotion.storage import folder_for, save_table
 from lostmotion.written import Written, is_equation, model_of
 
@@ -61,7 +62,7 @@ class Case:
         if not several or not all(isinstance(one, Recording) for one in several):
             raise CaseError("a case needs a Recording, or a list of them: lm.Recording.from_arrays(...) makes one")
         object.__setattr__(self, "recordings", several)
-        check_alike(tuple(_describe_sensors(one) for one in several))
+        check_same_sensors(tuple(_describe_sensors(one) for one in several))
         if wrong := [name for name, prior in self.estimate.items() if not isinstance(prior, Prior)]:
             raise CaseError(
                 f"the prior of {wrong[0]!r} is {self.estimate[wrong[0]]!r}: wanted lm.LogUniform(1, 100) or the like"
@@ -88,12 +89,17 @@ class Case:
         return model(lines, params=[key for key in (*self.known, *self.estimate) if "." not in key])
 
     @classmethod
-    def read(cls, path: str | Path, registry: Registry | None = None) -> Case:
+    def read(
+        cls,
+        path: str | Path,
+        registry: Registry | None = None,
+        settings: Settings | Mapping[str, float] | None = None,
+    ) -> Case:
         """Return the case of a `case.toml` with loaded recordings; raise `CaseError` or `DataError` if unusable."""
         known = registry or default()
         file = case_of(Path(path), known)
-        loaded = tuple(load_recording(spec, file.folder) for spec in file.recordings)
-        made = sound(known, "model", file.model)
+        loaded = tuple(load_recording(spec, file.folder, read(settings).recording) for spec in file.recordings)
+        made = make_plugin(known, "model", file.model)
         made = made.turned(file.motion) if file.motion else made
         return cls(
             loaded, made, file.known, file.estimate, file.title, file.truth, file.sensor, file.experiment, file=file
@@ -145,7 +151,7 @@ class Case:
     def _model(self) -> Model:
         return self.model  # type: ignore[return-value]
 
-    def prepare(self, registry: Registry, terms: str | Sequence[str] = "all") -> Prepared:
+    def prepare(self, registry: Registry, terms: str | Sequence[str] = "all", settings: Settings = DEFAULT) -> Prepared:
         """Return the prepared case for the stages, with the candidate terms: "all", or names of terms."""
         file = self.file or self._make_case_file()
         made = self._model
@@ -153,7 +159,7 @@ class Case:
             registry.add(
                 type(made) if isinstance(made, Written) else made, WRITTEN if isinstance(made, Written) else None
             )
-        found = prepared_with(file, self._recordings, made, registry)
+        found = prepare_loaded(file, self._recordings, made, registry, settings)
         return found if terms == "all" else replace(found, terms=_choose_terms(found, terms))
 
     def _make_case_file(self) -> CaseFile:

@@ -14,7 +14,7 @@ import numpy as np
 from lostmotion.codec import from_plain, to_plain
 from lostmotion.diagnosis.findings import Outcome
 from lostmotion.diagnosis.report import learned, missing, page, portraits, posteriors, prediction, ranking
-from lostmotion.diagnosis.report.evidence import Evidence, evidence_with
+from lostmotion.diagnosis.report.evidence import Evidence, make_evidence
 from lostmotion.identification.predictive import predict_readings
 from lostmotion.inference import mixture
 from lostmotion.notebook.machine import FittedModel, make_fitted_model, restore_fitted_model
@@ -54,8 +54,8 @@ class DiagnosisPlots:
         """Return the recording with free runs over held-out data, before and after; with `ax`, draw into these axes."""
         if ax is None:
             return self._draw(prediction.draw)
-        with style.applied(self.evidence.result.units.angle):
-            prediction.draw_window(ax, self.evidence, prediction.window_of(self.evidence))
+        with style.use_style(self.evidence.result.units.angle):
+            prediction.draw_window(ax, self.evidence, prediction.choose_window(self.evidence))
             ax.legend()
         return ax.get_figure(root=True)  # type: ignore[return-value]
 
@@ -81,10 +81,10 @@ class DiagnosisPlots:
 
     def _draw(self, draw: Callable[[Evidence], Figure | None]) -> Figure:
         """Return a figure, or a figure with a short text where there is nothing to draw."""
-        with style.applied(self.evidence.result.units.angle):
+        with style.use_style(self.evidence.result.units.angle):
             made = draw(self.evidence)
             if made is None:
-                made = style.blank(1.0)
+                made = style.make_figure(1.0)
                 made.text(0.5, 0.5, "there is nothing to draw here", ha="center", va="center")
         return made
 
@@ -152,7 +152,7 @@ class DiagnosisResult:
     @cached_property
     def evidence(self) -> Evidence:
         """The result and its arrays in the form that the figures use."""
-        return evidence_with(self.result, self.arrays)
+        return make_evidence(self.result, self.arrays)
 
     @property
     def plot(self) -> DiagnosisPlots:
@@ -197,7 +197,9 @@ class DiagnosisResult:
         if self.outcome is None:
             return {}
         fit, rng = self.outcome.diagnosis.after, np.random.default_rng(0)
-        return predict_readings(fit.problem, mixture.draws(fit, rng, PREDICTED_DRAWS), (1, PREDICTED_DRAWS), rng)
+        return predict_readings(
+            fit.problem, mixture.draw_posterior(fit, rng, PREDICTED_DRAWS), (1, PREDICTED_DRAWS), rng
+        )
 
     def report(self, path: str | Path = "report.html") -> Path:
         """Write the page as self-contained HTML and return its path."""
@@ -218,9 +220,9 @@ class DiagnosisResult:
 
     def _repr_html_(self) -> str:
         items = "".join(f"<li>{html.escape(one)}</li>" for one in self.says)
-        with style.applied(self.evidence.result.units.angle):
+        with style.use_style(self.evidence.result.units.angle):
             drawn = prediction.draw(self.evidence)
-            figure = style.embedded(drawn, "prediction") if drawn else ""
+            figure = style.embed_figure(drawn, "prediction") if drawn else ""
         title = html.escape(self.result.title)
         return f"<h4>{title}: {html.escape(self.verdict)}</h4><ul>{items}</ul>{figure}"
 

@@ -24,9 +24,9 @@ from lostmotion.notebook.case import Case, model
 from lostmotion.notebook.diagnosis import DiagnosisResult, load_diagnosis
 from lostmotion.notebook.posterior import IdentificationResult, load_identification
 from lostmotion.recording import Recording
-from lostmotion.recording.checks import filled
+from lostmotion.recording.checks import fill_lost
 from lostmotion.registry import Registry, default
-from lostmotion.settings import Settings, read
+from lostmotion.settings import DEFAULT, Settings, read
 from lostmotion.simulation import simulate as _simulate
 
 if TYPE_CHECKING:
@@ -64,11 +64,11 @@ def diagnose(
     """
     from lostmotion.diagnosis.run import diagnose_prepared
 
-    known_to = registry or default()
-    asked = make_case(case, model, known, estimate, known_to)
+    known_to, limits = registry or default(), read(settings)
+    asked = make_case(case, model, known, estimate, known_to, limits=limits)
     with show_progress("diagnose", progress) as say:
         done = diagnose_prepared(
-            asked.prepare(known_to, terms), known_to, seed=seed, jobs=jobs, say=say, settings=read(settings)
+            asked.prepare(known_to, terms, limits), known_to, seed=seed, jobs=jobs, say=say, settings=limits
         )
     found = DiagnosisResult(done.result, done.arrays, known_to, done.outcome)
     if out is not None:
@@ -119,7 +119,9 @@ def identify(
         if file is not None and choose_route(file, order) == "quantifiers":
             done = identify_case(file, None, place, known_to, order, lambda _steps, says: say(says))
         else:
-            prepared = make_case(case, model, known, estimate, known_to).prepare(known_to)
+            prepared = make_case(case, model, known, estimate, known_to, limits=limits).prepare(
+                known_to, settings=limits
+            )
             done = identify_case(prepared.case, prepared, place, known_to, order, lambda _steps, says: say(says))
         data = make_inference_data(done)
     found = IdentificationResult(done.result, {name: data[name] for name in data.groups()})
@@ -180,7 +182,7 @@ def analyse(
         source = extract_source(recording, _find_sensor(recording, channel))
     else:
         wanted = WantedChannel(request.columns or _to_texts(channel or ()), request.rate, request.every)
-        source = load_source(Path(recording), wanted, known_to)
+        source = load_source(Path(recording), wanted, known_to, request.settings.recording)
     with show_progress("analyse", progress) as say:
         result, arrays = analyse_source(source, known_to, request, say)
     found = AnalysisResult(result, arrays)
@@ -291,6 +293,8 @@ def make_case(
     known: Mapping[str, float] | None,
     estimate: Mapping[str, Prior] | None,
     registry: Registry,
+    *,
+    limits: Settings = DEFAULT,
 ) -> Case:
     """Return the case: the given one, that of a file, or one made of a recording and a model."""
     if isinstance(case, Recording):
@@ -299,7 +303,7 @@ def make_case(
         return _guess_case(case, given, known or {}, estimate or {})
     if given is not None or known or estimate:
         raise CaseError("the case has a model, known values and priors: change them there, or give a recording")
-    return case if isinstance(case, Case) else Case.read(case, registry)
+    return case if isinstance(case, Case) else Case.read(case, registry, limits)
 
 
 def _guess_case(
@@ -312,7 +316,7 @@ def _guess_case(
     machine: Any = first.model
     response = recording.sensors[0]
     pushed = next((a for a in recording.inputs if a.attrs["quantity"] in ("force", "torque")), None)
-    seen, quantity = filled(np.asarray(response, dtype=float)), str(response.attrs["quantity"])
+    seen, quantity = fill_lost(np.asarray(response, dtype=float)), str(response.attrs["quantity"])
     drive = None if pushed is None else np.asarray(pushed) - float(pushed.mean())
     scales = sizes_of(seen - seen.mean(), quantity, drive, recording.dt)
     values, ranges = guesses(machine, scales, forced=pushed is not None or quantity in ("force", "torque"))

@@ -16,10 +16,10 @@ from lostmotion.errors import CaseError, DataError, nearest
 from lostmotion.likelihood.sensors import Sensor
 from lostmotion.quantities import unit_of
 from lostmotion.recording import Recording
-from lostmotion.recording.made import made as recorded
+from lostmotion.recording.made import RecordingLayout, make_recording
 from lostmotion.registry import Registry
 from lostmotion.results.background import FittedMachine
-from lostmotion.simulation.simulate import Moved, set_in_motion
+from lostmotion.simulation.simulate import FreeMotion, run_free_motion
 from lostmotion.written import model_of
 
 Signal = ArrayLike | Callable[[Array], Array]
@@ -62,17 +62,18 @@ class FittedModel:
         signals, rate = _read_signals(inputs, rate)
         samples = _count_samples(signals, duration, rate)
         columns = _make_inputs(self.model, signals, rate)
-        moved = set_in_motion(self.assembly, self.values, columns, samples, rate, initial or {})
+        moved = run_free_motion(self.assembly, self.values, columns, samples, rate, initial or {})
         driven = {name: u for name, u in zip(self.model.inputs, moved.inputs.T, strict=True) if name in signals}
         names = {sensor.label: sensor.channel for sensor in self.sensors}
         units = {name: unit_of(name, self.model.motion) for name in (*driven, *names.values())}
         which = ({name: name for name in driven}, {channel: label for label, channel in names.items()})
         shown = {sensor.label: self._simulate_sensor(moved, sensor) for sensor in self.sensors}
         units |= {label: units[channel] for label, channel in names.items()}
-        return recorded({**driven, **shown}, which, units, None, rate, {}, "smooth", f"simulated {self.assembly.label}")
+        layout = RecordingLayout(which, units, rate=rate, name=f"simulated {self.assembly.label}")
+        return make_recording({**driven, **shown}, layout)
 
     @staticmethod
-    def _simulate_sensor(moved: Moved, sensor: Sensor) -> Array:
+    def _simulate_sensor(moved: FreeMotion, sensor: Sensor) -> Array:
         """Return the readings of a sensor (samples,), with the effect of its terms."""
         seen = moved.channels[sensor.channel]
         for term, p in moved.system.at_sensor(moved.full, moved.system.everything, sensor.place):

@@ -1,4 +1,4 @@
-"""What was recorded: files of several formats, read, checked and turned into SI units."""
+"""Recordings: files of several formats are read, checked and converted to SI units."""
 
 from lostmotion.recording.formats import ENDINGS, read_columns, read_table
 from lostmotion.recording.load import Recording, load_recording

@@ -1,10 +1,10 @@
-"""Whether the clocks of two devices drift apart: the delay between input and response over the recording.
+"""Detection of drift between the clocks of two devices, from the delay between input and response over time.
 
 The recording is cut into segments. A drift turns the phase of the response at each frequency in proportion to the
-frequency and to time. It is first read from neighbouring segments, where it is small; with it taken out, the transfer
-function is averaged over all segments, and the delay of each one is the shift by which the mean transfer function
-explains it best (maximum likelihood for Gaussian noise; Knapp and Carter 1976). A line is put through the delays; their
-scatter about it gives its standard error, so whatever else moves the phase counts as noise.
+frequency and to time. It is first estimated from neighbouring segments, between which it is small. After its removal
+the transfer function is averaged over all segments, and the delay of each segment is the shift with which the mean
+transfer function explains it best (maximum likelihood for Gaussian noise; Knapp and Carter 1976). A line is fitted to
+the delays; their scatter about it gives its standard error, so any other change of the phase counts as noise.
 """
 
 from __future__ import annotations
@@ -16,18 +16,18 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from lostmotion.settings import DEFAULT, RecordingSettings
+
 Array = NDArray[np.float64]
 Spectra = NDArray[np.complex128]
 SEGMENTS, FEWEST, SHORTEST = 16, 10, 64
-"""Segments of a recording, the fewest that show a line, and samples in one at least."""
+"""Segments of a recording, the least number to which a line is fitted, and the least number of samples in one."""
 HEARD = 1e-3
-"""Share of the strongest line of the input above which a frequency is used: below it lies what leaks from that line."""
-SURE, LEAST, MOST = 10.0, 0.2, 5e-3
-"""Standard errors and samples above which a drift is told, and the drift (s per s) that no pair of clocks exceeds.
-
-For independent delays, 10 standard errors have a probability below 1e-7; the rest is for delays with a memory."""
+"""Frequencies with at least this share of the strongest power of the input are used: below it lies leakage."""
+MOST = 5e-3
+"""The largest drift (s per s) of two clocks: a larger one has another cause."""
 FLOOR = 1e-12
-"""Share of the power of the response that always counts as noise."""
+"""Share of the power of the response that counts as noise in every case."""
 ROUNDS = 8
 
 
@@ -39,20 +39,23 @@ class Drift:
     error: float
     span: float
 
-    @property
-    def sure(self) -> bool:
-        """Whether the drift stands out of the scatter of the delays."""
-        return abs(self.rate) > SURE * self.error and abs(self.rate) < MOST
+    def is_significant(self, errors: float = DEFAULT.recording.drift) -> bool:
+        """Return whether the drift exceeds so many standard errors, and is possible for two clocks."""
+        return abs(self.rate) > errors * self.error and abs(self.rate) < MOST
 
 
-def note_drift(excitation: Array, response: Array, dt: float) -> Iterator[str]:
-    """Yield a note when the response (n,) is later and later, or earlier and earlier, than the input (n,).
+def note_drift(
+    excitation: Array, response: Array, dt: float, limits: RecordingSettings = DEFAULT.recording
+) -> Iterator[str]:
+    """Yield a note when the delay of the response (n,) behind the input (n,) grows or shrinks steadily.
 
-    Without a drift fewer than 1 recording in 1000 gets it: none of 3000 recordings of gap oscillators did, chaotic ones
-    among them.
+    False alarms are rarer than 1 in 1000: none of 3000 recordings of gap oscillators gave one, chaotic ones among
+    them.
     """
     drift = clock_drift(excitation, response, dt)
-    if drift is None or not drift.sure or abs(drift.rate) * drift.span < LEAST * dt:
+    if drift is None or not drift.is_significant(limits.drift):
+        return
+    if abs(drift.rate) * drift.span < limits.drift_samples * dt:
         return
     which = "later and later" if drift.rate > 0 else "earlier and earlier"
     yield (
@@ -64,7 +67,7 @@ def note_drift(excitation: Array, response: Array, dt: float) -> Iterator[str]:
 
 
 def clock_drift(excitation: Array, response: Array, dt: float) -> Drift | None:
-    """Return by how much the response (n,) falls behind the input (n,) for each second; None where nothing shows it."""
+    """Return the drift of the response (n,) against the input (n,), sampled every `dt` s; None if it cannot be seen."""
     size = excitation.size // SEGMENTS
     count = SEGMENTS if size >= SHORTEST else excitation.size // SHORTEST
     if count < FEWEST:
@@ -80,27 +83,27 @@ def clock_drift(excitation: Array, response: Array, dt: float) -> Drift | None:
     drive, seen = drive[:, heard], seen[:, heard]
     at = np.asarray((np.arange(count) - 0.5 * (count - 1)) * size * dt)
     pair = _Pair(drive, seen, omega, at)
-    # Motion that repeats itself shifted fits many drifts: the one that leaves least over counts.
-    found = [pair.fitted(start) for start in (0.0, _between_neighbours(drive, seen, omega, size * dt))]
+    # A periodic motion fits many drifts: the one with the least residual is taken.
+    found = [pair.fit_drift(start) for start in (0.0, _guess_drift(drive, seen, omega, size * dt))]
     rate, error, _ = min(found, key=lambda one: one[2])
     return Drift(rate, error, excitation.size * dt)
 
 
 @dataclass(frozen=True, eq=False)
 class _Pair:
-    """Spectra (segments, frequencies) of input and response at `omega` (rad/s), the segments lying at `at` (s)."""
+    """Spectra (segments, frequencies) of input and response at `omega` (rad/s), and the times `at` (s) of segments."""
 
     drive: Spectra
     seen: Spectra
     omega: Array
     at: Array
 
-    def fitted(self, rate: float) -> tuple[float, float, float]:
-        """Return the drift (s per s) found from a first guess, its standard error, and what it leaves over (log)."""
+    def fit_drift(self, rate: float) -> tuple[float, float, float]:
+        """Return the drift (s per s) fitted from a first guess, its standard error, and the log residual power."""
         error, left = math.inf, math.inf
         for _ in range(ROUNDS):
-            delay, weight, left = self._delays(rate)
-            slope, error = _line(self.at, delay, weight)
+            delay, weight, left = self._fit_delays(rate)
+            slope, error = _fit_line(self.at, delay, weight)
             rate += slope
             if not math.isfinite(error) or abs(rate) > MOST:
                 return rate, math.inf, math.inf
@@ -108,8 +111,8 @@ class _Pair:
                 break
         return rate, error, left
 
-    def _delays(self, rate: float) -> tuple[Array, Array, float]:
-        """Return the delay (s) of each segment beside a drift, its weight (1/s^2), and the log of what is left over."""
+    def _fit_delays(self, rate: float) -> tuple[Array, Array, float]:
+        """Return for a given drift the delay (s) of each segment, its weight (1/s^2), and the log residual power."""
         seen = self.seen * np.exp(1j * self.omega * rate * self.at[:, None])
         transfer = np.sum(seen * np.conj(self.drive), axis=0) / np.sum(np.abs(self.drive) ** 2, axis=0)
         clean = transfer * self.drive
@@ -121,7 +124,7 @@ class _Pair:
 
 
 def _spectra(values: Array, count: int, size: int) -> Spectra:
-    """Return the spectra (segments, frequencies) of tapered segments without their mean and trend."""
+    """Return the spectra (segments, frequencies) of tapered segments after removal of mean and trend."""
     from scipy.signal import detrend
 
     there = np.flatnonzero(np.isfinite(values))
@@ -129,8 +132,8 @@ def _spectra(values: Array, count: int, size: int) -> Spectra:
     return np.asarray(np.fft.rfft(detrend(whole.reshape(count, size), axis=1) * np.hanning(size), axis=1))
 
 
-def _between_neighbours(drive: Spectra, seen: Spectra, omega: Array, step: float) -> float:
-    """Return the drift (s per s) by the phase between neighbouring segments, `step` s apart."""
+def _guess_drift(drive: Spectra, seen: Spectra, omega: Array, step: float) -> float:
+    """Return the drift (s per s) from the phase between neighbouring segments, `step` s apart."""
     cross = seen * np.conj(drive)
     turn = np.sum(cross[1:] * np.conj(cross[:-1]), axis=0)
     weight = np.abs(turn) ** 2 / np.maximum(np.sum(np.abs(cross[1:] * cross[:-1]), axis=0), 1e-300)
@@ -138,8 +141,8 @@ def _between_neighbours(drive: Spectra, seen: Spectra, omega: Array, step: float
     return float(-np.sum(share * np.angle(turn) / omega) / (step * max(np.sum(share), 1e-300)))
 
 
-def _line(at: Array, delay: Array, weight: Array) -> tuple[float, float]:
-    """Return the slope of a weighted line through the delays, and its standard error by their scatter about it."""
+def _fit_line(at: Array, delay: Array, weight: Array) -> tuple[float, float]:
+    """Return the slope of a weighted line through the delays, and its standard error from their scatter."""
     share = weight / weight.sum()
     away = at - share @ at
     spread = float(share @ away**2)

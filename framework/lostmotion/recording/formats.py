@@ -1,4 +1,4 @@
-"""The columns of a file, whatever its format; each reader of a third party is loaded only when it is needed."""
+"""Reading of the columns of a file in any supported format; third-party readers are imported only when needed."""
 
 from __future__ import annotations
 
@@ -20,61 +20,63 @@ from lostmotion.recording.unpacked import check_hdf5, check_mat, check_npz
 
 Array = NDArray[np.float64]
 KINDS = "fiub"
-"""Kinds of numbers that a column can be made of: real, whole, true or false."""
+"""NumPy kinds of numbers in a column: real, integer, boolean."""
 
 
 def read_columns(path: Path) -> dict[str, Array]:
-    """Return the numeric columns of a file by name, each (n,), as `columns_of`; foreign formats are read apart."""
+    """Return the numeric columns of a file by name, each (n,); foreign formats are read in another process."""
     return dict(read_table(path).columns)
 
 
 def read_table(path: Path) -> Table:
-    """Return the numeric columns of a file with their units, as `table_of`; foreign formats are read apart."""
+    """Return the table of a file as `table_of` does; foreign formats are read in another process."""
     path = Path(path)
-    if _reader(path) in (read_text, _read_npz):
+    if _find_reader(path) in (read_text, _read_npz):
         return table_of(path)
-    _must_be_file(path)
+    _require_file(path)
     return read_in_subprocess(path)
 
 
 def columns_of(path: Path) -> dict[str, Array]:
-    """Return the numeric columns of a file by name, each (n,), as `table_of`."""
+    """Return the numeric columns of a file by name, each (n,), read in this process."""
     return dict(table_of(path).columns)
 
 
 def table_of(path: Path) -> Table:
     """Return the numeric columns of a file by name, each (n,), with units where the file gives them.
 
-    Numbers that stand alone are left out. A two-dimensional array `a` gives `a[0]`, `a[1]`, ...: the longer axis is
-    time. A field `b` of a structure or group `a` is `a.b` (MAT) or `a/b` (netCDF, HDF5). In UFF a function is named
-    by its first id line, where that is unique, and by its number among the functions: `58[0]`.
+    Single numbers are left out. A two-dimensional array `a` becomes `a[0]`, `a[1]`, ..., with time along the longer
+    axis. A field `b` of a structure or group `a` is named `a.b` (MAT) or `a/b` (netCDF, HDF5). A function in UFF has
+    its first id line as name, where that is unique, and its number among the functions: `58[0]`.
     """
-    reader = _reader(path)
+    reader = _find_reader(path)
     try:
-        _must_be_file(path)
+        _require_file(path)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             table = reader(path)
     except DataError:
         raise
-    except Exception as err:  # readers of foreign formats fail in every way there is
+    except Exception as err:  # readers of foreign formats raise many types of error
         raise DataError(
             f"{path.name} cannot be read as {path.suffix[1:].lower()} ({_first_line(err)}): "
-            "it may be cut short or of another format; export it again, for instance as csv"
+            "it may be incomplete or of another format; export it again, for instance as csv"
         ) from err
     if not table.columns:
         raise DataError(f"{path.name} holds no column of numbers: wanted at least one series of samples")
     return table
 
 
-def _reader(path: Path) -> Callable[[Path], Table]:
+def _find_reader(path: Path) -> Callable[[Path], Table]:
     ending = path.suffix[1:].lower()
     if ending not in ENDINGS:
-        raise DataError(f"{path.name} ends in {ending!r}: wanted one of {', '.join(ENDINGS)}; export it, say, as csv")
+        raise DataError(
+            f"{path.name} ends in {ending!r}: wanted one of {', '.join(ENDINGS)}; export it for instance as csv"
+        )
     return ENDINGS[ending]
 
 
-def _must_be_file(path: Path) -> None:
+def _require_file(path: Path) -> None:
     try:
         _check_place(path)
     except (OSError, ValueError) as err:
@@ -85,15 +87,15 @@ def _check_place(path: Path) -> None:
     if path.is_dir():
         raise DataError(f"{path.name} is a folder: give the recording inside it")
     if not path.exists():
-        raise DataError(f"{path.name} does not exist in {path.parent.name or '.'}{_neighbour(path)}: correct the name")
+        raise DataError(f"{path.name} does not exist in {path.parent.name or '.'}{_suggest(path)}: correct the name")
     if not path.is_file():
-        raise DataError(f"{path.name} is no ordinary file: give a file that holds the recording")
+        raise DataError(f"{path.name} is not a regular file: give a file that holds the recording")
     if path.stat().st_size == 0:
         raise DataError(f"{path.name} is empty (0 bytes): record or export it again")
     check_bytes(path.stat().st_size, path.name)
 
 
-def _neighbour(path: Path) -> str:
+def _suggest(path: Path) -> str:
     return nearest(path.name, sorted(p.name for p in path.parent.iterdir())) if path.parent.is_dir() else ""
 
 
@@ -106,12 +108,12 @@ def _read_npz(path: Path) -> Table:
         check_npz(path)
     archive = np.load(path, allow_pickle=False)
     if not isinstance(archive, np.lib.npyio.NpzFile):
-        raise DataError(f"{path.name} holds a single array: wanted an archive of named ones, as np.savez writes it")
+        raise DataError(f"{path.name} holds a single array: wanted an archive of named arrays, as np.savez writes it")
     with archive:
-        return _flattened({name: _member(archive, name, path) for name in archive.files})
+        return _make_table({name: _read_member(archive, name, path) for name in archive.files})
 
 
-def _member(archive: Any, name: str, path: Path) -> Any:
+def _read_member(archive: Any, name: str, path: Path) -> Any:
     try:
         return archive[name]
     except ValueError as err:
@@ -128,13 +130,13 @@ def _read_mat(path: Path) -> Table:
 
     if h5py.is_hdf5(path):
         with path.open("rb") as raw:
-            if raw.read(6) != b"MATLAB":  # HDF5 of another program under the ending of MATLAB
+            if raw.read(6) != b"MATLAB":  # an HDF5 file of another program with the ending of MATLAB
                 return _read_h5(path)
         check_hdf5(path)
     else:
         check_mat(path)
     content = pymatreader.read_mat(path)
-    return _flattened({k: v for k, v in content.items() if not k.startswith("__")})
+    return _make_table({k: v for k, v in content.items() if not k.startswith("__")})
 
 
 def _read_nc(path: Path) -> Table:
@@ -142,25 +144,25 @@ def _read_nc(path: Path) -> Table:
 
     with path.open("rb") as raw:
         classic = raw.read(3) == b"CDF"
-    if classic:  # netCDF 3 knows no groups
+    if classic:  # netCDF 3 has no groups
         with xr.open_dataset(path, engine="scipy", decode_times=False) as data:
-            return _flattened(
+            return _make_table(
                 {str(n): v.values for n, v in data.variables.items()},
                 {str(n): _unit_of(v.attrs) for n, v in data.variables.items()},
             )
     check_hdf5(path)
     groups = xr.open_groups(path, engine="h5netcdf", decode_times=False)
     try:
-        held = {_inside(g, n): v for g, data in groups.items() for n, v in data.variables.items()}
+        held = {_path_in_file(g, n): v for g, data in groups.items() for n, v in data.variables.items()}
         found = {name: v.values for name, v in held.items()}
         units = {name: _unit_of(v.attrs) for name, v in held.items()}
     finally:
         for data in groups.values():
             data.close()
-    return _flattened(found, units)
+    return _make_table(found, units)
 
 
-def _inside(group: str, name: object) -> str:
+def _path_in_file(group: str, name: object) -> str:
     return f"{group.strip('/')}/{name}".lstrip("/")
 
 
@@ -171,13 +173,13 @@ def _read_h5(path: Path) -> Table:
     with h5py.File(path, "r") as file:
         if "_NCProperties" not in file.attrs:
             held: dict[str, Any] = {}
-            file.visititems(lambda name, item: held.update({name: item} if _numeric(item) else {}))
+            file.visititems(lambda name, item: held.update({name: item} if _is_numeric(item) else {}))
             units = {name: _unit_of(item.attrs) for name, item in held.items()}
-            return _flattened({name: item[()] for name, item in held.items()}, units)
+            return _make_table({name: item[()] for name, item in held.items()}, units)
     return _read_nc(path)
 
 
-def _numeric(item: Any) -> bool:
+def _is_numeric(item: Any) -> bool:
     return getattr(item, "dtype", None) is not None and item.dtype.kind in KINDS
 
 
@@ -186,8 +188,8 @@ def _read_uff(path: Path) -> Table:
 
     check_bytes(path.stat().st_size, path.name, TEXT)
     with path.open("rb") as raw:
-        if sum(line.rstrip() == b"    -1" for line in raw) % 2:  # pyuff skips a set without an end, and says nothing
-            raise DataError(f"{path.name}: the last data set has no end: the file is cut short, export it again")
+        if sum(line.rstrip() == b"    -1" for line in raw) % 2:  # pyuff skips a set without an end silently
+            raise DataError(f"{path.name}: the last data set has no end: the file is incomplete, export it again")
     file = pyuff.UFF(str(path))
     numbers = [i for i, kind in enumerate(file.get_set_types()) if int(kind) == 58]
     sets = [file.read_sets(i) for i in numbers]
@@ -200,38 +202,38 @@ def _read_uff(path: Path) -> Table:
     if sets and "time" not in found and all(np.array_equal(s["x"], sets[0]["x"]) for s in sets):
         found["time"] = sets[0]["x"]
         units["time"] = str(sets[0].get("abscissa_axis_units_lab") or "").strip()
-    return _flattened(found, {name: unit for name, unit in units.items() if unit.upper() != "NONE"})
+    return _make_table(found, {name: unit for name, unit in units.items() if unit.upper() != "NONE"})
 
 
 def _unit_of(attributes: Any) -> str:
-    """Return the unit among the attributes of an array, or an empty one."""
+    """Return the unit in the attributes of an array, or an empty text."""
     unit = attributes.get("units", attributes.get("unit", ""))
     word = unit.decode("utf-8", "replace") if isinstance(unit, bytes) else unit
     return word.strip() if isinstance(word, str) else ""
 
 
-def _flattened(content: Mapping[str, Any], units: Mapping[str, str] | None = None) -> Table:
-    """Return the table of some arrays; what the unit of a block is, is the unit of its columns."""
-    columns = dict(_flat_all(content))
+def _make_table(content: Mapping[str, Any], units: Mapping[str, str] | None = None) -> Table:
+    """Return the table of some arrays; the unit of a two-dimensional array is that of its columns."""
+    columns = dict(_flatten_all(content))
     known = {name: (units or {}).get(name) or (units or {}).get(name.rpartition("[")[0], "") for name in columns}
     return Table(columns, {name: unit for name, unit in known.items() if unit})
 
 
-def _flat_all(content: Mapping[str, Any]) -> Iterator[tuple[str, Array]]:
+def _flatten_all(content: Mapping[str, Any]) -> Iterator[tuple[str, Array]]:
     for name, value in content.items():
-        yield from _flat(name, value)
+        yield from _flatten(name, value)
 
 
-def _flat(name: str, value: Any) -> Iterator[tuple[str, Array]]:
+def _flatten(name: str, value: Any) -> Iterator[tuple[str, Array]]:
     if isinstance(value, Mapping):
-        yield from _flat_all({f"{name}.{key}": item for key, item in value.items()})
+        yield from _flatten_all({f"{name}.{key}": item for key, item in value.items()})
     elif isinstance(value, (list, tuple)) and any(np.ndim(item) for item in value if not isinstance(item, Mapping)):
-        yield from _flat_all({f"{name}[{i}]": item for i, item in enumerate(value)})
+        yield from _flatten_all({f"{name}[{i}]": item for i, item in enumerate(value)})
     elif not isinstance(value, (str, bytes)):
-        yield from _series(name, np.squeeze(np.asarray(value)))
+        yield from _list_series(name, np.squeeze(np.asarray(value)))
 
 
-def _series(name: str, array: NDArray[Any]) -> Iterator[tuple[str, Array]]:
+def _list_series(name: str, array: NDArray[Any]) -> Iterator[tuple[str, Array]]:
     if array.dtype.kind not in KINDS:
         return
     if array.ndim == 1:
@@ -253,4 +255,4 @@ ENDINGS: Mapping[str, Callable[[Path], Table]] = {
     "uff": _read_uff,
     "unv": _read_uff,
 }
-"""The endings that are understood, with their readers."""
+"""The supported file name endings, with their readers."""

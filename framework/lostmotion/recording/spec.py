@@ -1,4 +1,4 @@
-"""What a case says of one recording: which file, which columns, in which units."""
+"""The description of one recording in a case: file, columns and units."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import PurePath
 from typing import Literal
 
 Hold = Literal["smooth", "step"]
-"""How the inputs run between samples: smoothly, or held as a digital controller holds them."""
+"""The inputs between samples: smooth, or constant as a digital controller holds them."""
 Kind = Literal["white", "ar1", "quantised"]
 """The noise of a sensor, as `lostmotion.likelihood.sensors` names it."""
 
@@ -18,10 +18,10 @@ KINDS: tuple[Kind, ...] = ("white", "ar1", "quantised")
 
 @dataclass(frozen=True)
 class Channel:
-    """A column of a file and what it measures; `factor` comes before the unit, for instance newtons per volt.
+    """A column of a file and its quantity; values are multiplied by `factor` before the unit, as by newtons per volt.
 
-    `of` is the input or the channel of the model that it shows, `quantity` of what kind that is. A sensor has a `name`,
-    at which terms of a sensor act, and `noise` of a kind. One without a name is the only sensor of its recording.
+    `of` is the input or the channel of the model, `quantity` its quantity. A sensor has a `name`, at which sensor terms
+    act, and a kind of `noise`. A sensor without a name is the only one of its recording.
     """
 
     column: str
@@ -34,16 +34,16 @@ class Channel:
 
     @property
     def target(self) -> str:
-        """The input or the channel of the model; a torque is the force of a rotation."""
+        """The input or the channel of the model; a torque counts as the force of a rotation."""
         return self.of or ("force" if self.quantity == "torque" else self.quantity)
 
 
 @dataclass(frozen=True)
 class RecordingSpec:
-    """One recording: either `time` (a column) or `rate` (Hz); `t_start` and `t_end` (s) cut a piece out of it.
+    """One recording: either `time` (a column) or `rate` (Hz); `t_start` and `t_end` (s) select a part of it.
 
-    `inputs` are what drove the machine, none of them in a free decay; `sensors` what was measured, at least one.
-    `time_unit` is the unit of the time column, or None where the file tells; `start` is when it was recorded.
+    `inputs` are the measured drives, none in a free decay; `sensors` are the readings, at least one. `time_unit` is the
+    unit of the time column, or None where the file gives it; `start` is the time of the recording.
     """
 
     file: str
@@ -60,5 +60,5 @@ class RecordingSpec:
 
     @property
     def label(self) -> str:
-        """The name by which results speak of this recording; the stem of the file where none was given."""
+        """The name of this recording in results; the stem of the file where no name was given."""
         return self.name or PurePath(self.file).stem

@@ -1,7 +1,7 @@
-"""Time stamps as data loggers print them, turned into seconds from the first one.
+"""Conversion of time stamps of data loggers to seconds from the first one.
 
-Dates are few and times of day are many: each distinct date is looked at once, and times are whole nanoseconds until
-the first stamp has been subtracted, so microseconds survive.
+Each distinct date is parsed only once. Times are integer nanoseconds until the first stamp has been subtracted, so
+that microseconds are preserved.
 """
 
 from __future__ import annotations
@@ -26,12 +26,12 @@ EPOCH = date(1970, 1, 1).toordinal()
 
 
 def is_stamp(cell: str) -> bool:
-    """Return whether a cell holds a time of day, with a date before it or alone."""
+    """Return whether a cell holds a time of day, with or without a date before it."""
     return len(cell) < 64 and _STAMP.fullmatch(cell.strip()) is not None
 
 
 class Stamps:
-    """A column of time stamps, taken in piece by piece."""
+    """A column of time stamps, to which cells are added block by block."""
 
     def __init__(self) -> None:
         self._dates: dict[str | None, int] = {}
@@ -41,7 +41,7 @@ class Stamps:
         self._offset = ""
 
     def add(self, cells: Sequence[str], lost: Sequence[bool]) -> int | None:
-        """Take in some cells; return the index of the first that is no time stamp, though it should be one."""
+        """Add some cells; return the index of the first one that is neither a time stamp nor lost, or None."""
         fields, which = [], np.zeros(len(cells), dtype=np.int64)
         for k, cell in enumerate(cells):
             found = None if lost[k] else _STAMP.fullmatch(cell.strip())
@@ -57,29 +57,29 @@ class Stamps:
         self._since.append(_since_midnight(fields))
         return None
 
-    def settled(self, file: str, name: str) -> tuple[Array, str]:
-        """Return seconds from the first stamp (n,), NaN where one is lost, and the first stamp in ISO form."""
+    def finish(self, file: str, name: str) -> tuple[Array, str]:
+        """Return seconds from the first stamp (n,), NaN for a lost one, and the first stamp in ISO format."""
         which, since = np.concatenate(self._which), np.concatenate(self._since)
         lost = np.concatenate(self._lost)
         there = np.flatnonzero(~lost)
         if None in self._dates and len(self._dates) > 1:
             raise DataError(
-                f"{file}, column {name!r}: some time stamps have a date and some have none: export it again"
+                f"{file}, column {name!r}: some time stamps have a date and some have none: export the file again"
             )
         if None in self._dates:
             total = since.copy()
-            total[there] += _DAY * _midnights(since[there])
+            total[there] += _DAY * _count_midnights(since[there])
         else:
-            days = _days(list(self._dates), which[there], since[there], f"{file}, column {name!r}")
+            days = _find_days(list(self._dates), which[there], since[there], f"{file}, column {name!r}")
             total = since + _DAY * (days - days[0])[np.maximum(which, 0)]
         times = (total - total[there[0]]) / 1e9
         times[lost] = np.nan
         day = None if None in self._dates else int(days[which[there[0]]])
-        return times, _iso(int(since[there[0]]), day, self._offset)
+        return times, _format_iso(int(since[there[0]]), day, self._offset)
 
 
 def _since_midnight(fields: Sequence[Sequence[str | None]]) -> Whole:
-    """Return nanoseconds since midnight, in universal time where an offset is given, of stamps taken apart."""
+    """Return nanoseconds since midnight (in UTC where an offset is given) from the fields of stamps."""
     hours, minutes, secs, parts, halves, offsets = zip(*fields, strict=True) if fields else ((),) * 6
     hour = np.array(hours, dtype=str).astype(np.int64)
     if any(halves):
@@ -89,40 +89,38 @@ def _since_midnight(fields: Sequence[Sequence[str | None]]) -> Whole:
         3600 * hour + 60 * np.array(minutes, dtype=str).astype(np.int64) + np.array(secs, dtype=str).astype(np.int64)
     )
     fraction = np.array([(part or "").ljust(9, "0") for part in parts], dtype=str).astype(np.int64)
-    ahead = np.array([_ahead(offset) for offset in offsets], dtype=np.int64) if any(offsets) else np.int64(0)
+    ahead = np.array([_utc_offset(offset) for offset in offsets], dtype=np.int64) if any(offsets) else np.int64(0)
     return np.asarray(whole * _SECOND + fraction - ahead * _SECOND, dtype=np.int64)
 
 
-def _ahead(offset: str | None) -> int:
-    """Return by how many seconds local time is ahead of universal time."""
+def _utc_offset(offset: str | None) -> int:
+    """Return the offset (s) of local time from UTC."""
     if not offset or offset == "Z":
         return 0
     return (1 if offset[0] == "+" else -1) * (3600 * int(offset[1:3]) + 60 * int(offset[-2:]))
 
 
-def _midnights(since: Whole) -> Whole:
-    """Return how often midnight has passed before each stamp (n,) that has no date."""
+def _count_midnights(since: Whole) -> Whole:
+    """Return the number of midnights before each stamp (n,), for stamps without a date."""
     passed = np.diff(since) < -_DAY // 2
     return np.concatenate(([0], np.cumsum(passed))).astype(np.int64)
 
 
-def _days(dates: list[str | None], which: Whole, since: Whole, what: str) -> Whole:
+def _find_days(dates: list[str | None], which: Whole, since: Whole, what: str) -> Whole:
     """Return the day (since 1970) of each distinct date.
 
-    Dots put the day first. With slashes, a number above 12 tells; else the reading in which time never runs backwards
-    and the recording is shortest; else the month is first, which then changes no difference.
+    With dots the day is first. With slashes a number above 12 decides, then the order in which time never decreases
+    and the recording is shortest; otherwise the month is first, which then does not change any difference.
     """
     texts = [text or "" for text in dates]
-    found = [days for order in _orders(texts[0]) if (days := _read_dates(texts, order)) is not None]
+    found = [days for order in _possible_orders(texts[0]) if (days := _read_dates(texts, order)) is not None]
     if not found:
-        raise DataError(
-            f"{what}: no day has the date {texts[0]!r} in the way all others are written: correct the dates"
-        )
-    return min(found, key=lambda days: _cost(since + _DAY * (days - days[0])[which]))
+        raise DataError(f"{what}: {texts[0]!r} is no date in the format of all others: correct the dates")
+    return min(found, key=lambda days: _rank_reading(since + _DAY * (days - days[0])[which]))
 
 
-def _orders(text: str) -> tuple[tuple[int, int, int], ...]:
-    """Return where year, month and day may stand in a date."""
+def _possible_orders(text: str) -> tuple[tuple[int, int, int], ...]:
+    """Return the possible positions of year, month and day in a date."""
     if re.match(r"\d{4}", text):
         return ((0, 1, 2),)
     return ((2, 1, 0),) if "." in text else ((2, 0, 1), (2, 1, 0))
@@ -136,12 +134,12 @@ def _read_dates(texts: list[str], order: tuple[int, int, int]) -> Whole | None:
         return None
 
 
-def _cost(total: Whole) -> tuple[bool, int]:
+def _rank_reading(total: Whole) -> tuple[bool, int]:
     return bool(np.any(np.diff(total) < 0)), int(np.ptp(total))
 
 
-def _iso(since: int, day: int | None, offset: str) -> str:
-    """Return the first stamp as it was written, in ISO form: its local time, and its offset where it had one."""
-    local = np.datetime64(since + _SECOND * _ahead(offset), "ns") + np.timedelta64(day or 0, "D")
+def _format_iso(since: int, day: int | None, offset: str) -> str:
+    """Return the first stamp in ISO format: its local time, and its offset where it had one."""
+    local = np.datetime64(since + _SECOND * _utc_offset(offset), "ns") + np.timedelta64(day or 0, "D")
     text = str(np.datetime_as_string(local, unit="ns")).rstrip("0").rstrip(".")
     return (text.partition("T")[2] if day is None else text) + offset

@@ -1,6 +1,6 @@
-"""Foreign formats are read in a process of their own: a damaged file takes down its reader and nothing else.
+"""Reading of foreign formats in a separate process: a damaged file can crash that process and nothing else.
 
-A MAT file can crash its reader and an HDF5 file send it round in circles; neither can be caught from within.
+The readers of MAT and HDF5 files can crash or run forever on damaged files, which cannot be caught in one process.
 """
 
 from __future__ import annotations
@@ -21,33 +21,34 @@ from lostmotion.recording.table import Table
 
 try:
     import resource
-except ImportError:  # a system that is not of the family of Unix: its readers have no bounds but the clock
+except ImportError:  # not a Unix system: there only the time of a reader is limited
     resource = None  # type: ignore[assignment]
 
 ALONE = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
-"""The environment of a process that has one core to itself."""
+"""The environment variables that limit a process to one core."""
 REFUSED = 3
-"""Exit status of the reader when it says why in a sentence."""
+"""Exit status of the reader when it has written a message for the user."""
 SECONDS, SPEED, MEMORY = 7, 4 * 2**20, 2 * 2**30
-"""What the reader may take: so much time of a processor and for so many bytes a second more, so much address space."""
+"""Limits of the reader: processor time (s), one more second for this many bytes, and address space (bytes)."""
 WALL = 600
+"""Limit of the elapsed time (s) of the reader."""
 SLAB = 2**26
-"""Bytes that are read at a time where nothing is kept."""
+"""Bytes that are read at once where the values are only checked."""
 _HEAD = "head"
 _READER = (
     "import sys; from pathlib import Path; from lostmotion.recording.subprocess_reader import main; "
     "sys.exit(main(sys.argv[1], Path(sys.argv[2])))"
 )
-"""Run with -P, so that no module that lies beside a recording is taken for one of Python's."""
+"""The program of the reader. It is run with -P, so that no module beside a recording can be imported."""
 
 
 def read_in_subprocess(path: Path) -> Table:
-    """Return the columns of a file by name, each (n,), as another process has read them; `DataError` if it cannot."""
-    return _unpacked(_reader_output(path, "columns"))
+    """Return the table of a file, read in another process; `DataError` if that fails."""
+    return _unpack_table(_reader_output(path, "columns"))
 
 
 def walk_in_subprocess(path: Path) -> None:
-    """Have another process read all of an HDF5 file first; `DataError` if that crashes, or has no end."""
+    """Read all of an HDF5 file in another process as a check; `DataError` if it crashes or does not end."""
     _reader_output(path, "walk")
 
 
@@ -57,7 +58,7 @@ def _reader_output(path: Path, what: str) -> bytes:
     try:
         done = subprocess.run(line, capture_output=True, env={**os.environ, **ALONE}, timeout=WALL, check=False)
     except subprocess.TimeoutExpired as err:
-        raise _given_up(path, f"no end within {WALL} s") from err
+        raise _make_error(path, f"no end within {WALL} s") from err
     if done.returncode == 0:
         return done.stdout
     if done.returncode == REFUSED:
@@ -67,14 +68,14 @@ def _reader_output(path: Path, what: str) -> bytes:
         why = (
             "it takes too long"
             if number == getattr(signal, "SIGXCPU", None)
-            else f"its reader died of {signal.Signals(number).name}"
+            else f"its reader was killed by {signal.Signals(number).name}"
         )
-        raise _given_up(path, why)
+        raise _make_error(path, why)
     said = done.stderr.decode("utf-8", "replace").strip().splitlines()
-    raise _given_up(path, said[-1][:120] if said else f"its reader ended with {done.returncode}")
+    raise _make_error(path, said[-1][:120] if said else f"its reader ended with {done.returncode}")
 
 
-def _given_up(path: Path, why: str) -> DataError:
+def _make_error(path: Path, why: str) -> DataError:
     ending = path.suffix[1:].lower()
     return DataError(
         f"{path.name} cannot be read as {ending} ({why}): it may be damaged or of another format; export it again, for "
@@ -82,7 +83,7 @@ def _given_up(path: Path, why: str) -> DataError:
     )
 
 
-def _packed(table: Table) -> bytes:
+def _pack_table(table: Table) -> bytes:
     out = io.BytesIO()
     head = json.dumps({"columns": list(table.columns), "units": dict(table.units), "starts": dict(table.starts)})
     held: dict[str, Any] = {f"column_{i}": column for i, column in enumerate(table.columns.values())}
@@ -91,15 +92,15 @@ def _packed(table: Table) -> bytes:
     return out.getvalue()
 
 
-def _unpacked(raw: bytes) -> Table:
+def _unpack_table(raw: bytes) -> Table:
     with np.load(io.BytesIO(raw), allow_pickle=False) as archive:
         head = json.loads(archive[_HEAD].tobytes())
         columns = {name: archive[f"column_{i}"] for i, name in enumerate(head["columns"])}
     return Table(columns, head["units"], head["starts"])
 
 
-def _limit(path: Path) -> None:
-    """Bound what this process may take from here on, where the system can."""
+def _limit_resources(path: Path) -> None:
+    """Limit processor time and memory of this process from now on, where the system supports it."""
     if resource is None:
         return
     used = resource.getrusage(resource.RUSAGE_SELF)
@@ -109,8 +110,8 @@ def _limit(path: Path) -> None:
         resource.setrlimit(what, (most if hard == resource.RLIM_INFINITY else min(most, hard), hard))
 
 
-def _walk(path: Path) -> bytes:
-    """Return nothing, after reading every number and attribute of an HDF5 file."""
+def _walk_file(path: Path) -> bytes:
+    """Read every number and attribute of an HDF5 file; return no bytes."""
     import h5py
 
     def read(_: str, item: Any) -> None:
@@ -125,17 +126,17 @@ def _walk(path: Path) -> bytes:
     return b""
 
 
-def _columns(path: Path) -> bytes:
+def _read_columns(path: Path) -> bytes:
     from lostmotion.recording.formats import table_of
 
-    return _packed(table_of(path))
+    return _pack_table(table_of(path))
 
 
 def main(what: str, path: Path) -> int:
-    """Return the exit status of the reader, whose standard output is the columns, or nothing after a walk."""
+    """Return the exit status of the reader; it writes the columns to standard output, or nothing after a walk."""
     try:
-        _limit(path)
-        raw = _walk(path) if what == "walk" else _columns(path)
+        _limit_resources(path)
+        raw = _walk_file(path) if what == "walk" else _read_columns(path)
     except DataError as err:
         sys.stderr.write(str(err))
         return REFUSED

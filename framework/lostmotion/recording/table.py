@@ -1,4 +1,4 @@
-"""What a file of columns holds: numbers, the units that stand beside them, and when time stamps begin."""
+"""The content of a file: columns of numbers, their units, and the first stamps of columns of time stamps."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ Array = NDArray[np.float64]
 class Table:
     """Numeric columns by name, each (n,); lengths may differ between columns.
 
-    `units` holds the unit of a column as the file writes it, where it does. A column of time stamps is in seconds
-    from its first stamp, and `starts` holds that stamp (ISO date and time; the time alone where there is no date).
-    A name with a unit in brackets, `Force [N]`, is known by its bare name `Force` as well, unless another column has
-    that name: both lead to the same array. Full names come first.
+    `units` holds the unit of a column as written in the file, where there is one. A column of time stamps is in seconds
+    from its first stamp, and `starts` holds that stamp (ISO date and time, or the time alone where there is no date).
+    A column with a unit in its name, `Force [N]`, is also available as `Force`, unless another column has that name:
+    both refer to the same array. Full names come first.
     """
 
     columns: Mapping[str, Array]
@@ -30,7 +30,7 @@ class Table:
 
     @property
     def full_names(self) -> tuple[str, ...]:
-        """The name of each column as the file has it, without the second names of columns."""
+        """The name of each column as written in the file, without its second name."""
         seen: dict[int, str] = {}
         for name, column in self.columns.items():
             seen.setdefault(id(column), name)
@@ -38,7 +38,7 @@ class Table:
 
 
 def with_bare_names(columns: Mapping[str, Array], units: Mapping[str, str], starts: Mapping[str, str]) -> Table:
-    """Return a table in which columns with a unit in their name are known without it as well."""
+    """Return a table in which columns with a unit in their name are available without it too."""
     bare = {name: split_name(name)[0] for name in columns}
     count = Counter([*columns, *(short for name, short in bare.items() if short != name)])
     also = {short: name for name, short in bare.items() if short != name and count[short] == 1}

@@ -1,6 +1,6 @@
-"""Columns of a text file: a header line, then numbers between commas, semicolons, tabs or blanks.
+"""Columns of a text file: a header line, then numbers separated by commas, semicolons, tabs or blanks.
 
-The file is read line by line, twice or three times, so that memory is spent on its numbers and on little else.
+The file is read line by line, two or three times, so that little more memory is used than for the numbers.
 """
 
 from __future__ import annotations
@@ -26,23 +26,23 @@ from lostmotion.recording.table import Table, with_bare_names
 
 Array = NDArray[np.float64]
 Commas = Literal["none", "all", "quoted"]
-"""Which commas below the header are decimal ones."""
+"""Which commas below the header are decimal commas."""
 MISSPELT = re.compile(r"[+-]?\d[\d.,' ]*([eE][+-]?\d+)?")
-"""A cell that was meant to be a number, with separators of thousands perhaps, and not a word or a date."""
+"""A cell that looks like a number, perhaps with thousands separators, and not like a word or a date."""
 AT_ONCE = 4096
-"""Lines that are held as text at one time, where each cell is looked at."""
+"""Lines that are processed at once where each cell is parsed separately."""
 _BLOCK = 1 << 20
 _UTF_16 = (b"\xff\xfe", b"\xfe\xff")
 _QUOTED = re.compile(r'"([^",]*),([^",]*)"')
 """A quoted cell with one comma."""
 _DECIMAL = re.compile(r"\s*[+-]?\d*,\d+([eE][+-]?\d+)?\s*|.*\d:\d\d,\d+.*")
 _THOUSANDS = re.compile(r"\s*[+-]?[1-9]\d{0,2},\d{3}\s*")
-"""A number with one comma that may separate thousands as well."""
+"""A number with one comma that may be a thousands separator."""
 
 
 @dataclass(frozen=True)
 class _Text:
-    """A text file taken apart."""
+    """A text file with its encoding, header and decimal commas."""
 
     path: Path
     encoding: str
@@ -51,7 +51,7 @@ class _Text:
 
     @contextmanager
     def rows(self) -> Iterator[Iterator[str]]:
-        """Yield the lines below the header, with decimal points."""
+        """Yield the lines below the header, with decimal commas replaced by points."""
         with self.path.open(encoding=self.encoding) as stream:
             below: Iterator[str] = islice(stream, self.header.first - 1, None)
             if self.commas == "all":
@@ -63,7 +63,10 @@ class _Text:
 
 @dataclass
 class _Column:
-    """What is known of one column so far: its values, the first cell that is no number, whether one was meant."""
+    """One column while it is read: its values, and the first cell that is not a number.
+
+    `meant` tells that such a cell looks like a number, `numbers` that the column holds any numbers.
+    """
 
     name: str
     stamps: Stamps | None = None
@@ -73,21 +76,21 @@ class _Column:
     numbers: bool = False
 
     def add(self, lines: list[int], cells: Sequence[str]) -> None:
-        """Take in the cells that stand in some lines of the file."""
+        """Add the cells of some lines of the file."""
         if self.stamps is not None:
             self._add_stamps(self.stamps, lines, cells)
             return
         try:
             values = np.array(list(map(float, cells)))
         except ValueError:
-            values = self._each(lines, cells)
+            values = self._parse_cells(lines, cells)
         self.numbers = self.numbers or bool(np.isfinite(values).any() or np.isinf(values).any())
         self.parts.append(values)
 
-    def _each(self, lines: list[int], cells: Sequence[str]) -> Array:
+    def _parse_cells(self, lines: list[int], cells: Sequence[str]) -> Array:
         values = np.empty(len(lines))
         for k, cell in enumerate(cells):
-            value = _number(cell)
+            value = _parse_number(cell)
             values[k] = np.nan if value is None else value
             if value is None:
                 self.wrong = self.wrong or (lines[k], cell.strip())
@@ -100,8 +103,8 @@ class _Column:
         if wrong is not None and self.wrong is None:
             self.wrong = lines[wrong], cells[wrong].strip()
 
-    def settled(self, file: str) -> tuple[Array, str] | None:
-        """Return the column (n,) and its first time stamp; None when it is a column of words, which is left out."""
+    def finish(self, file: str) -> tuple[Array, str] | None:
+        """Return the column (n,) and its first time stamp; None for a column of words, which is left out."""
         if self.wrong and not (self.stamps or self.meant or self.numbers):
             return None
         if self.wrong:
@@ -109,24 +112,24 @@ class _Column:
             hint = "write decimal points" if re.fullmatch(r"[+-]?\d+,\d+", cell) else "correct or empty it"
             kind = "time stamp like those above it" if self.stamps else "number"
             raise DataError(f"{file}, line {line}, column {self.name!r}: {cell[:40]!r} is not a {kind}: {hint}")
-        return self.stamps.settled(file, self.name) if self.stamps else (np.concatenate(self.parts), "")
+        return self.stamps.finish(file, self.name) if self.stamps else (np.concatenate(self.parts), "")
 
 
 def read_text(path: Path) -> Table:
     """Return the columns of a text file by the names in its header line, each (n,); empty cells are NaN.
 
-    Comma, semicolon, tab or blank separate the cells; with any but the comma, a decimal comma is understood, and
-    with the comma one within quotes. Columns of time stamps are in seconds from the first one.
+    Cells are separated by commas, semicolons, tabs or blanks. Decimal commas are read too; where commas separate the
+    cells, only within quotes. Columns of time stamps are in seconds from the first stamp.
     """
-    text = _opened(path)
-    found = _fast(text)
-    columns, starts = _careful(text) if found is None else (found, {})
+    text = _open_text(path)
+    found = _read_numbers(text)
+    columns, starts = _read_cells(text) if found is None else (found, {})
     units = {name: unit for name, unit in text.header.units.items() if name in columns}
     return with_bare_names(columns, units | dict.fromkeys(starts, "s"), starts)
 
 
 def _encoding(path: Path) -> str:
-    """Return the encoding of a text: UTF-16 with its mark, UTF-8 if it is valid, else Latin-1."""
+    """Return the encoding of a text: UTF-16 with a byte order mark, UTF-8 if it is valid, else Latin-1."""
     with path.open("rb") as raw:
         head = raw.read(4096)
         if head.startswith(_UTF_16):
@@ -144,29 +147,29 @@ def _encoding(path: Path) -> str:
     return "utf-8-sig"
 
 
-def _opened(path: Path) -> _Text:
+def _open_text(path: Path) -> _Text:
     encoding = _encoding(path)
     with path.open(encoding=encoding) as stream:
-        header = find_header(path.name, list(_checked(path.name, islice(stream, HEAD))))
+        header = find_header(path.name, list(_check_lines(path.name, islice(stream, HEAD))))
     with path.open(encoding=encoding) as stream:
-        below = _checked(path.name, islice(stream, header.first - 1, None))
-        lines, commas = _scanned(below, header.separator)
+        below = _check_lines(path.name, islice(stream, header.first - 1, None))
+        lines, commas = _scan_lines(below, header.separator)
     check_columns(len(header.names), path.name)
     check_numbers(lines * len(header.names), path.name)
     _check_names(path.name, header.names)
     return _Text(path, encoding, header, commas)
 
 
-def _checked(file: str, lines: Iterator[str]) -> Iterator[str]:
+def _check_lines(file: str, lines: Iterator[str]) -> Iterator[str]:
     for line in lines:
         check_line(len(line), file)
         yield line
 
 
-def _scanned(lines: Iterator[str], separator: str | None) -> tuple[int, Commas]:
-    """Return how many lines there are, and which commas in them are decimal ones.
+def _scan_lines(lines: Iterator[str], separator: str | None) -> tuple[int, Commas]:
+    """Return the number of lines, and which commas in them are decimal commas.
 
-    Between commas, `"1,234"` may be a thousand and more: quoted commas are decimal ones only where some cell shows it.
+    Where commas separate cells, `"1,234"` may be above a thousand: quoted commas are decimal only if a cell proves it.
     """
     count, commas, shown, spoilt = 0, False, False, False
     for line in lines:
@@ -187,7 +190,7 @@ def _check_names(file: str, names: list[str]) -> None:
         raise DataError(f"{file} has two columns named {twice[0]!r}: give each column its own name")
 
 
-def _number(cell: str) -> float | None:
+def _parse_number(cell: str) -> float | None:
     word = cell.strip()
     try:
         return float("nan") if word.lower() in MISSING else float(word)
@@ -195,14 +198,14 @@ def _number(cell: str) -> float | None:
         return None
 
 
-def _fast(text: _Text) -> dict[str, Array] | None:
-    """Return the columns of a file with nothing but numbers, or None: then each cell is looked at."""
+def _read_numbers(text: _Text) -> dict[str, Array] | None:
+    """Return the columns of a file that holds only numbers, or None: then each cell must be parsed separately."""
     header = text.header
     if header.stamped or "" in header.names:
         return None
     try:
         with text.rows() as rows:
-            lines = (_trimmed(row, header.separator) for row in rows) if header.trailing else rows
+            lines = (_trim_row(row, header.separator) for row in rows) if header.trailing else rows
             numbers = np.loadtxt(lines, delimiter=header.separator, comments=None, ndmin=2, quotechar='"')
     except ValueError:
         return None
@@ -211,35 +214,35 @@ def _fast(text: _Text) -> dict[str, Array] | None:
     return {name: np.ascontiguousarray(column) for name, column in zip(header.names, numbers.T, strict=True)}
 
 
-def _trimmed(row: str, separator: str | None) -> str:
-    """Return a row without the separator behind its last cell."""
+def _trim_row(row: str, separator: str | None) -> str:
+    """Return a row without a separator after its last cell."""
     return row.rstrip("\r\n ").removesuffix(separator or "")
 
 
-def _careful(text: _Text) -> tuple[dict[str, Array], dict[str, str]]:
-    """Return the columns, and the first time stamp of those that hold time stamps."""
+def _read_cells(text: _Text) -> tuple[dict[str, Array], dict[str, str]]:
+    """Return the columns, and the first stamp of each column of time stamps; every cell is parsed separately."""
     columns = [_Column(name, Stamps() if name in text.header.stamped else None) for name in text.header.names]
     with text.rows() as rows:
         filled = ((text.header.first + i, row) for i, row in enumerate(rows) if row.strip())
         while block := list(islice(filled, AT_ONCE)):
-            _take(text, columns, block)
-    found = {column.name: both for column in columns if column.name and (both := column.settled(text.path.name))}
+            _add_rows(text, columns, block)
+    found = {column.name: both for column in columns if column.name and (both := column.finish(text.path.name))}
     return {name: values for name, (values, _) in found.items()}, {
         name: start for name, (_, start) in found.items() if start
     }
 
 
-def _take(text: _Text, columns: list[_Column], block: list[tuple[int, str]]) -> None:
-    """Share the cells of some lines out among the columns."""
+def _add_rows(text: _Text, columns: list[_Column], block: list[tuple[int, str]]) -> None:
+    """Add the cells of some lines to the columns."""
     numbers = [number for number, _ in block]
-    rows = [_row(text, number, row) for number, row in block]
+    rows = [_split_row(text, number, row) for number, row in block]
     for column, cells in zip(columns, zip(*rows, strict=True), strict=True):
         if column.name:
             column.add(numbers, cells)
 
 
-def _row(text: _Text, number: int, line: str) -> list[str]:
-    """Return the cells of a row, one for each column; `DataError` if it has more or fewer."""
+def _split_row(text: _Text, number: int, line: str) -> list[str]:
+    """Return the cells of a row, one for each column; `DataError` for another number of cells."""
     header, cells = text.header, cells_of(line, text.header.separator)
     wanted, got = len(header.names), len(cells)
     if wanted == got:

@@ -1,7 +1,7 @@
-"""Whether a time column is an even grid, as far as its own precision lets one see, and what to do where it nearly is.
+"""Checks whether a time column is an even grid within its own precision, and resampling where it nearly is.
 
-A recorder samples evenly and its stamps are rounded, or late by a little and at random. Both leave the mean rate as it
-is: the line through all stamps by least squares finds it.
+A recorder samples evenly, while its stamps are rounded or delayed a little at random. Neither changes the mean rate,
+which is found as the least-squares line through all stamps.
 """
 
 from __future__ import annotations
@@ -18,23 +18,23 @@ from lostmotion.results import percent
 
 Array = NDArray[np.float64]
 JITTER = 0.01
-"""Jitter (rms) that is accepted, as a share of the sampling step."""
+"""The greatest jitter (rms) that is accepted, as a share of the sampling step."""
 SINGLE = 5.0 * math.sqrt(2.0) * JITTER
-"""Share of the sampling step by which one step may differ from it: five deviations of two stamps."""
+"""The share of the sampling step by which a single step may differ: five standard deviations of two stamps."""
 SEEN = 0.001
-"""Jitter (rms) from which on channels are resampled, as a share of the step.
+"""The jitter (rms) above which channels are resampled, as a share of the step.
 
 At a tenth of the Nyquist frequency such a jitter moves a value by 0.03 % of the amplitude."""
 CLOSE = 0.1
-"""Share of a step within which a sample stands for a point of the grid though its neighbour was lost."""
+"""A sample within this share of a step is used for a grid point even if its neighbour was lost."""
 
 SHORTEST, LONGEST = 1e-12, 1e6
-"""Sampling steps (s) outside of which no recorder works."""
+"""The range of sampling steps (s) that is accepted."""
 
 
 @dataclass(frozen=True)
 class EvenClock:
-    """The even grid of a time column: `start + dt * k` (s); `uneven` where channels must be resampled to it."""
+    """The even grid `start + dt * k` (s) of a time column; `uneven` tells that channels must be resampled to it."""
 
     dt: float
     uneven: bool
@@ -49,53 +49,53 @@ def check_time(time: Array, source: str) -> tuple[float, tuple[str, ...]]:
 
 
 def even_clock(time: Array, source: str) -> EvenClock:
-    """Return the even grid (s) that a time column (n,) stands for; a column that is none is refused.
+    """Return the even grid (s) of a time column (n,); raise `DataError` where there is none.
 
-    Time columns are often rounded, by single precision or by few printed digits. What rounding can explain is
-    accepted, so the step is the mean over the whole column: the median would be a multiple of the rounding.
-    Stamps that jitter by up to `JITTER` of the step (rms), or true steps that do, are accepted as well; the grid is
-    then the line through the stamps by least squares. `DataError` for gaps, repeated stamps, time that runs backwards,
-    more jitter, and a rate that changes so that stamps stray from the grid by more than a step.
+    Time columns are often rounded, by single precision or by few printed digits. Deviations that rounding explains are
+    accepted, so the step is the mean over the whole column: the median would be a multiple of the rounding. Jitter of
+    the stamps, or of the true steps, up to `JITTER` of the step (rms) is accepted too; the grid is then the
+    least-squares line through the stamps. `DataError` is raised for gaps, repeated stamps, decreasing time, more
+    jitter, and a changing rate with which stamps deviate from the grid by more than a step.
     """
     _check_order(time, source)
     with np.errstate(over="ignore"):
         steps = np.diff(time)
     check_step(max(float(np.median(steps)), SHORTEST), source)
     rounding = resolution(time)
-    dt = check_step(_typical(steps, rounding), source)
+    dt = check_step(_mean_step(steps, rounding), source)
     if rounding > 2 * dt:
         raise DataError(
             f"{source}: the time column is rounded to {rounding:.3g} s, coarser than the step of {dt:.3g} s: "
             f"write it with more digits, or give rate in place of time"
         )
-    bad = np.flatnonzero(np.abs(steps - dt) > _most(dt, rounding))
+    bad = np.flatnonzero(np.abs(steps - dt) > _largest_deviation(dt, rounding))
     if bad.size:
         _refuse_steps(time, dt, bad, source)
-    return _fitted(time, rounding, source)
+    return _fit_grid(time, rounding, source)
 
 
-def _most(dt: float, rounding: float) -> float:
-    """Return by how much (s) one step may differ from the others.
+def _largest_deviation(dt: float, rounding: float) -> float:
+    """Return the greatest deviation (s) of a single step that is accepted.
 
-    Rounding moves a step by less than the resolution: a step that is off by a whole unit was not rounded there.
+    Rounding changes a step by less than the resolution: a deviation of a whole unit has another cause.
     """
     single = SINGLE * dt
     return 0.999 * rounding + single if single < rounding < 0.5 * dt else max(single, 0.999 * rounding)
 
 
-def _fitted(time: Array, rounding: float, source: str) -> EvenClock:
-    """Return the grid of stamps without gaps, unless they jitter or stray from it too much."""
+def _fit_grid(time: Array, rounding: float, source: str) -> EvenClock:
+    """Return the grid of stamps without gaps; raise `DataError` where they deviate from it too much."""
     start, dt = mean_line(time)
     rest = time - start - dt * np.arange(time.size)
     steps = np.diff(rest)
     if _rms(steps) / math.sqrt(2.0) > 1.05 * JITTER * dt + 0.6 * rounding:
         _refuse_jitter(time, source)
-    # Steps that are each a little off add up to a random walk, which strays by the root of their number.
+    # Small errors of the steps add up to a random walk, which grows with the root of their number.
     walk = _rms(np.diff(steps)) * math.sqrt(0.5 * time.size) if rounding <= JITTER * dt else 0.0
     away = float(np.abs(rest).max())
     if away > max(rounding, dt, walk):
         raise DataError(
-            f"{source}: the time column strays by {away:.3g} s from an even step of {dt:.4g} s: resample to an "
+            f"{source}: the time column deviates by {away:.3g} s from an even step of {dt:.4g} s: resample to an "
             f"even step; if only the time stamps jitter, give rate = {1 / dt:.6g} in place of time"
         )
     jitter = _rms(rest)
@@ -108,7 +108,7 @@ def _fitted(time: Array, rounding: float, source: str) -> EvenClock:
     dt = float((time[-1] - time[0]) / (time.size - 1))
     notes: tuple[str, ...] = ()
     if rounding > JITTER * dt and away > JITTER * dt:
-        notes = (f"the time column is rounded to {rounding:.3g} s; an even step of {dt:.6g} s was put in its place",)
+        notes = (f"the time column is rounded to {rounding:.3g} s; an even step of {dt:.6g} s is used instead",)
     return EvenClock(dt, False, notes, float(time[0]))
 
 
@@ -124,12 +124,12 @@ def mean_line(time: Array) -> tuple[float, float]:
     return float(time[0] + since.mean() + dt * index[0]), dt
 
 
-def resampled(time: Array, values: Array, clock: EvenClock, *, hold: Hold = "smooth") -> Array:
+def resample_channel(time: Array, values: Array, clock: EvenClock, *, hold: Hold = "smooth") -> Array:
     """Return a channel (n,), read at `time` (s), on the even grid of `clock`, by cubic splines (de Boor 1978).
 
-    A value that is held as a step is that of the nearest sample. NaN stays where the nearest sample was lost, and where
-    a neighbour was and no sample lies within a tenth of a step. The error of the spline falls with the fourth power of
-    the step: it is below 0.1 % of the jitter's own effect for signals of ten samples a period and more.
+    For `hold="step"` the value of the nearest sample is used. The result is NaN where the nearest sample was lost, or
+    where a neighbour was lost and no sample lies within a tenth of a step. The error of the spline falls with the
+    fourth power of the step: with ten samples per period it is below 0.1 % of the effect of the jitter.
     """
     from scipy.interpolate import CubicSpline
 
@@ -148,7 +148,7 @@ def resampled(time: Array, values: Array, clock: EvenClock, *, hold: Hold = "smo
 
 
 def check_step(dt: float, source: str) -> float:
-    """Return the sampling step (s), unless no recorder has such a one."""
+    """Return the sampling step (s); raise `DataError` outside of the accepted range."""
     if not SHORTEST <= dt <= LONGEST:
         raise DataError(
             f"{source}: the sampling step comes to {dt:.3g} s, wanted {SHORTEST:g} to {LONGEST:g} s: give time in "
@@ -158,23 +158,28 @@ def check_step(dt: float, source: str) -> float:
 
 
 def resolution(time: Array) -> float:
-    """Return the unit (s) to which the time column (n,) was rounded when it was written."""
+    """Return the resolution (s) to which the time column (n,) was rounded when it was written."""
     size = float(np.max(np.abs(time)))
-    return max(float(np.spacing(size)), _single(time, size), _decimals(time), _digits(time, size))
+    return max(
+        float(np.spacing(size)),
+        _float32_resolution(time, size),
+        _decimal_resolution(time),
+        _digit_resolution(time, size),
+    )
 
 
-def _single(time: Array, size: float) -> float:
+def _float32_resolution(time: Array, size: float) -> float:
     exact = np.array_equal(time.astype(np.float32).astype(np.float64), time)
     return float(np.spacing(np.float32(size))) if exact else 0.0
 
 
-def _decimals(time: Array) -> float:
+def _decimal_resolution(time: Array) -> float:
     slack = 4 * np.spacing(np.abs(time))
     return next((10.0**-d for d in range(10) if np.all(np.abs(np.round(time, d) - time) <= slack)), 0.0)
 
 
-def _digits(time: Array, size: float) -> float:
-    """Return the unit of the last significant digit at `size` s, when all times have that many digits."""
+def _digit_resolution(time: Array, size: float) -> float:
+    """Return the value (s) of the last significant digit at `size` s, if all times have equally many digits."""
     t = np.abs(time[time != 0])
     first = np.floor(np.log10(t))
     for digits in range(4, 10):
@@ -184,7 +189,7 @@ def _digits(time: Array, size: float) -> float:
     return 0.0
 
 
-def _typical(steps: Array, rounding: float) -> float:
+def _mean_step(steps: Array, rounding: float) -> float:
     return float(np.mean(steps[steps <= 1.5 * np.median(steps) + rounding]))
 
 
@@ -198,7 +203,7 @@ def _check_order(time: Array, source: str) -> None:
     if back.size:
         k = int(back[0])
         raise DataError(
-            f"{source}: time runs backwards from {time[k]:.9g} s to {time[k + 1]:.9g} s (sample {k + 1}), {back.size} "
+            f"{source}: time decreases from {time[k]:.9g} s to {time[k + 1]:.9g} s (sample {k + 1}), {back.size} "
             "times in all: sort the samples, or cut out one run with t_start and t_end"
         )
     if time[-1] == time[0]:
@@ -206,7 +211,7 @@ def _check_order(time: Array, source: str) -> None:
 
 
 def _refuse_jitter(time: Array, source: str) -> None:
-    """Refuse steps that differ too much; the rate that is advised is the mean one over the whole column."""
+    """Raise `DataError` for uneven steps; the rate in the message is the mean over the whole column."""
     steps, (_, dt) = np.diff(time), mean_line(time)
     off = int(np.count_nonzero(np.abs(steps - dt) > JITTER * dt))
     raise DataError(

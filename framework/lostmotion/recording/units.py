@@ -1,7 +1,7 @@
-"""Units that stand in the header of a table, and the unit of a time column.
+"""Units in the header of a table, and the unit of a time column.
 
-Whether a word is a unit is decided by a list: pint would take `t`, `acc`, `link` and `F` for tonne, volume, length and
-farad, which are names of columns.
+A list decides whether a word is a unit, since pint would read the names of columns `t`, `acc`, `link` and `F` as tonne,
+volume, length and farad.
 """
 
 from __future__ import annotations
@@ -59,9 +59,9 @@ _BETWEEN = re.compile(r"[*/·⋅()\s]+")
 _BRACKETS = re.compile(r"(.*\S)\s*(?:\[([^\[\]]+)\]|\(((?:[^()]|\([^()]*\))+)\))")
 _WRAPPED = re.compile(r"\[(.*)\]|\((.*)\)")
 LONGEST = 40
-"""Characters of a unit in a header."""
+"""The greatest number of characters of a unit in a header."""
 EMPTY = {"", "-", "--", "1"}
-"""Cells of a line of units that say: no unit."""
+"""Cells of a line of units that mean: no unit."""
 
 PER_SECOND = {"s": 1.0, "ms": 1e3, "us": 1e6, "ns": 1e9}
 SECONDS = {"min": 60.0, "h": 3600.0}
@@ -74,7 +74,7 @@ _ALIASES = {
     "h": ("h", "hr", "hrs", "hour", "hours"),
 }
 TIME_UNITS = {alias: unit for unit, aliases in _ALIASES.items() for alias in aliases}
-"""What a unit of time may be called, and how it is called here."""
+"""The spellings of units of time, each with its standard name."""
 _TAIL = re.compile(r"[_/ .](\w+)$")
 
 
@@ -90,28 +90,28 @@ def is_unit(text: str) -> bool:
 
 
 def split_name(name: str) -> tuple[str, str]:
-    """Return the bare name of a column and the unit in the brackets behind it; an empty one where there is none."""
+    """Return the name of a column without its unit in brackets, and that unit, which may be empty."""
     found = _BRACKETS.fullmatch(name.strip())
     unit = (found[2] or found[3]).strip() if found else ""
     return (found[1], unit) if found and is_unit(unit) else (name, "")
 
 
 def unit_line(cells: Sequence[str]) -> list[str] | None:
-    """Return the units in a line below the header, empty where it gives none; None if it is no line of units."""
-    found = [_unwrapped(cell.strip()) for cell in cells]
+    """Return the units in a line below the header, empty where a cell has none; None if it is no line of units."""
+    found = [_strip_brackets(cell.strip()) for cell in cells]
     filled = [cell for cell in found if cell not in EMPTY]
     if not filled or 2 * sum(map(is_unit, filled)) < len(filled):
         return None
     return ["" if cell in EMPTY else cell for cell in found]
 
 
-def _unwrapped(cell: str) -> str:
+def _strip_brackets(cell: str) -> str:
     found = _WRAPPED.fullmatch(cell)
     return (found[1] or found[2] or "").strip() if found else cell
 
 
 def seconds(values: Array, unit: str, source: str) -> Array:
-    """Return a time column (n,) in s, given in s, ms, us, µs, ns, min or h; `DataError` for another unit."""
+    """Return a time column (n,) in s from one in s, ms, us, µs, ns, min or h; `DataError` for another unit."""
     known = TIME_UNITS.get(unit.strip())
     if known is None:
         raise DataError(f"{source}: time in {unit[:LONGEST]!r} is not understood: wanted s, ms, us, ns, min or h")
@@ -121,12 +121,12 @@ def seconds(values: Array, unit: str, source: str) -> Array:
 
 
 def time_unit(name: str, table_unit: str | None, given: str | None) -> tuple[str, tuple[str, ...]]:
-    """Return the unit of a time column (s, ms, us, ns, min or h) and notes on where it comes from.
+    """Return the unit of a time column (s, ms, us, ns, min or h) and notes on its origin.
 
-    What the case gives counts, but it must not contradict the file (`DataError`). Else the unit of the table counts,
-    else one at the end of the name (`time_ms`, `Time/ms`), else it is s.
+    The unit in the case is used; `DataError` is raised where the file contradicts it. Otherwise the unit in the file is
+    used, then one at the end of the name (`time_ms`, `Time/ms`), then s.
     """
-    found = _time_of_table(name, table_unit) or _time_of_name(name)
+    found = _time_unit_of_table(name, table_unit) or _time_unit_of_name(name)
     if given is None:
         notes = () if found in ("", "s") else (f"the time column {name!r} is read in {found}",)
         return found or "s", notes
@@ -143,8 +143,8 @@ def time_unit(name: str, table_unit: str | None, given: str | None) -> tuple[str
     return wanted, ()
 
 
-def _time_of_table(name: str, unit: str | None) -> str:
-    """Return the unit of time that the file gives, or an empty one; a unit of something else is refused."""
+def _time_unit_of_table(name: str, unit: str | None) -> str:
+    """Return the unit of time in the file, or an empty text; a unit of another quantity raises `DataError`."""
     word = (unit or "").partition(" since ")[0].strip()
     if word in TIME_UNITS or not is_unit(word):
         return TIME_UNITS.get(word, "")
@@ -154,7 +154,7 @@ def _time_of_table(name: str, unit: str | None) -> str:
     )
 
 
-def _time_of_name(name: str) -> str:
+def _time_unit_of_name(name: str) -> str:
     bare, unit = split_name(name)
     if unit in TIME_UNITS:
         return TIME_UNITS[unit]
@@ -163,12 +163,12 @@ def _time_of_name(name: str) -> str:
 
 
 def note_unit(channel: Channel, table_unit: str | None, what: str) -> Iterator[str]:
-    """Yield a note when the unit of a channel in the case is another one than in the header of the file.
+    """Yield a note when the unit of a channel in the case differs from the one in the header of the file.
 
-    `factor` may make up for the difference; with a factor, a unit of another quantity (volts) is no contradiction.
+    A `factor` may account for the difference; with a factor, a unit of another quantity (volts) is accepted.
     """
-    unit = plain(table_unit or "")
-    if not is_unit(unit) or unit in (channel.unit, plain(channel.unit)):
+    unit = normalise_unit(table_unit or "")
+    if not is_unit(unit) or unit in (channel.unit, normalise_unit(channel.unit)):
         return
     try:
         factor, si = si_factor(unit, channel.quantity)
@@ -179,13 +179,13 @@ def note_unit(channel: Channel, table_unit: str | None, what: str) -> Iterator[s
                 f"case {channel.unit}: correct the unit, or give the factor between them"
             )
         return
-    told, wanted = si_factor(channel.unit, channel.quantity)
-    if si != wanted or abs(abs(channel.factor) * told / factor - 1.0) > 1e-3:
+    stated, wanted = si_factor(channel.unit, channel.quantity)
+    if si != wanted or abs(abs(channel.factor) * stated / factor - 1.0) > 1e-3:
         yield f"{what}: the header says {table_unit}, the case {channel.unit}: correct one of them"
 
 
-def plain(unit: str) -> str:
-    """Return a unit with its powers and products as `quantities` reads them: `m/s2` and `m/s²` become `m/s^2`."""
+def normalise_unit(unit: str) -> str:
+    """Return a unit in the spelling of `quantities`: `m/s2` and `m/s²` become `m/s^2`."""
     text = unit.strip().replace("²", "^2").replace("³", "^3").replace("⋅", "*").replace("·", "*").replace("μ", "µ")
     text = re.sub(r"(?<=[a-zA-Z])(\d)(?!\w)", r"^\1", text) if "g0" not in text else text.replace("g0", "g_0")
     text = re.sub(r"(?<![^\W\d_])([kmM]?N)m(?![\w])", r"\1 m", text)

@@ -1,4 +1,4 @@
-"""What a file comes to once it is unpacked: a small file can hold gigabytes, and is refused before they are read."""
+"""Checks of the size of a file after decompression: a small file can hold gigabytes, and is refused in advance."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from lostmotion.recording.limits import NUMBERS, check_bytes, check_count
 
 MOST = 8 * NUMBERS
 RESULT = 2**31
-"""Bytes that a result of ours may hold: a chain or a map is larger than a recording."""
+"""The greatest size (bytes) of a result file: a chain or a map is larger than a recording."""
 _HEADER, _TAG, _COMPRESSED = 128, 8, 15
-"""Bytes before the first element of a MAT file of version 5, bytes of a tag, type of a compressed element."""
+"""MAT files of version 5: bytes before the first element, bytes of a tag, type of a compressed element."""
 _BLOCK = 1 << 20
 
 
 def check_npz(path: Path) -> None:
-    """Refuse an archive whose members come to more than is read."""
+    """Raise `DataError` for an archive that is too large after decompression."""
     with zipfile.ZipFile(path) as archive:
         members = archive.infolist()
     check_count(len(members), "arrays", path.name)
@@ -28,7 +28,7 @@ def check_npz(path: Path) -> None:
 
 
 def check_mat(path: Path) -> None:
-    """Refuse a MAT file of version 5 whose compressed elements come to more than is read."""
+    """Raise `DataError` for a MAT file of version 5 that is too large after decompression."""
     total = 0
     with path.open("rb") as raw:
         header = raw.read(_HEADER)
@@ -36,13 +36,13 @@ def check_mat(path: Path) -> None:
         while len(tag := raw.read(_TAG)) == _TAG:
             kind, size = struct.unpack(f"{order}II", tag)
             here = raw.tell()
-            total += _inflated(raw, size, MOST - total) if kind == _COMPRESSED else size
+            total += _decompressed_size(raw, size, MOST - total) if kind == _COMPRESSED else size
             check_bytes(total, path.name)
             raw.seek(here + size)
 
 
-def _inflated(raw: Any, size: int, most: int) -> int:
-    """Return how many bytes the next `size` of a stream come to, counted until there are more than `most`."""
+def _decompressed_size(raw: Any, size: int, most: int) -> int:
+    """Return the decompressed size of the next `size` bytes of a stream, counted up to just above `most`."""
     unpacker, count = zlib.decompressobj(), 0
     while size > 0 and count <= most and (block := raw.read(min(size, _BLOCK))):
         size -= len(block)
@@ -53,7 +53,7 @@ def _inflated(raw: Any, size: int, most: int) -> int:
 
 
 def check_hdf5(path: Path, most: int = MOST) -> None:
-    """Refuse an HDF5 file (netCDF 4, MAT 7.3) of more than is read, or one that takes its numbers from other files."""
+    """Raise `DataError` for an HDF5 file (netCDF 4, MAT 7.3) that is too large or refers to other files."""
     import h5py
 
     found: list[Any] = []

@@ -1,6 +1,6 @@
-"""What looks wrong in a recording that can be used all the same: signs, swapped columns, angles, sensors, clocks.
+"""Warnings about a recording that can be used: signs, swapped columns, units of angles, sensors, clocks.
 
-None of them may cry wolf: each asks for a sign that good recordings do not give, real ones among them.
+False alarms must be rare: each condition was checked on recordings without the fault, real ones among them.
 """
 
 from __future__ import annotations
@@ -13,30 +13,20 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from lostmotion.recording.checks import filled, runs_of
+from lostmotion.recording.checks import fill_lost, runs_of
 from lostmotion.recording.drift import note_drift
+from lostmotion.settings import DEFAULT, RecordingSettings
 
 Array = NDArray[np.float64]
-TURNS = 10
-SWINGS = 20
-"""Crossings of the middle from which on a motion swings and does not merely turn."""
-FROZEN, REPEATS = 20, 0.01
-"""Equal samples in a row that are odd, where fewer than this share of all samples repeats the one before."""
 QUIET, MOSTLY = 0.05, 0.9
-"""Share of the peak below which an input counts as at rest, and share of the samples at rest between hits."""
-FAR = 20.0
-"""Times the range of all other samples."""
+"""An input is impulsive when more than the second share of its samples is below the first share of its peak."""
 SEGMENTS, HEARD = 16, 1e-3
-"""Segments of a recording over which its power is averaged; the share of the strongest line that is counted."""
-DRAWN, SURE = -0.1, -4.0
-"""Mean power over apparent power, and over its standard error, below which a machine feeds its drive.
-
-Of 29 real recordings none is below 0.17; a sensor that is late can bring a machine far above its resonance there."""
+"""Segments over which the power is averaged; frequencies from this share of the strongest power on are counted."""
 _POWERS = {("force", "position"): 1, ("force", "velocity"): 0, ("force", "acceleration"): -1}
 _ANGLE = {"deg": re.compile(r"deg|°"), "rad": re.compile(r"rad")}
 
 
-class DoubtedChannel(NamedTuple):
+class CheckedChannel(NamedTuple):
     """A channel in SI units (n,), NaN where a sample was lost, with its column, quantity and the unit of its file."""
 
     values: Array
@@ -51,93 +41,98 @@ class DoubtedChannel(NamedTuple):
         return "force" if self.quantity == "torque" else self.quantity
 
 
-def warnings_of(inputs: Sequence[DoubtedChannel], sensors: Sequence[DoubtedChannel], dt: float) -> tuple[str, ...]:
-    """Return what looks wrong with inputs and sensors that were sampled together every `dt` s.
+def warnings_of(
+    inputs: Sequence[CheckedChannel],
+    sensors: Sequence[CheckedChannel],
+    dt: float,
+    limits: RecordingSettings = DEFAULT.recording,
+) -> tuple[str, ...]:
+    """Return warnings about inputs and sensors that were sampled together every `dt` s.
 
-    Units and power are compared where there is one input: with several, each may take up the power of the other. The
-    clocks of a hammer test are not: the force says nothing of them between hits, where frequency goes with size.
+    Units and power are compared only where there is one input: of several, one may absorb the power of another. Clocks
+    are not compared in a hammer test: the force is zero between hits, and the frequency may depend on the amplitude.
     """
-    from lostmotion.signals.impacts import note_hits, note_overload  # loads SciPy
+    from lostmotion.signals.impacts import note_hits, note_overload  # imported late: it loads SciPy
 
     each = [*(("excitation", s) for s in inputs), *(("response", s) for s in sensors)]
     pairs = [(inputs[0], sensors[0])] if len(inputs) == 1 else []
     return (
-        *(note for role, signal in each for note in note_angle(signal, f"the {role} {signal.column!r}")),
-        *(note for pair in pairs for note in note_units(*pair)),
-        *(note for s in sensors for note in note_frozen(s.values, f"the response {s.column!r}", dt)),
-        *(note for role, s in each for note in note_far(s.values, f"the {role} {s.column!r}")),
-        *(note for s in sensors for note in note_overload(s.values, f"the response {s.column!r}")),
+        *(note for role, signal in each for note in note_angle(signal, f"the {role} {signal.column!r}", limits)),
+        *(note for pair in pairs for note in note_units(*pair, limits)),
+        *(note for s in sensors for note in note_frozen(s.values, f"the response {s.column!r}", dt, limits)),
+        *(note for role, s in each for note in note_far(s.values, f"the {role} {s.column!r}", limits)),
+        *(note for s in sensors for note in note_overload(s.values, f"the response {s.column!r}", stuck=limits.stuck)),
         *(note for u in inputs if is_impulsive(u.values) for note in note_hits(u.values, dt)),
-        *(note for pair in pairs for note in note_power(*pair, dt)),
-        *(note for u, z in pairs if not is_impulsive(u.values) for note in note_drift(u.values, z.values, dt)),
+        *(note for pair in pairs for note in note_power(*pair, dt, limits)),
+        *(note for u, z in pairs if not is_impulsive(u.values) for note in note_drift(u.values, z.values, dt, limits)),
     )
 
 
 def is_impulsive(values: Array) -> bool:
-    """Return whether an input (n,) is at rest nearly always, as the force of a hammer is."""
+    """Return whether an input (n,) is at rest most of the time, as the force of a hammer is."""
     away = np.abs(values - np.median(values))
     return float(np.mean(away < QUIET * away.max())) > MOSTLY
 
 
-def note_angle(signal: DoubtedChannel, what: str) -> Iterator[str]:
-    """Yield a note when an angle said to be in rad is as large as degrees are."""
+def note_angle(signal: CheckedChannel, what: str, limits: RecordingSettings) -> Iterator[str]:
+    """Yield a note when an angle in rad is so large that its unit may be degrees."""
     if not _ANGLE["rad"].search(signal.unit) or signal.quantity not in ("position", "base_position"):
         return
     seen = signal.values[np.isfinite(signal.values)]
     away = seen - np.median(seen)
     largest, swings = float(np.abs(seen).max()), int(np.count_nonzero(np.diff(np.sign(away))))
-    if largest > 2 * math.pi * TURNS:
-        yield f"{what} reaches {largest:.4g} rad, more than {TURNS} turns: are these degrees? Then write unit = 'deg'"
-    elif swings >= SWINGS and np.abs(away).max() > math.pi:
-        yield (
-            f"{what} swings to and fro by {np.abs(away).max():.4g} rad, more than half a turn: are these degrees? "
-            "Then write unit = 'deg'"
-        )
+    degrees = "are these degrees? Then write unit = 'deg'"
+    if largest > 2 * math.pi * limits.turns:
+        yield f"{what} reaches {largest:.4g} rad, more than {limits.turns:g} turns: {degrees}"
+    elif swings >= limits.swings and np.abs(away).max() > math.pi:
+        yield f"{what} oscillates by {np.abs(away).max():.4g} rad, more than half a turn: {degrees}"
 
 
-def note_units(excitation: DoubtedChannel, response: DoubtedChannel) -> Iterator[str]:
-    """Yield a note when one angle is said to be in degrees, the other in rad, and both numbers are about as large."""
+def note_units(excitation: CheckedChannel, response: CheckedChannel, limits: RecordingSettings) -> Iterator[str]:
+    """Yield a note when one angle is in degrees and the other in rad, but their numbers have the same size."""
     units = [next((name for name, word in _ANGLE.items() if word.search(s.unit)), "") for s in (excitation, response)]
     if sorted(units) != ["deg", "rad"] or {excitation.quantity, response.quantity} != {"base_position", "position"}:
         return
     sizes = [float(np.nanstd(s.values) / abs(s.factor)) for s in (excitation, response)]
-    if 0.2 < sizes[0] / sizes[1] < 5.0:
+    if 1.0 / limits.same_size < sizes[0] / sizes[1] < limits.same_size:
         yield (
-            f"the excitation is said to be in {excitation.unit}, the response in {response.unit}, and their numbers "
-            f"are as large as each other ({sizes[0]:.3g} and {sizes[1]:.3g}): are both in one unit?"
+            f"the excitation is in {excitation.unit} and the response in {response.unit}, but their numbers have the "
+            f"same size ({sizes[0]:.3g} and {sizes[1]:.3g}): are both in one unit?"
         )
 
 
-def note_frozen(values: Array, what: str, dt: float) -> Iterator[str]:
-    """Yield a note when the samples (n,) stand still in a stretch, and hardly ever repeat anywhere else."""
+def note_frozen(values: Array, what: str, dt: float, limits: RecordingSettings) -> Iterator[str]:
+    """Yield a note when the samples (n,) are constant over a long run, and hardly ever repeat elsewhere."""
     runs = runs_of(np.diff(values) == 0.0)
     lengths = np.diff(runs, axis=1)[:, 0]
-    long = lengths >= FROZEN
-    if not long.any() or lengths[~long].sum() > REPEATS * values.size:
+    long = lengths >= limits.frozen
+    if not long.any() or lengths[~long].sum() > limits.repeats * values.size:
         return
     first = int(runs[long, 0][0])
     yield (
         f"{what} stays at exactly {values[first]:.6g} for {int(lengths[long][0]) + 1} samples from {first * dt:.6g} s "
-        f"after its start, {int(long.sum())} such stretches in all, and repeats hardly anywhere else: the sensor may "
-        "have been stuck; cut them out with t_start and t_end"
+        f"after its start, {int(long.sum())} such runs in all, and hardly ever repeats a value elsewhere: the sensor "
+        "may have been stuck; cut these runs out with t_start and t_end"
     )
 
 
-def note_far(values: Array, what: str) -> Iterator[str]:
-    """Yield a note when one value lies far away from all others, as the mark of a lost sample does."""
+def note_far(values: Array, what: str, limits: RecordingSettings) -> Iterator[str]:
+    """Yield a note when one value lies far from all others, as a marker of lost samples does."""
     seen = values[np.isfinite(values)]
     for far in (seen.max(), seen.min()):
         rest = seen[seen != far]
         width = float(np.ptp(rest)) if rest.size else 0.0
-        if width and abs(far - float(np.median(rest))) > FAR * width:
+        if width and abs(far - float(np.median(rest))) > limits.far * width:
             yield (
-                f"{what} is {far:.6g} at {int(np.count_nonzero(seen == far))} samples, more than {FAR:g} times as far "
-                "out as all others: a glitch, or the mark of a lost sample? Then empty these cells"
+                f"{what} is {far:.6g} at {int(np.count_nonzero(seen == far))} samples, more than {limits.far:g} times "
+                "the range of all others away: a glitch, or a marker of lost samples? Then empty these cells"
             )
 
 
-def note_power(excitation: DoubtedChannel, response: DoubtedChannel, dt: float) -> Iterator[str]:
-    """Yield a note when the machine feeds power to its drive on the whole, as only one with a motor of its own can."""
+def note_power(
+    excitation: CheckedChannel, response: CheckedChannel, dt: float, limits: RecordingSettings
+) -> Iterator[str]:
+    """Yield a note when on average power flows from the machine to its drive, which a passive machine cannot do."""
     pair = (excitation.kind, response.kind)
     if pair == ("base_position", "force"):
         force, motion, order = response, excitation, 1
@@ -145,19 +140,19 @@ def note_power(excitation: DoubtedChannel, response: DoubtedChannel, dt: float) 
         force, motion, order = excitation, response, _POWERS[pair]
     else:
         return
-    share, sure = mean_power(filled(force.values), filled(motion.values), dt, order)
-    if share < DRAWN and sure < SURE:
+    share, errors = mean_power(fill_lost(force.values), fill_lost(motion.values), dt, order)
+    if share < -limits.returned and errors < -limits.returned_errors:
         yield (
-            f"on the whole power flows from the machine to its drive ({-share:.2g} of force times speed): one of the "
+            f"on average power flows from the machine to its drive ({-share:.2g} of force times speed): one of the "
             f"signs is wrong (factor = -1.0), or {excitation.column!r} and {response.column!r} are swapped, or one of "
             "them is late"
         )
 
 
 def mean_power(force: Array, motion: Array, dt: float, order: int) -> tuple[float, float]:
-    """Return the mean of force times speed over the product of their rms, and over its standard error.
+    """Return the mean power divided by the apparent power, and divided by its own standard error.
 
-    `order` derivatives of `motion` (n,) make the speed. Only lines that the force has are counted.
+    The speed is the derivative of `motion` (n,) of the given `order`. Only frequencies that the force contains count.
     """
     size = 2 * (motion.size // (SEGMENTS + 1))
     if size < 16:
@@ -177,6 +172,6 @@ def mean_power(force: Array, motion: Array, dt: float, order: int) -> tuple[floa
 
 
 def _spectra(values: Array, size: int) -> NDArray[np.complex128]:
-    """Return the spectra (segments, size // 2 + 1) of overlapping, tapered segments without their mean."""
+    """Return the spectra (segments, size // 2 + 1) of overlapping, tapered segments after removal of their means."""
     pieces = np.stack([values[k * (size // 2) :][:size] for k in range(SEGMENTS)])
     return np.fft.rfft((pieces - pieces.mean(axis=1, keepdims=True)) * np.hanning(size), axis=1)

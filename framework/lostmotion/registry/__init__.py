@@ -1,6 +1,6 @@
-"""Who offers which plugin: names are gathered from hooks, and a class is imported only when its name is used.
+"""The registry of plugins: names are collected from hooks, and a class is imported only when its name is used.
 
-Every package is asked by itself, so that one that is broken takes nothing else down: it is kept aside with the reason.
+Each package is queried separately, so that a faulty one does not affect the others; it is listed with the reason.
 Listing the names imports neither NumPy nor numba nor the contracts.
 """
 
@@ -21,15 +21,15 @@ from lostmotion.provenance import digest
 from lostmotion.registry.classes import (
     class_of,
     classes_in,
-    clocked,
+    import_target,
     import_texts,
-    imported,
     kind_of,
     module_from,
-    require,
+    require_class,
     sources,
+    warn_if_slow,
 )
-from lostmotion.registry.hooks import COMMAND, FAILURES, KINDS, Host, RefusedError, first_line, guarded
+from lostmotion.registry.hooks import COMMAND, FAILURES, KINDS, Host, RefusedError, call_guarded, first_line
 
 __all__ = ["KINDS", "Entry", "Registry", "default", "import_texts", "sources"]
 
@@ -39,10 +39,10 @@ _PACKAGE = "package"
 
 @dataclass(frozen=True)
 class Entry:
-    """One offered name, or a package that offers nothing because something is wrong with it (kind "package").
+    """One offered name, or a faulty package that offers nothing (kind "package").
 
     `state` is "ready", "broken", "clash" or "misspelt hook"; `why` is one sentence when it is not "ready". `about` is
-    the line of help of a command.
+    the help line of a command.
     """
 
     kind: str
@@ -56,18 +56,18 @@ class Entry:
 
     @property
     def whose(self) -> str:
-        """The name as a sentence begins with it: `term 'drag' of my_package`; of a file without its folders."""
+        """The name as the subject of a sentence: `term 'drag' of my_package`; of a file without its folders."""
         owner = Path(self.owner).name if self.owner.endswith(".py") else self.owner
         return f"{self.kind} {self.name!r} of {owner}"
 
     @property
     def ours(self) -> bool:
-        """Whether it came with lostmotion itself."""
+        """Whether it is part of lostmotion itself."""
         return self.owner == OURS
 
 
 class Registry:
-    """The names of all plugins, who offers each, and the way from a name to its class."""
+    """The names of all plugins with their owners, and access from a name to its class."""
 
     def __init__(self) -> None:
         self._host = Host()
@@ -86,10 +86,10 @@ class Registry:
         return registry
 
     def add(self, obj: object, name: str | None = None) -> Registry:
-        """Return this registry with `obj` in it: a module or object with hooks, or a Model, Term ... class or instance.
+        """Return this registry after adding `obj`: a module or object with hooks, or a class or instance of a kind.
 
-        `name` is the owner that lists show. A class that is added once more takes the place of the earlier one, so
-        that a notebook cell can be run again.
+        `name` is the owner in lists. A class that is added again replaces the earlier one, so that a notebook cell can
+        be run again. A faulty plugin raises `PluginError`.
         """
         if not isinstance(obj, ModuleType) and kind_of(obj):
             self._give(obj, name or class_of(obj).__module__)
@@ -102,40 +102,40 @@ class Registry:
         return self
 
     def add_file(self, path: str | Path) -> Registry:
-        """Return this registry with a .py file in it: its hooks, or every Model, Term ... class written in the file."""
+        """Return this registry after adding a .py file: its hooks, or each Model, Term ... class defined in it."""
         module = module_from(Path(path))
         self._files[Path(path).name] = digest(Path(path))
         if self._host.has_hooks(module):
             return self.add(module, str(path))
         if not (found := classes_in(module)):
-            raise PluginError(f"{path} holds no plugin: write a subclass of Model or Term in it, or a hookimpl")
+            raise PluginError(f"{path} contains no plugin: write a subclass of Model or Term in it, or a hookimpl")
         for component in found:
             self._give(component, str(path))
         return self
 
     def names(self, kind: str) -> tuple[str, ...]:
-        """Return the names of this kind that are ready, sorted; `entries` shows the others too."""
+        """Return the usable names of this kind, sorted; `entries` also lists the others."""
         _require_kind(kind)
         return tuple(e.name for e in self.entries() if e.kind == kind and e.state == "ready")
 
     def entries(self) -> tuple[Entry, ...]:
-        """Return everything that is offered, by kind and name, with what is wrong with it if something is."""
+        """Return all offered names, sorted by kind and name, with the reason where one cannot be used."""
         order = {kind: i for i, kind in enumerate((*KINDS, COMMAND, _PACKAGE))}
-        judged = (self._checked_for_clash(e) for e in self._offers)
-        return tuple(sorted(judged, key=lambda e: (order[e.kind], e.name, e.owner)))
+        checked = (self._checked_for_clash(e) for e in self._offers)
+        return tuple(sorted(checked, key=lambda e: (order[e.kind], e.name, e.owner)))
 
     def commands(self) -> dict[str, Entry]:
-        """Return the commands that packages add to the command line and that are ready, by name."""
+        """Return the usable commands that packages add to the command line, by name."""
         return {e.name: e for e in self.entries() if e.kind == COMMAND and e.state == "ready"}
 
     def entry(self, kind: str, name: str) -> Entry:
-        """Return who offers a name; raise `PluginError` when it is unknown or contested."""
+        """Return the entry of a name; raise `PluginError` when it is unknown or offered twice."""
         return self._find(kind, name)
 
     def origins(self, *used: tuple[str, str]) -> dict[str, str]:
-        """Return what others have brought: the SHA-256 of each plugin file, and the version of each package.
+        """Return the third-party sources: the SHA-256 of each plugin file, and the version of each package.
 
-        Where plugins are named as they are `used`, each by kind and name, only what brought those counts.
+        Where plugins are given as `used`, each by kind and name, only the sources of these are returned.
         """
         third_party = [e for e in self._offers if not e.ours and (not used or (e.kind, e.name) in used)]
         packages = {e.owner: e.version for e in third_party if e.version}
@@ -143,11 +143,11 @@ class Registry:
         return {**packages, **{name: digest for name, digest in self._files.items() if name in files}}
 
     def load(self, kind: str, name: str) -> type[Any]:
-        """Return the class behind a name; raise `PluginError` when it is unknown, contested or breaks its kind."""
+        """Return the class of a name; raise `PluginError` when it is unknown, offered twice or of another kind."""
         return class_of(self._loaded(kind, name))
 
     def make(self, kind: str, name: str, **options: Any) -> Any:
-        """Return an instance with these fields set; of an instance that was added, itself or a changed copy."""
+        """Return an instance with these fields set; for an instance that was added, itself or a changed copy."""
         given = self._loaded(kind, name)
         _require_options(class_of(given), f"{kind} {name!r}", options)
         try:
@@ -160,20 +160,20 @@ class Registry:
             raise PluginError(f"{kind} {name!r} cannot be made: {first_line(err)}: check its options") from err
 
     def _loaded(self, kind: str, name: str) -> Any:
-        """Return the class behind a name, or the instance that was added under it."""
+        """Return the class of a name, or the instance that was added under it."""
         entry = self._find(kind, name)
         given = self._given.get(entry)
         if given is None:
-            with nullcontext() if entry.ours else clocked(entry.whose):
-                given = imported(entry.target, entry.whose)
-        require(class_of(given), kind, name, entry.whose)
+            with nullcontext() if entry.ours else warn_if_slow(entry.whose):
+                given = import_target(entry.target, entry.whose)
+        require_class(class_of(given), kind, name, entry.whose)
         return given
 
     def _admit(self, point: metadata.EntryPoint) -> None:
-        """Take in one entry point, or keep it aside with the reason."""
+        """Add the plugin of one entry point, or an entry with the reason why it cannot be used."""
         owner, version = (point.dist.name, point.dist.version) if point.dist else (point.module, "")
         try:
-            self._ask(guarded(point.load, "it could not be imported"), owner, version)
+            self._ask(call_guarded(point.load, "it could not be imported"), owner, version)
         except RefusedError as err:
             self._offers.append(Entry(_PACKAGE, point.name, owner, version, point.value, err.state, str(err)))
 
@@ -187,28 +187,28 @@ class Registry:
         if not isinstance(name, str):
             raise PluginError(f"{kind} class {cls.__name__} has no name: write `name = ...` in its body")
         entry = Entry(kind, name, owner, "", f"{cls.__module__}:{cls.__qualname__}")
-        require(cls, kind, name, entry.whose)
+        require_class(cls, kind, name, entry.whose)
         again = (owner, kind, name)
         self._offers = [e for e in self._offers if (e.owner, e.kind, e.name) != again]
         self._offers.append(entry)
         self._given[entry] = obj
 
     def _checked_for_clash(self, entry: Entry) -> Entry:
-        """Return the entry, marked as a clash when another owner offers its name too."""
+        """Return the entry, marked as a clash if another owner offers the same name."""
         same = [e for e in self._offers if (e.kind, e.name) == (entry.kind, entry.name)]
         if entry.kind == _PACKAGE or len(same) == 1:
             return entry
         owners = " and ".join(sorted(f"{e.owner} {e.version}".strip() for e in same))
-        why = f"{entry.kind} {entry.name!r} is offered by {owners}: remove one, or have its author rename it"
+        why = f"{entry.kind} {entry.name!r} is offered by {owners}: remove one, or ask its author to rename it"
         return replace(entry, state="clash", why=why)
 
     def _find(self, kind: str, name: str) -> Entry:
-        """Return the one entry of this name, or raise `PluginError`."""
+        """Return the only entry of this name; raise `PluginError` where there is none or another one."""
         _require_kind(kind)
         same = [e for e in self._offers if e.name == name and e.kind != _PACKAGE]
         for entry in (e for e in same if e.kind == kind):
-            if (judged := self._checked_for_clash(entry)).state != "ready":
-                raise PluginError(judged.why)
+            if (checked := self._checked_for_clash(entry)).state != "ready":
+                raise PluginError(checked.why)
             return entry
         near = nearest(name, self.names(kind))
         if same:
@@ -218,12 +218,12 @@ class Registry:
     def _advice(self, kind: str) -> str:
         aside = sorted({e.owner for e in self._offers if e.kind == _PACKAGE})
         known = ", ".join(self.names(kind)) or "none yet"
-        return f"there are {known}" + (f"; broken, and kept aside: {', '.join(aside)}" if aside else "")
+        return f"there are {known}" + (f"; not usable: {', '.join(aside)}" if aside else "")
 
 
 @lru_cache(maxsize=1)
 def default() -> Registry:
-    """Return the registry of this process: what is installed, and what has been added to it since."""
+    """Return the registry of this process: the installed plugins, and those that were added to it since."""
     return Registry.discover()
 
 

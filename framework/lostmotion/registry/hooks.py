@@ -1,4 +1,4 @@
-"""The pluggy host: asks one plugin at a time what it offers, and refuses what is not right with a reason."""
+"""The pluggy host: it collects the names that each plugin offers, and refuses faulty ones with a reason."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ KINDS = ("model", "term", "embedder", "quantifier", "surrogate", "denoiser", "en
 COMMAND = "command"
 HOOKS = {f"lostmotion_{kind}s": kind for kind in (*KINDS, COMMAND)}
 FAILURES = (Exception, SystemExit)
-"""What code of other people may raise while it is imported or asked; Ctrl-C is not among them."""
+"""The exceptions of third-party code during import and in hooks that are handled; Ctrl-C is not."""
 _TARGET = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*")
 
 
 class Offer(NamedTuple):
-    """One name that a plugin offers; `about` is the line of help of a command, and empty for all else."""
+    """One name that a plugin offers; `about` is the help line of a command, and empty otherwise."""
 
     kind: str
     name: str
@@ -29,7 +29,7 @@ class Offer(NamedTuple):
 
 
 class RefusedError(Exception):
-    """Why a plugin is not taken in, and the state it is listed with; no caller of the registry ever sees it."""
+    """The reason why a plugin is refused, and its state in lists; it is always caught inside the registry."""
 
     def __init__(self, state: str, why: str) -> None:
         super().__init__(why)
@@ -37,7 +37,7 @@ class RefusedError(Exception):
 
 
 class Host:
-    """Holds the plugins that have answered well, each under a label of its own."""
+    """Holds the valid plugins, each under its own label."""
 
     def __init__(self) -> None:
         self._plugins = pluggy.PluginManager(hookspecs.PROJECT)
@@ -48,7 +48,7 @@ class Host:
         return any(self._plugins.parse_hookimpl_opts(plugin, name) is not None for name in dir(plugin))
 
     def ask(self, plugin: object, owner: str) -> list[Offer]:
-        """Return what `plugin` offers, nothing if it was asked before; raise `RefusedError` if it is not right."""
+        """Return the offers of `plugin`, none if it is registered already; raise `RefusedError` for a fault."""
         if self._plugins.is_registered(plugin):
             return []
         label = f"{owner} {len(self._plugins.get_plugins())}"
@@ -56,7 +56,7 @@ class Host:
             self._register(plugin, label)
             offers = [offer for hook, kind in HOOKS.items() for offer in self._answers(label, hook, kind)]
             if not offers:
-                raise RefusedError("broken", f"it offers no name: answer one of the hooks {', '.join(HOOKS)}")
+                raise RefusedError("broken", f"it offers no name: implement one of the hooks {', '.join(HOOKS)}")
         except RefusedError:
             if self._plugins.has_plugin(label):
                 self._plugins.unregister(name=label)
@@ -73,43 +73,43 @@ class Host:
             if unknown:
                 why = f"hook {unknown[0]!r} is not known{nearest(unknown[0], HOOKS)}: rename it"
                 raise RefusedError("misspelt hook", why) from err
-            raise RefusedError("broken", "a hook of it takes arguments: write it without any") from err
+            raise RefusedError("broken", "one of its hooks has arguments: write it without arguments") from err
         except FAILURES as err:
             raise RefusedError("broken", f"it could not be registered: {first_line(err)}") from err
 
     def _answers(self, label: str, hook: str, kind: str) -> list[Offer]:
-        """Return what the plugin under `label` answers to one hook."""
+        """Return the offers of the plugin under `label` from one hook."""
         answers: list[Offer] = []
         for impl in getattr(self._plugins.hook, hook).get_hookimpls():
             if impl.plugin_name == label:
-                offer = guarded(impl.function, f"hook {hook!r} failed")
-                answers += _checked(offer, hook, kind)
+                offer = call_guarded(impl.function, f"hook {hook!r} failed")
+                answers += _check_offers(offer, hook, kind)
         return answers
 
 
 def first_line(err: BaseException) -> str:
-    """Return the kind of an error and the first line of what it says."""
+    """Return the type of an error and the first line of its message."""
     lines = str(err).strip().splitlines()
     return f"{type(err).__name__}: {lines[0]}" if lines else type(err).__name__
 
 
-def guarded(function: Callable[[], Any], complaint: str) -> Any:
-    """Return what `function` returns; whatever it raises becomes a `RefusedError` that begins with `complaint`."""
+def call_guarded(function: Callable[[], Any], complaint: str) -> Any:
+    """Return the result of `function`; an exception becomes a `RefusedError` that begins with `complaint`."""
     try:
         return function()
     except FAILURES as err:
         raise RefusedError("broken", f"{complaint}: {first_line(err)}") from err
 
 
-def _checked(offer: Any, hook: str, kind: str) -> Iterator[Offer]:
-    """Yield what a hook was answered with, if it is a mapping of names to targets, else refuse it."""
-    told = ("package.module:command", "One line of help.")
-    wanted = f'return {{"name": {told}}}' if kind == COMMAND else 'return {"name": "package.module:Class"}'
+def _check_offers(offer: Any, hook: str, kind: str) -> Iterator[Offer]:
+    """Yield the offers in the result of a hook; raise `RefusedError` unless it is a mapping of names to targets."""
+    example = ("package.module:command", "One line of help.")
+    wanted = f'return {{"name": {example}}}' if kind == COMMAND else 'return {"name": "package.module:Class"}'
     if not isinstance(offer, Mapping):
         raise RefusedError("broken", f"hook {hook!r} returned {type(offer).__name__}: {wanted}")
-    for name, said_of in offer.items():
-        parts = tuple(said_of) if kind == COMMAND and isinstance(said_of, (tuple, list)) else (said_of,)
+    for name, value in offer.items():
+        parts = tuple(value) if kind == COMMAND and isinstance(value, (tuple, list)) else (value,)
         texts = all(isinstance(text, str) for text in (name, *parts))
         if not texts or len(parts) != (2 if kind == COMMAND else 1) or not _TARGET.fullmatch(parts[0]):
-            raise RefusedError("broken", f"hook {hook!r} returned {{{name!r}: {said_of!r}}}: {wanted}")
+            raise RefusedError("broken", f"hook {hook!r} returned {{{name!r}: {value!r}}}: {wanted}")
         yield Offer(kind, name, *parts)

@@ -1,4 +1,4 @@
-"""Whether what a plugin says of itself has the types that everybody who reads it counts on."""
+"""Checks of the types of the attributes that a plugin class declares."""
 
 from __future__ import annotations
 
@@ -14,59 +14,63 @@ _MISSING = object()
 Check = Callable[[Any], bool]
 
 
-def misfit(cls: type[Any]) -> str:
-    """Return the first thing that a class says of itself in a form that nobody can read, or an empty string."""
-    return next(_misfits(cls), "")
+def find_misfit(cls: type[Any]) -> str:
+    """Return a sentence on the first declared attribute of a class with a wrong type, or an empty string."""
+    return next(_find_misfits(cls), "")
 
 
-def _misfits(cls: type[Any]) -> Iterator[str]:
+def _find_misfits(cls: type[Any]) -> Iterator[str]:
     from lostmotion import contracts
 
-    yield from _complaints(cls, TEXTS, _text, "text")
-    yield from _complaints(cls, LISTS, _texts, "a tuple of texts")
+    yield from _check_attributes(cls, TEXTS, _is_text, "text")
+    yield from _check_attributes(cls, LISTS, _is_texts, "a tuple of texts")
     if hasattr(cls, "params") and not (getattr(cls, "motions", ()) or hasattr(cls, "motion")):
         yield "neither motion nor motions: write 'translation' or 'rotation', or both"
     for key, kind in (("params", contracts.Param), ("further", contracts.Param), ("interfaces", contracts.Interface)):
         entries = getattr(cls, key, ())
         if not isinstance(entries, tuple) or not all(isinstance(entry, kind) for entry in entries):
-            yield f"{key} = {_short(entries)}: write a tuple of {kind.__name__}"
+            yield f"{key} = {_shorten(entries)}: write a tuple of {kind.__name__}"
             return
         for entry in entries:
-            yield from (f"{key}: {wrong}" for wrong in (_param(entry) if kind is contracts.Param else _place(entry)))
+            yield from (
+                f"{key}: {wrong}" for wrong in (_check_param(entry) if kind is contracts.Param else _check_place(entry))
+            )
 
 
-def _param(param: Any) -> Iterator[str]:
+def _check_param(param: Any) -> Iterator[str]:
     from lostmotion.quantities import Dimension
 
-    yield from _complaints(param, ("name", "meaning", "scale"), _text, "text")
-    yield from _complaints(param, ("low", "high", "typical"), _real, "a number")
-    yield from _complaints(param, ("null",), lambda value: value is None or _real(value), "a number or None")
-    yield from _complaints(param, ("aliases", "words"), _texts, "a tuple of texts")
+    yield from _check_attributes(param, ("name", "meaning", "scale"), _is_text, "text")
+    yield from _check_attributes(param, ("low", "high", "typical"), _is_real, "a number")
+    yield from _check_attributes(param, ("null",), lambda value: value is None or _is_real(value), "a number or None")
+    yield from _check_attributes(param, ("aliases", "words"), _is_texts, "a tuple of texts")
     if getattr(param, "words", ()) and len(param.words) != len(getattr(param, "choices", ())):
         yield f"{len(param.words)} words for {len(param.choices)} choices: write one for each"
-    yield from _complaints(param, ("choices", "far"), lambda value: _all(value, _real), "a tuple of numbers")
-    yield from _complaints(param, ("dimension",), lambda value: isinstance(value, Dimension), "a Dimension")
+    yield from _check_attributes(
+        param, ("choices", "far"), lambda value: _are_all(value, _is_real), "a tuple of numbers"
+    )
+    yield from _check_attributes(param, ("dimension",), lambda value: isinstance(value, Dimension), "a Dimension")
 
 
-def _place(place: Any) -> Iterator[str]:
-    yield from _complaints(place, ("name", "inertia"), _text, "text")
-    yield from _complaints(place, ("row",), lambda value: isinstance(value, int), "a whole number")
-    yield from _complaints(place, ("holds",), _texts, "a tuple of texts")
+def _check_place(place: Any) -> Iterator[str]:
+    yield from _check_attributes(place, ("name", "inertia"), _is_text, "text")
+    yield from _check_attributes(place, ("row",), lambda value: isinstance(value, int), "a whole number")
+    yield from _check_attributes(place, ("holds",), _is_texts, "a tuple of texts")
 
 
-def _complaints(whose: Any, keys: Iterable[str], right: Check, wanted: str) -> Iterator[str]:
-    """Yield a complaint for each attribute that is there and is not right."""
+def _check_attributes(whose: Any, keys: Iterable[str], right: Check, wanted: str) -> Iterator[str]:
+    """Yield a sentence for each existing attribute that does not pass the check."""
     for key in keys:
         value = getattr(whose, key, _MISSING)
         if value is not _MISSING and not right(value):
-            yield f"{key} = {_short(value)}: write {wanted}"
+            yield f"{key} = {_shorten(value)}: write {wanted}"
 
 
-def _text(value: Any) -> bool:
+def _is_text(value: Any) -> bool:
     return isinstance(value, str)
 
 
-def _real(value: Any) -> bool:
+def _is_real(value: Any) -> bool:
     if isinstance(value, bool) or not isinstance(value, Real):
         return False
     try:
@@ -75,15 +79,15 @@ def _real(value: Any) -> bool:
         return False
 
 
-def _texts(value: Any) -> bool:
-    return _all(value, _text)
+def _is_texts(value: Any) -> bool:
+    return _are_all(value, _is_text)
 
 
-def _all(values: Any, right: Check) -> bool:
+def _are_all(values: Any, right: Check) -> bool:
     return isinstance(values, (tuple, list, set, frozenset)) and all(map(right, values))
 
 
-def _short(value: Any) -> str:
+def _shorten(value: Any) -> str:
     try:
         return repr(value)[:40]
     except ValueError:

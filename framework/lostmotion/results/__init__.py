@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -58,16 +57,6 @@ class Interval:
 
     def __contains__(self, value: float) -> bool:
         return self.low <= value <= self.high
-
-    @classmethod
-    def of(cls, told: Mapping[str, Any]) -> Interval:
-        """Return the interval that an entry of a result tells; bounds that are withheld are NaN."""
-        low, high = (float("nan") if told.get(end) is None else float(told[end]) for end in ("low", "high"))
-        return cls(float(told["median"]), low, high, str(told.get("unit", "1")))
-
-    def as_dict(self) -> dict[str, Any]:
-        """Return the four fields as they stand in `diagnosis.json`."""
-        return {"median": self.median, "low": self.low, "high": self.high, "unit": self.unit}
 
     def with_angles_in(self, angle: str) -> Interval:
         """Return the interval in degrees where `angle` is deg and its unit is one of an angle; else unchanged."""

@@ -27,7 +27,7 @@ LEAST_PAST = 64
 FLAT, FLATTER, EQUAL = 0.01, 3.0, 3
 """Height of a flat top over the range; its length over that of a round top as steep; equal samples that make one."""
 STUCK = 0.01
-"""Share of equal samples at the extreme value above which a channel counts as stuck, and not as overloaded."""
+"""The default of the setting `recording.stuck`, for callers without settings."""
 
 
 @dataclass(frozen=True)
@@ -280,20 +280,20 @@ def note_hits(force: ArrayLike, dt: float) -> Iterator[str]:
             )
 
 
-def note_overload(values: ArrayLike, what: str, unit: str = "") -> Iterator[str]:
+def note_overload(values: ArrayLike, what: str, unit: str = "", *, stuck: float = STUCK) -> Iterator[str]:
     """Yield a note for each end at which the samples (n,) of a sensor have flat tops.
 
-    Nothing is said of more than 1 % of equal samples: that is a stuck channel, or a machine at rest.
+    More than a share `stuck` of equal samples gives no note: that is a stuck channel, or a machine at rest.
     """
     readings = np.asarray(values, dtype=np.float64)
     for found in overloaded(readings):
-        if found.exact and found.samples > STUCK * readings.size:
+        if found.exact and found.samples > stuck * readings.size:
             continue
         word = "largest" if found.value > np.nanmedian(readings) else "smallest"
         at = f"{found.value:.4g} {unit}".rstrip()
         stretches = "1 stretch" if found.stretches == 1 else f"{found.stretches} stretches"
         yield (
-            f"{what} sits at its {word} value {at} for {found.samples} samples in {stretches}, the first at sample "
+            f"{what} stays at its {word} value {at} for {found.samples} samples in {stretches}, the first at sample "
             f"{found.first}: it was overloaded, and its readings there are not the motion; empty these cells, and take "
             "a larger range or strike less hard next time"
         )

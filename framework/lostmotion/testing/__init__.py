@@ -1,4 +1,4 @@
-"""The conformance kit: whether a component keeps the contract of its kind, and what to do where it does not.
+"""The conformance kit: checks whether a component fulfils the contract of its kind, with advice where it does not.
 
 from lostmotion import testing
 
@@ -17,49 +17,49 @@ from typing import TYPE_CHECKING, Any
 from lostmotion.contracts import KINDS
 from lostmotion.errors import ContractError
 from lostmotion.testing import engines, methods, models, shared, terms
-from lostmotion.testing.rules import Finding, Rule, known_of, raised, rules_for
+from lostmotion.testing.rules import Finding, Rule, format_error, known_of, rules_for
 
 if TYPE_CHECKING:
     import pytest
 
 __all__ = ["Finding", "Rule", "assert_conforms", "check", "kind_of", "parametrize", "rules_for"]
 _KITS = (shared, models, terms, methods, engines)
-"""The modules that write rules; a rule joins the kit when its module is imported."""
+"""The modules that define rules; a rule is registered when its module is imported."""
 _BUILDING = "is_built_without_arguments"
-_STALE, _HIDES = "it is kept, and `known_failures` has it", "Take it out: it would hide the next failure."
-_HOW = "Give every field a default, and write every method of the contract; or hand in an instance."
+_STALE, _HIDES = "it is fulfilled, and `known_failures` lists it", "Remove it there: it would hide the next failure."
+_HOW = "Give every field a default, and write every method of the contract; or pass an instance."
 
 
 def check(component: Any) -> list[Finding]:
-    """Return a finding for each rule of the component's kind; a class is built without arguments first.
+    """Return a finding for each rule of the kind of a component; a class is first built without arguments.
 
-    While a rule of declaration is broken on which behaviour depends, the rules of behaviour are not tried.
+    Rules of behaviour are checked only when all rules of declaration that they depend on are fulfilled.
     """
     kind = kind_of(component)
-    built = _built(component)
+    built = _build(component)
     if isinstance(built, Finding):
         return [built]
     rules = rules_for(kind)
     findings = [rule(built) for rule in rules if rule.declaration]
     if not any(f.fatal for f in findings):
         findings += [rule(built) for rule in rules if not rule.declaration]
-    return [_unless_stale(f) if f.rule in known_of(built) else f for f in findings]
+    return [_check_stale(f) if f.rule in known_of(built) else f for f in findings]
 
 
-def _unless_stale(finding: Finding) -> Finding:
-    """Return a finding on a rule that is known to be broken; where it is kept after all, that is what is wrong."""
+def _check_stale(finding: Finding) -> Finding:
+    """Return a finding on a rule in `known_failures`, as a failure if the rule is fulfilled after all."""
     return replace(finding, ok=False, found=_STALE, advice=_HIDES, courtesy=True) if finding.ok else finding
 
 
 def assert_conforms(component: Any, rule: Rule | None = None) -> None:
-    """Return nothing; raise `AssertionError` with a sentence for each rule, or for the one given, that is broken.
+    """Raise `AssertionError` with a sentence for each broken rule, of all rules or only the given one.
 
-    Without a rule, those that the component names in its `known_failures` are let pass.
+    Without a rule, failures that the component lists in its `known_failures` are accepted.
     """
     if rule is None:
         findings = [f for f in check(component) if not f.known]
     else:
-        built = _built(component)
+        built = _build(component)
         findings = [built if isinstance(built, Finding) else rule(built)]
     broken = [str(f) for f in findings if not f.ok]
     if broken:
@@ -67,27 +67,27 @@ def assert_conforms(component: Any, rule: Rule | None = None) -> None:
 
 
 def parametrize(components: Iterable[Any], *, known_failures: Mapping[str, str] | None = None) -> pytest.MarkDecorator:
-    """Return a mark that runs a test over (component, rule), with ids such as `my_drag-force_is_zero_at_null`.
+    """Return a pytest mark that runs a test over (component, rule), with ids such as `my_drag-force_is_zero_at_null`.
 
-    `known_failures` gives the reason for each id that is expected to fail, beside what a component names itself; one
-    that passes after all is an error.
+    `known_failures` gives the reason for each id that is expected to fail, besides those that a component lists itself.
+    An expected failure that passes is an error.
     """
     import pytest
 
     reasons, cases = dict(known_failures or {}), []
     for component in components:
         for rule in rules_for(kind_of(component)):
-            label = f"{_label(component)}-{rule.name}"
+            label = f"{_label_of(component)}-{rule.name}"
             reason = reasons.pop(label, None) or known_of(component).get(rule.name)
             marks = [pytest.mark.xfail(reason=reason, strict=True)] if reason else []
             cases.append(pytest.param(component, rule, id=label, marks=marks))
     if reasons:
-        raise ContractError(f"known failure {next(iter(reasons))!r} is no test: write component-rule")
+        raise ContractError(f"known failure {next(iter(reasons))!r} is no test: write it as component-rule")
     return pytest.mark.parametrize(("component", "rule"), cases)
 
 
 def kind_of(component: Any) -> str:
-    """Return the kind of a class or an instance, or raise `ContractError`."""
+    """Return the kind of a class or an instance; raise `ContractError` if it has none."""
     cls = component if isinstance(component, type) else type(component)
     for kind, base in KINDS.items():
         if issubclass(cls, base):
@@ -95,19 +95,19 @@ def kind_of(component: Any) -> str:
     raise ContractError(f"{cls.__name__} is no plugin: subclass one of {', '.join(b.__name__ for b in KINDS.values())}")
 
 
-def _label(component: Any) -> str:
+def _label_of(component: Any) -> str:
     cls = component if isinstance(component, type) else type(component)
     return str(getattr(component, "name", cls.__name__))
 
 
-def _built(component: Any) -> Any:
-    """Return an instance, or the finding that none can be had."""
+def _build(component: Any) -> Any:
+    """Return an instance, or the finding that none can be built."""
     if not isinstance(component, type):
         return component
     if inspect.isabstract(component):
         found = f"{component.__name__} lacks {', '.join(sorted(getattr(component, '__abstractmethods__', ())))}"
-        return Finding(_label(component), _BUILDING, False, found, _HOW)
+        return Finding(_label_of(component), _BUILDING, False, found, _HOW)
     try:
         return component()
     except Exception as err:
-        return Finding(_label(component), _BUILDING, False, raised(err), _HOW)
+        return Finding(_label_of(component), _BUILDING, False, format_error(err), _HOW)

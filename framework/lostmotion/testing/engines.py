@@ -1,7 +1,7 @@
-"""Rules for engines: agreement with plain matrices, and what holds for many points at once.
+"""Rules for engines: agreement with plain matrices, and independence of points and calls.
 
-They are tried on a small rig with a gap, sticking friction and a creeping spring, which shows channels of every kind:
-one that is a state, one that bends over the states, and one that feels the random force of the moment.
+They are checked on a small machine with a gap, sticking friction and a Maxwell element, with channels of each kind: a
+state, a nonlinear function of the states, and an acceleration, which depends on the present random force.
 """
 
 from __future__ import annotations
@@ -26,8 +26,8 @@ from lostmotion.likelihood.system import System
 from lostmotion.quantities import DAMPING, FORCE, INERTIA, LENGTH, STIFFNESS
 from lostmotion.testing.rules import rule
 
-SLACK = 1e-7
-"""By how much of a standard deviation an engine may be off what matrices give."""
+TOLERANCE = 1e-7
+"""The largest accepted difference from the matrices, in standard deviations."""
 SAMPLES, DT, SUBSTEPS = 36, 0.01, 4
 MANY = 11
 
@@ -38,7 +38,7 @@ def _ground(y: Array, u: Array) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class Rig(Model):
-    """A body in a gap, under a force: m x'' + c x' + F(x) = u, with F zero for |x| < x0 and k (|x| - x0) beyond."""
+    """A driven body in a gap: m x'' + c x' + F(x) = u, with F zero for |x| < x0 and k (|x| - x0) beyond."""
 
     name = "rig"
     paper = "Lin (1990)"
@@ -94,7 +94,7 @@ class Stick(Term):
 
 @dataclass(frozen=True)
 class Creep(Term):
-    """A spring and a damper in a row: the deflection of the spring is a state."""
+    """A spring and a damper in series; the deflection of the spring is a state."""
 
     at: str = "ground"
     name = "creep"
@@ -111,22 +111,22 @@ class Creep(Term):
 
     @staticmethod
     def rate(t: float, x: float, v: float, u: Array, p: Values, s: Values, dsdt: Array) -> None:
-        """Write the pace of the deflection."""
+        """Write the rate of the deflection."""
         dsdt[0] = v - 3.0 * s[0]
 
 
 SENSORS = {
     "a state": (Sensor("position"),),
-    "a bent channel": (Sensor("bent"),),
+    "a nonlinear channel": (Sensor("bent"),),
     "an acceleration": (Sensor("acceleration"),),
-    "several sensors, two of them with slow noise": (
+    "several sensors, two of them with AR(1) noise": (
         Sensor("position", noise=AR1()), Sensor("bent"), Sensor("acceleration", noise=AR1()),
     ),
 }  # fmt: skip
 RANDOM: tuple[Random, ...] = ("white", "held", "latent")
 VALUES = {"m": 1.0, "c": 1.5, "k": 900.0, "x0": 0.05, "stick.size": 0.4, "creep.stiffness": 20.0}
 
-Asked = tuple[Dynamics, Observation, Points]
+Arguments = tuple[Dynamics, Observation, Points]
 
 
 @cache
@@ -134,10 +134,12 @@ def _system() -> System:
     return System(Rig(), (Stick(), Creep()))
 
 
-def asked(sensors: tuple[Sensor, ...], random: Random = "white", count: int = 2, lag: float = 0.0) -> Asked:
-    """Return what an engine is handed: readings of a wandering rig, with gaps, and points near what made them.
+def make_arguments(
+    sensors: tuple[Sensor, ...], random: Random = "white", count: int = 2, lag: float = 0.0
+) -> Arguments:
+    """Return the arguments of an engine: readings with gaps, and points near the true values.
 
-    The sensors are late by `lag` samples.
+    The sensors are delayed by `lag` samples.
     """
     system, rng = _system(), np.random.default_rng(3)
     full, t = system.vector(VALUES), DT * np.arange(SAMPLES)
@@ -162,21 +164,21 @@ def asked(sensors: tuple[Sensor, ...], random: Random = "white", count: int = 2,
     return dynamics, Observation("rig", z, drive.inputs, DT, sensors), points
 
 
-def _every() -> Iterator[tuple[str, Asked]]:
+def _list_cases() -> Iterator[tuple[str, Arguments]]:
     for (what, sensors), random in itertools.product(SENSORS.items(), RANDOM):
-        yield f"{what}, with a random force that is {random}", asked(sensors, random)
+        yield f"{what}, with a random force of the kind {random}", make_arguments(sensors, random)
     for (what, sensors), lag in itertools.product(SENSORS.items(), (0.4, -0.3)):
-        yield f"{what}, late by {lag} samples", asked(sensors, "held", lag=lag)
+        yield f"{what}, delayed by {lag} samples", make_arguments(sensors, "held", lag=lag)
 
 
-def _off(found: Innovations, wanted: Innovations) -> float:
-    """Return by how many standard deviations two sets of innovations differ at the most."""
+def _largest_difference(found: Innovations, wanted: Innovations) -> float:
+    """Return the largest difference of two sets of innovations, in standard deviations."""
     sd = np.sqrt(wanted.variances)
     gap = np.maximum(np.abs(found.errors - wanted.errors), np.abs(np.sqrt(found.variances) - sd)) / sd
     return float(gap.max()) if np.isfinite(gap).all() else math.inf
 
 
-def _same(one: Any, other: Any) -> bool:
+def _are_equal(one: Any, other: Any) -> bool:
     names = ("errors", "variances", "finite")
     return all(np.array_equal(getattr(one, n), getattr(other, n), equal_nan=True) for n in names)
 
@@ -184,68 +186,70 @@ def _same(one: Any, other: Any) -> bool:
 @rule("engine")
 def filter_agrees_with_matrices(engine: Engine) -> str:
     """Return the one-step errors and variances that the engine `reference` returns, for sensors of every kind."""
-    for what, given in _every():
+    for what, given in _list_cases():
         found, wanted = engine.filter(*given), Reference().filter(*given)
         if found.errors.shape != wanted.errors.shape or found.variances.shape != wanted.errors.shape:
-            return f"for {what} it returned {found.errors.shape}, and {wanted.errors.shape} was wanted"
-        if not (off := _off(found, wanted)) < SLACK:
-            return f"for {what} it is off by {off:.2g} standard deviations"
+            return f"for {what} it returned {found.errors.shape}, where {wanted.errors.shape} is wanted"
+        if not (difference := _largest_difference(found, wanted)) < TOLERANCE:
+            return f"for {what} it differs by {difference:.2g} standard deviations"
     return ""
 
 
 @rule("engine")
 def smoother_agrees_with_matrices(engine: Engine) -> str:
     """Return filtered and smoothed states, with their covariances, as the engine `reference` does."""
-    for what, given in _every():
+    for what, given in _list_cases():
         dynamics, observation, points = given
-        one = (dynamics, observation, points.taken(slice(0, 1)))
+        one = (dynamics, observation, points.select(slice(0, 1)))
         found, wanted = engine.smooth(*one), Reference().smooth(*one)
         pairs = ((found.filtered, wanted.filtered, wanted.filtered_covariance),)
         for mine, theirs, covariance in (*pairs, (found.states, wanted.states, wanted.covariance)):
             sd = np.sqrt(np.diagonal(covariance, axis1=1, axis2=2)).max(axis=0)
-            if mine.shape != theirs.shape or not np.all(np.abs(mine - theirs) < 100.0 * SLACK * sd):
-                return f"for {what} its states are not those of matrices"
+            if mine.shape != theirs.shape or not np.all(np.abs(mine - theirs) < 100.0 * TOLERANCE * sd):
+                return f"for {what} its states differ from those of the matrices"
         if not np.allclose(found.covariance, wanted.covariance, rtol=1e-5, atol=1e-5 * wanted.covariance.max()):
-            return f"for {what} its covariances are not those of matrices"
+            return f"for {what} its covariances differ from those of the matrices"
     return ""
 
 
 @rule("engine")
 def free_run_agrees_with_matrices(engine: Engine) -> str:
-    """Return the free motion by RK4 in the given steps, as the engine `reference` does, from where each run begins."""
-    dynamics, _, points = asked(SENSORS["a state"], count=3)
+    """Return the free motion by RK4 with the given steps from the start of each run, as `reference` does."""
+    dynamics, _, points = make_arguments(SENSORS["a state"], count=3)
     points = replace(points, first=np.array([0, 4, 9]))
     start = np.tile([0.06, -0.1, 0.0], (3, 1))
     kicks = 0.01 * np.random.default_rng(4).standard_normal((3, 20, 3))
     for what, more in (("free motion", None), ("motion with kicks", kicks)):
         found, wanted = (e.simulate(dynamics, points, start, 20, more) for e in (engine, Reference()))
         if found.shape != wanted.shape or not np.allclose(found, wanted, rtol=1e-9, atol=1e-12):
-            return f"its {what} is not that of matrices"
+            return f"its {what} differs from that of the matrices"
     return ""
 
 
 @rule("engine")
 def points_do_not_know_each_other(engine: Engine) -> str:
-    """Let what comes out for a point depend on neither the number of points nor their order: the same bits."""
-    for sensors, random in ((SENSORS["a state"], "white"), (SENSORS["a bent channel"], "held")):
-        dynamics, observation, points = asked(sensors, random, MANY)  # type: ignore[arg-type]
+    """Make the result of a point independent of the number and order of points, to the last bit."""
+    for sensors, random in ((SENSORS["a state"], "white"), (SENSORS["a nonlinear channel"], "held")):
+        dynamics, observation, points = make_arguments(sensors, random, MANY)  # type: ignore[arg-type]
         together = engine.filter(dynamics, observation, points)
-        turned = engine.filter(dynamics, observation, points.taken(slice(None, None, -1)))
-        if not _same(together, turned[::-1]):
-            return "the order of the points changes what comes out for them"
+        turned = engine.filter(dynamics, observation, points.select(slice(None, None, -1)))
+        if not _are_equal(together, turned[::-1]):
+            return "the order of the points changes their results"
         for i in (0, MANY - 1):
-            if not _same(together[i : i + 1], engine.filter(dynamics, observation, points.taken(slice(i, i + 1)))):
-                return "a point alone gives other numbers than among others"
+            if not _are_equal(
+                together[i : i + 1], engine.filter(dynamics, observation, points.select(slice(i, i + 1)))
+            ):
+                return "the result of a point alone differs from its result among others"
     return ""
 
 
 @rule("engine")
 def missing_readings_add_nothing(engine: Engine) -> str:
-    """Where a reading is NaN, note the error 0 and the variance 1 / (2 pi), and go on."""
-    dynamics, observation, points = asked(SENSORS["several sensors, two of them with slow noise"])
+    """For a reading that is NaN, return the error 0 and the variance 1 / (2 pi), and continue."""
+    dynamics, observation, points = make_arguments(SENSORS["several sensors, two of them with AR(1) noise"])
     found, lost = engine.filter(dynamics, observation, points), np.isnan(observation.readings)
     if np.any(found.errors[:, lost] != 0.0) or not np.allclose(found.variances[:, lost], 0.5 / math.pi, rtol=1e-12):
-        return "a reading that is missing adds to the likelihood"
+        return "a missing reading changes the likelihood"
     nothing = replace(observation, readings=np.full(observation.readings.shape, np.nan))
     empty = engine.filter(dynamics, nothing, points)
     good = empty.finite.all() and np.allclose(np.asarray(empty.log_likelihood), 0.0)
@@ -254,8 +258,8 @@ def missing_readings_add_nothing(engine: Engine) -> str:
 
 @rule("engine")
 def divergence_is_a_status(engine: Engine) -> str:
-    """Where a point leaves all numbers, return `finite` false for it alone, and raise nothing."""
-    dynamics, observation, points = asked(SENSORS["a state"], count=3)
+    """For a point that diverges, return `finite` false for this point only, and raise no error."""
+    dynamics, observation, points = make_arguments(SENSORS["a state"], count=3)
     wild = points.params.copy()
     wild[1, :2] = 1e-30, math.nan
     with np.errstate(all="ignore"):
@@ -263,19 +267,21 @@ def divergence_is_a_status(engine: Engine) -> str:
         wanted = engine.filter(dynamics, observation, points)
         run = engine.simulate(dynamics, replace(points, params=wild), np.tile([0.06, 0.0, 0.0], (3, 1)), 5)
     if list(found.finite) != [True, False, True]:
-        return f"of three points, of which the second diverges, finite are {list(found.finite)}"
+        return f"the second of three points diverges, and `finite` is {list(found.finite)}"
     if np.isfinite(np.asarray(found.log_likelihood)[1]) or np.isfinite(run[1, -1]).any():
-        return "a point that diverges has a likelihood, or a motion"
-    return "" if _same(found[[0, 2]], wanted[[0, 2]]) else "a point that diverges changes what comes out for others"
+        return "a point that diverges has a finite likelihood or motion"
+    return "" if _are_equal(found[[0, 2]], wanted[[0, 2]]) else "a point that diverges changes the results of others"
 
 
 @rule("engine")
 def threads_do_not_disturb_each_other(engine: Engine) -> str:
-    """Keep nothing between calls: calls from several threads at once give what they give one after the other."""
-    given = [asked(sensors, count=count) for sensors, count in itertools.product(SENSORS.values(), (1, 5))]
+    """Store nothing between calls: parallel calls from several threads must give the same results as single calls."""
+    given = [make_arguments(sensors, count=count) for sensors, count in itertools.product(SENSORS.values(), (1, 5))]
     alone = [engine.filter(*g) for g in given]
     with ThreadPoolExecutor(4) as pool:
         for _ in range(3):
-            if not all(_same(a, b) for a, b in zip(alone, pool.map(lambda g: engine.filter(*g), given), strict=True)):
-                return "calls from several threads gave other numbers"
+            if not all(
+                _are_equal(a, b) for a, b in zip(alone, pool.map(lambda g: engine.filter(*g), given), strict=True)
+            ):
+                return "parallel calls from several threads gave other numbers"
     return ""

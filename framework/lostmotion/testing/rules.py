@@ -1,10 +1,10 @@
-"""What a rule is, and the rules that hold for every kind; a rule's docstring is the advice it gives when broken.
+"""The class of a rule, and the rules for all kinds. The docstring of a rule is the advice when it is broken.
 
-A rule takes a component and returns what it found to be wrong, or an empty string. Rules of declaration come first;
-the rules of behaviour are tried only on a component whose declaration is right, since they read it. A rule of courtesy
-is for people: a component that breaks it can be relied upon all the same.
+A rule takes a component and returns what is wrong, or an empty string. Rules of declaration are checked first; rules of
+behaviour only for a component whose declaration is correct, since they use it. A rule of courtesy concerns readers: a
+component that breaks it can be used all the same.
 
-A component may name rules that it is known to break, each with the reason: `known_failures = {"has_a_null": "..."}`.
+A component may list rules that it breaks on purpose, each with the reason: `known_failures = {"has_a_null": "..."}`.
 """
 
 from __future__ import annotations
@@ -26,9 +26,9 @@ _RULES: list[Rule] = []
 
 @dataclass(frozen=True)
 class Finding:
-    """Whether a component keeps one rule; if not, what was found and what to do about it.
+    """The result of one rule for a component; if it is broken, what was found and what to do.
 
-    `known` is the reason that the component itself gives for breaking the rule.
+    `known` is the reason that the component gives for breaking the rule.
     """
 
     component: str
@@ -41,12 +41,12 @@ class Finding:
 
     @property
     def fatal(self) -> bool:
-        """Whether a host cannot rely on the component."""
+        """Whether the framework cannot use the component."""
         return not (self.ok or self.courtesy or self.known)
 
     @property
     def sentence(self) -> str:
-        """What was found and what to do, empty when all is well."""
+        """What was found and what to do; empty if the rule is fulfilled."""
         return "" if self.ok else f"{self.found}. {self.advice}"
 
     def __str__(self) -> str:
@@ -55,7 +55,7 @@ class Finding:
 
 @dataclass(frozen=True)
 class Rule:
-    """One thing that a component of the given kinds must keep."""
+    """One rule for components of the given kinds."""
 
     name: str
     kinds: tuple[str, ...]
@@ -69,11 +69,11 @@ class Rule:
         return " ".join((self.judge.__doc__ or "").split())
 
     def __call__(self, component: Any) -> Finding:
-        """Return the finding for one component; whatever its code raises is a finding too."""
+        """Return the finding for one component; an exception of its code is a finding too."""
         try:
             found = self.judge(component)
         except Exception as err:
-            found = raised(err)
+            found = format_error(err)
         label = str(getattr(component, "name", type(component).__name__))
         if not found:
             return Finding(label, self.name, True, courtesy=self.courtesy)
@@ -82,7 +82,7 @@ class Rule:
 
 
 def known_of(component: Any) -> Mapping[str, str]:
-    """Return the rules that a component is known to break, with its reasons."""
+    """Return the rules that a component breaks on purpose, with its reasons."""
     known = getattr(component, "known_failures", {})
     good = isinstance(known, Mapping) and all(isinstance(v, str) and v.strip() for v in known.values())
     return known if good else {}
@@ -103,26 +103,28 @@ def rules_for(kind: str) -> tuple[Rule, ...]:
     return tuple(sorted((r for r in _RULES if kind in r.kinds), key=lambda r: not r.declaration))
 
 
-def raised(err: Exception) -> str:
-    """Return what an error says, in one line and not longer than people read."""
+def format_error(err: Exception) -> str:
+    """Return the type and the message of an error in one line of limited length."""
     words = " ".join(str(err).split())
     return f"it raised {type(err).__name__}: {words[:_LONGEST]}{' ...' if len(words) > _LONGEST else ''}"
 
 
-def listed(words: Any) -> str:
-    """Return words as people list them."""
+def join_words(words: Any) -> str:
+    """Return words as a list with commas."""
     return ", ".join(str(w) for w in words)
 
 
-def _base(component: Any) -> type[Any]:
+def _contract_of(component: Any) -> type[Any]:
     return next(base for base in KINDS.values() if isinstance(component, base))
 
 
 @rule(*KINDS, declaration=True)
 def is_frozen_dataclass(component: Any) -> str:
-    """Write `@dataclass(frozen=True)` above the class: a component is a value, and what it does is in its fields."""
+    """Write `@dataclass(frozen=True)` above the class: a component is a value that its fields determine."""
     params = vars(type(component)).get("__dataclass_params__")
-    return "" if params is not None and params.frozen else f"{type(component).__name__} is no frozen dataclass itself"
+    return (
+        "" if params is not None and params.frozen else f"{type(component).__name__} is not a frozen dataclass itself"
+    )
 
 
 @rule(*KINDS, declaration=True)
@@ -134,7 +136,7 @@ def name_is_snake_case(component: Any) -> str:
 
 @rule(*KINDS, declaration=True, courtesy=True)
 def paper_is_cited(component: Any) -> str:
-    """Say in `paper` where the law or the method is written down: authors, place and year."""
+    """Cite in `paper` the source of the law or the method: authors, place and year."""
     paper = getattr(component, "paper", None)
     good = isinstance(paper, str) and len(paper.split()) > 1
     return "" if good else f"its paper is {paper!r}"
@@ -142,7 +144,7 @@ def paper_is_cited(component: Any) -> str:
 
 @rule(*KINDS, declaration=True, courtesy=True)
 def has_docstring(component: Any) -> str:
-    """Write a docstring under the class line: `lostmotion plugins show` prints it."""
+    """Write a docstring for the class: `lostmotion plugins show` prints it."""
     cls = type(component)
     written = vars(cls).get("__doc__") or ""
     made_by_dataclass = written.startswith(f"{cls.__name__}(")
@@ -151,45 +153,45 @@ def has_docstring(component: Any) -> str:
 
 @rule(*KINDS, declaration=True, courtesy=True)
 def known_failures_are_named(component: Any) -> str:
-    """Map in `known_failures` rules of this kind to the reason why each is broken: `{"has_a_null": "because ..."}`."""
-    known, base = getattr(component, "known_failures", {}), _base(component)
+    """Map in `known_failures` each broken rule of this kind to its reason: `{"has_a_null": "because ..."}`."""
+    known, base = getattr(component, "known_failures", {}), _contract_of(component)
     if known and known_of(component) is not known:
         return f"known_failures is {known!r}"
     names = {r.name for kind, own in KINDS.items() if own is base for r in rules_for(kind)}
     unknown = [name for name in known if name not in names]
-    return f"known_failures names {unknown[0]!r}, which is no rule of this kind" if unknown else ""
+    return f"known_failures names {unknown[0]!r}, which is not a rule of this kind" if unknown else ""
 
 
 @rule(*KINDS, declaration=True)
 def attributes_are_complete(component: Any) -> str:
-    """Give every class variable that the contract names, in its type: one word in a tuple is `("position",)`."""
+    """Define every class variable of the contract with its type: a tuple of one word is `("position",)`."""
     wanted = {"ClassVar[tuple": tuple, "ClassVar[frozenset": frozenset, "ClassVar[str": str, "ClassVar[Literal": str}
-    for name, note in inspect.get_annotations(_base(component)).items():
+    for name, note in inspect.get_annotations(_contract_of(component)).items():
         if not hasattr(component, name):
             return f"{name} is missing"
         for start, kind in wanted.items():
             if str(note).startswith(start) and not isinstance(getattr(component, name), kind):
-                return f"{name} is {getattr(component, name)!r}, and a {kind.__name__} was wanted"
+                return f"{name} is {getattr(component, name)!r}, where a {kind.__name__} is wanted"
     return ""
 
 
 @rule(*KINDS, declaration=True, courtesy=True)
 def methods_have_the_arguments_of_the_contract(component: Any) -> str:
-    """Copy the line with `def` from the contract: the host passes exactly these arguments, in this order."""
-    base = _base(component)
+    """Copy the line with `def` from the contract: the framework passes exactly these arguments in this order."""
+    base = _contract_of(component)
     for name in sorted(base.__abstractmethods__ | (set(vars(base)) & {"rate"})):
-        wanted, own = _arguments(base, name), _arguments(type(component), name)
+        wanted, own = _argument_names(base, name), _argument_names(type(component), name)
         if own != wanted:
-            return f"{name} takes ({listed(own)}), and ({listed(wanted)}) was wanted"
+            return f"{name} takes ({join_words(own)}), where ({join_words(wanted)}) is wanted"
     return ""
 
 
-def _arguments(cls: type[Any], name: str) -> list[str]:
+def _argument_names(cls: type[Any], name: str) -> list[str]:
     return [name for name in inspect.signature(getattr(cls, name)).parameters if name != "self"]
 
 
 @rule(*KINDS, courtesy=True)
 def can_be_pickled(component: Any) -> str:
-    """Let every field be plain data and the class stand at the top of its module: it is sent to other processes."""
+    """Use plain data for all fields and define the class at module level: it is sent to other processes."""
     same = pickle.loads(pickle.dumps(component)) == component  # noqa: S301 - our own bytes, made a moment ago
-    return "" if same else "it comes back from pickling as something else"
+    return "" if same else "it is not equal to itself after pickling"

@@ -1,4 +1,4 @@
-"""Rules that models and terms share: their parameters, and the functions that are compiled."""
+"""Rules for models and terms: their parameters, and the functions that are compiled."""
 
 from __future__ import annotations
 
@@ -8,70 +8,70 @@ from dataclasses import fields
 from typing import Any
 
 from lostmotion.contracts import Model
-from lostmotion.likelihood.plan import numeric
+from lostmotion.likelihood.plan import is_numeric
 from lostmotion.quantities import Dimension
-from lostmotion.testing.rules import listed, rule
+from lostmotion.testing.rules import join_words, rule
 
 _COMPILED = {"model": ("rhs", "observe"), "term": ("force", "rate")}
 
 
-def repeated(words: Any) -> list[str]:
-    """Return the words that stand more than once."""
+def find_repeated(words: Any) -> list[str]:
+    """Return the words that occur more than once."""
     return [word for word, count in Counter(words).items() if count > 1]
 
 
 @rule("model", "term", declaration=True)
 def params_are_unique(component: Any) -> str:
-    """Give each parameter a name and aliases that no other one has: a case file names parameters by either."""
-    again = repeated(word for q in component.params for word in {q.name, *q.aliases})
+    """Give each parameter a unique name and unique aliases: a case file uses either of them."""
+    again = find_repeated(word for q in component.params for word in {q.name, *q.aliases})
     bad = [q.name for q in component.params if not q.name.isidentifier()]
-    return f"{listed(again)} stands twice" if again else (f"{bad[0]!r} is no identifier" if bad else "")
+    return f"{join_words(again)} occurs twice" if again else (f"{bad[0]!r} is not an identifier" if bad else "")
 
 
 @rule("model", "term", declaration=True)
 def bounds_are_ordered(component: Any) -> str:
-    """Give physical bounds with `low` below `high`; a parameter of scale "log" has a `low` of 0 or more."""
+    """Give physical bounds with `low` below `high`; with the scale "log", `low` is 0 or more."""
     for q in component.params:
         if not q.low < q.high:
             return f"{q.name} goes from {q.low:g} to {q.high:g}"
         if q.scale not in ("linear", "log") or (q.scale == "log" and q.low < 0.0):
             return f"{q.name} has scale {q.scale!r} and low {q.low:g}"
         if not q.typical > 0.0:
-            return f"{q.name} has the typical size {q.typical:g}, and a prior needs a positive one"
+            return f"{q.name} has the typical size {q.typical:g}, and a prior needs a positive value"
     return ""
 
 
 @rule("model", "term", declaration=True)
 def dimensions_are_dimensions(component: Any) -> str:
-    """Give each parameter a `Dimension` from lostmotion.quantities, such as DAMPING: its unit follows from it."""
+    """Give each parameter a `Dimension` from lostmotion.quantities, such as DAMPING, which determines its unit."""
     bad = [q.name for q in component.params if not isinstance(q.dimension, Dimension)]
-    return f"the dimension of {bad[0]} is none" if bad else ""
+    return f"the dimension of {bad[0]} is not a Dimension" if bad else ""
 
 
 @rule("model", "term", declaration=True, courtesy=True)
 def params_have_meanings(component: Any) -> str:
-    """Say in a few words what each parameter means: reports and `lostmotion plugins show` print them."""
+    """Describe each parameter in a few words: reports and `lostmotion plugins show` print them."""
     bad = [q.name for q in component.params if not q.meaning.strip()]
     return f"{bad[0]} has no meaning" if bad else ""
 
 
 @rule("model", "term", declaration=True)
 def functions_are_static(component: Any) -> str:
-    """Write `@staticmethod` above the functions; those of a term may be methods that read numbers among its fields."""
+    """Write `@staticmethod` above the functions; those of a term may be methods that read numeric fields."""
     kind = "model" if isinstance(component, Model) else "term"
     found = {name: inspect.getattr_static(type(component), name) for name in _COMPILED[kind]}
     bad = [name for name, function in found.items() if not isinstance(function, staticmethod)]
-    told = [getattr(component, f.name) for f in fields(component) if f.name != "at"]
-    if kind == "term" and any(numeric(value) for value in told):
+    values = [getattr(component, f.name) for f in fields(component) if f.name != "at"]
+    if kind == "term" and any(is_numeric(value) for value in values):
         return ""
-    return f"{bad[0]} is no static method" if bad else ""
+    return f"{bad[0]} is not a static method" if bad else ""
 
 
 @rule("model", "term", declaration=True)
 def states_are_named(component: Any) -> str:
-    """Name each state once, with a word that could be a variable: results and reports call the states so."""
+    """Name each state once, with an identifier: results and reports use these names."""
     again, bad = (
-        repeated(component.states),
+        find_repeated(component.states),
         [s for s in component.states if not str(s).replace(".", "_").isidentifier()],
     )
-    return f"state {listed(again or bad)} is no name of its own" if again or bad else ""
+    return f"state {join_words(again or bad)} is not a unique identifier" if again or bad else ""

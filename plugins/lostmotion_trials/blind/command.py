@@ -1,4 +1,4 @@
-"""`lostmotion prove`: a blind trial; one process conceals, another diagnoses, a third unseals and scores."""
+"""`lostmotion prove`: a blind trial; one process conceals, another diagnoses, a third opens the truths and scores."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
         "lostmotion prove --cases 200 --out proof",
         "lostmotion prove --cases 40 --only coulomb_friction --only lugre_friction --out friction",
         "lostmotion prove --cases 300 --clean --out clean     false alarms, some with coloured noise and outliers",
-        "lostmotion prove --world imperfect --cases 200 --samples 3000 --out rough     no model is right",
+        "lostmotion prove --world imperfect --cases 200 --samples 3000 --out rough     no model is exactly right",
     )
 )
 @click.option("--cases", default=200, show_default=True, type=click.IntRange(1), help="How many cases to conceal.")
@@ -30,50 +30,52 @@ if TYPE_CHECKING:
     metavar="NAME",
     type=PluginName("term"),
     multiple=True,
-    help="Hide nothing but this mechanism; may be given again.",
+    help="Hide only this mechanism; may be given several times.",
 )
-@click.option("--clean", is_flag=True, help="Hide nothing at all: a study of false alarms.")
+@click.option("--clean", is_flag=True, help="Hide nothing: a study of false alarms.")
 @click.option(
     "--world",
     default="perfect",
     show_default=True,
     type=click.Choice(["perfect", "imperfect"]),
-    help="In an imperfect world machines have flaws that no term describes, kinds of drives take turns, and names"
-    " stated with more than 0.95 are counted.",
+    help="In an imperfect world machines have imperfections that no term describes, five kinds of drives alternate, and"
+    " mechanisms named with a probability above 0.95 are counted.",
 )
 @click.option(
     "--samples", default=20_000, show_default=True, type=click.IntRange(500), help="Samples of the longest recording."
 )
-@click.option("--fresh", is_flag=True, help="Throw away the trial that is there, instead of continuing it.")
+@click.option("--fresh", is_flag=True, help="Delete an existing trial instead of continuing it.")
 @add_common_options
 @click.pass_context
 def command(ctx: click.Context, /, out: Path, only: tuple[str, ...], **given: Any) -> None:
-    """Prove it: a blind trial of `diagnose` on machines that hide what one process knows and another has to find.
+    """Run a blind trial of `diagnose` on simulated machines with hidden effects.
 
-    Machines are drawn at random, moved by an integrator that shares nothing with the fit, and their truths sealed: the
-    digests are published before the first diagnosis. Processes that know the cases alone diagnose them. Then truths are
-    unsealed, checked against the digests, and scored beside what the true model reaches.
+    Machines are drawn at random and simulated by an integrator that shares no code with the fit. Their true parameters
+    are sealed: digests are published before the first diagnosis. Processes that read only the cases diagnose them. Then
+    the truths are opened, checked against the digests, and compared with the answers and with the fit of the true
+    model.
 
     Writes cases/, sealed/, seal.json, proof.json and report.html into DIR. The same command continues a trial that was
-    interrupted, at any moment, or enlarges it by more --cases; the bytes depend neither on that nor on --jobs. Exit
-    status 0 when the trial ended, whatever it says; 2 for what cannot be used, and when a truth is not the sealed one.
+    interrupted at any time, or enlarges it with a larger --cases; the files depend neither on that nor on --jobs. The
+    exit status is 0 when the trial was completed, whatever its result, and 2 for unusable input or a truth that differs
+    from the sealed one.
     """
     from lostmotion_trials.blind.commitment import Blind
     from lostmotion_trials.blind.run import run_proof
 
     plugins = tuple(str(Path(file).absolute()) for file in ctx.find_root().params.get("plugin") or ())
     blind = Blind(given["seed"], given["samples"], only, given["clean"], given["world"])
-    with _bar(given["cases"], quiet=given["quiet"]) as say:
+    with _show_progress(given["cases"], quiet=given["quiet"]) as say:
         options = {key: given[key] for key in ("cases", "jobs", "fresh")}
         content = run_proof(blind, out, plugins=plugins, say=say, **options)
-    for line in (*content.summary.says, *map(_line, content.summary.targets)):
+    for line in (*content.summary.says, *map(_format_target, content.summary.targets)):
         click.echo(line)
     click.echo(str(out / "report.html"))
 
 
 @contextmanager
-def _bar(cases: int, *, quiet: bool) -> Iterator[Callable[[str, int, int], None]]:
-    """Yield a function that is told which step is being made, and how many of its cases are done."""
+def _show_progress(cases: int, *, quiet: bool) -> Iterator[Callable[[str, int, int], None]]:
+    """Yield a function that shows the current step and how many of its cases are done."""
     from tqdm import tqdm
 
     with tqdm(desc="prove", total=cases, unit=" cases", leave=False, disable=True if quiet else None) as bar:
@@ -91,10 +93,8 @@ def _bar(cases: int, *, quiet: bool) -> Iterator[Callable[[str, int, int], None]
         yield say
 
 
-def _line(target: Target) -> str:
-    """Return one target with what was reached."""
-    from lostmotion.results import percent
-
+def _format_target(target: Target) -> str:
+    """Return the line about one target and the share that was reached."""
     found = target.rate
     if not found.of:
         return f"{target.state:<9}  {target.what}"

@@ -1,7 +1,8 @@
-"""The first and the last step of a blind trial: truths that are sealed before anybody looks, and opened afterwards.
+"""The commitment of a blind trial: truths are sealed before the first diagnosis, and opened and checked afterwards.
 
-Of each case there is `cases/NNN` for the one who diagnoses, and `sealed/NNN.json` with the truth and a random salt, so
-that nobody can find a truth by trying. `seal.json` holds the digests of both, and is there before the first diagnosis.
+Each case has a folder `cases/NNN`, which the diagnosis reads, and a file `sealed/NNN.json` with the truth and a random
+salt, so that a truth cannot be guessed from its digest. `seal.json` has the digests of both, and is written before the
+first diagnosis.
 """
 
 from __future__ import annotations
@@ -28,27 +29,29 @@ from lostmotion_trials.blind.imperfect import (
     draw_effect,
     draw_machine,
     draw_world,
-    moved_roughly,
-    recorded_roughly,
+    record_imperfect,
+    simulate_imperfect,
 )
-from lostmotion_trials.blind.mechanisms import NAMES, SPRUNG, TABLE, Effect, Pilot, drawn
+from lostmotion_trials.blind.mechanisms import NAMES, SPRUNG, TABLE, Effect, Pilot, draw_sized_effect
 from lostmotion_trials.blind.sealed import ConcealedCase, Seal, SealedMachine, SealedTruth
 from lostmotion_trials.blind.simulator import USUAL, BlindMachine, Meddling, draw_rig, moved
 from lostmotion_trials.blind.writing import write_case
 from lostmotion_trials.integrators.hidden import Hidden
 
 CLEAN, SEVERAL = 0.25, 0.15
-"""Shares of the cases that hide nothing, and that hide two or three things."""
+"""Shares of the cases that hide nothing, and that hide two or three effects."""
 RARE = 0.5
-"""How much rarer than any other mechanism is one that no library has, of which there are several kinds."""
+"""Relative weight of an effect that no library has, of which there are several kinds, in the draw of mechanisms."""
 PLAIN, COLOURED, OUTLIERS = "plain", "coloured", "outliers"
 VARIANTS: Mapping[str, float] = {PLAIN: 0.6, COLOURED: 0.2, OUTLIERS: 0.2}
-"""The measurement noise of clean cases: white; with a memory; white with outliers. All others have white noise."""
+"""The measurement noise of clean cases: white; AR(1); white with outliers. All other cases have white noise."""
 TOUCHES = (0.05, 0.98)
-"""A machine with a gap is in contact for a share of time between these."""
+"""A machine with a gap must be in contact for a share of time between these."""
 RUNAWAY = 4.0
-"""A softening spring may throw a machine out of its range: then another one is drawn."""
+"""Another machine is drawn where the hidden effects increase the motion by more than this factor, as a softening spring
+may do."""
 TRIES = 2000
+"""Machines that are drawn until one fits."""
 AGAIN = "conceal into another folder, or begin with --fresh"
 PERFECT, IMPERFECT = "perfect", "imperfect"
 WORLDS = (PERFECT, IMPERFECT)
@@ -56,9 +59,10 @@ WORLDS = (PERFECT, IMPERFECT)
 
 @dataclass(frozen=True)
 class Blind:
-    """What is concealed: the seed, the longest recording (samples), if need be only some mechanisms, or none at all.
+    """Settings of a blind trial: seed, longest recording (samples), and optionally only some mechanisms, or none.
 
-    In an imperfect world machines have flaws beside what is hidden (`imperfect.py`), and kinds of drives take turns.
+    In an imperfect world machines have imperfections beside the hidden effect (`imperfect.py`), and kinds of drives
+    alternate.
     """
 
     seed: int = 0
@@ -68,7 +72,7 @@ class Blind:
     world: str = PERFECT
 
     def check(self) -> None:
-        """Refuse names that no mechanism has, and wishes that exclude one another."""
+        """Refuse unknown names, and options that exclude one another."""
         for name in self.only:
             if name not in NAMES:
                 raise DataError(f"no mechanism is called {name!r}: there are {', '.join(NAMES)}")
@@ -78,48 +82,48 @@ class Blind:
             raise DataError("clean cases hide nothing: give either --clean or --only")
 
 
-def label(number: int) -> str:
+def format_case_name(number: int) -> str:
     """Return the name of a case."""
     return f"{number:03d}"
 
 
-def concealed(blind: Blind, out: Path, number: int) -> ConcealedCase:
+def conceal_case(blind: Blind, out: Path, number: int) -> ConcealedCase:
     """Return the digests of case `number` after writing it, and its sealed truth, into the folder `out`."""
     rng = np.random.default_rng([blind.seed, number])
     salt = rng.bytes(16).hex()
     kind = KINDS[number % len(KINDS)]
-    names, variant = _chosen(blind, rng, kind if blind.world == IMPERFECT else "")
-    place = folder_for(out / "cases" / label(number))
+    names, variant = _choose_effects(blind, rng, kind if blind.world == IMPERFECT else "")
+    place = folder_for(out / "cases" / format_case_name(number))
     if blind.world == IMPERFECT:
         names = names[:1]
-        draw, fill = partial(draw_machine, kind, rng, blind.most), partial(_rough, names, kind, rng)
+        draw, fill = partial(draw_machine, kind, rng, blind.most), partial(_fill_imperfect, names, kind, rng)
     else:
-        draw, fill = partial(draw_rig, rng, blind.most), partial(_perfect, names, rng)
-    rig, (effects, motion, world) = _machine(names, rng, draw, fill)
+        draw, fill = partial(draw_rig, rng, blind.most), partial(_fill_perfect, names, rng)
+    rig, (effects, motion, world) = _draw_machine(names, rng, draw, fill)
     if world:
-        response, noise = recorded_roughly(rig, motion, world, rng)
+        response, noise = record_imperfect(rig, motion, world, rng)
         excitation = rig.signal.value(rig.time) + USUAL * rig.signal.amplitude * rng.standard_normal(len(motion))
     else:
-        excitation, response, noise = _recorded(rig, motion, hidden_in(rig, effects)[1].step, variant, rng)
+        excitation, response, noise = _record(rig, motion, hidden_in(rig, effects)[1].step, variant, rng)
     stated = world.stated if world else {}
-    write_case(rig, (excitation, response), place, title=f"Blind case {label(number)}", stated=stated)
+    write_case(rig, (excitation, response), place, title=f"Blind case {format_case_name(number)}", stated=stated)
     truth = SealedTruth(
         schema="lostmotion.sealed/1",
-        case=label(number),
+        case=format_case_name(number),
         salt=salt,
         variant=variant,
         effects=effects,
         machine=SealedMachine(**vars(rig), measurement_noise=noise),
         world=world,
     )
-    save_json(folder_for(out / "sealed") / f"{label(number)}.json", to_plain(truth))
-    return ConcealedCase(label(number), _digests(out, label(number)))
+    save_json(folder_for(out / "sealed") / f"{format_case_name(number)}.json", to_plain(truth))
+    return ConcealedCase(format_case_name(number), _compute_digests(out, format_case_name(number)))
 
 
-def publish(out: Path, concealed: Sequence[ConcealedCase]) -> Seal:
+def publish(out: Path, cases: Sequence[ConcealedCase]) -> Seal:
     """Return the content of `seal.json` after writing it; an earlier one must say the same of the same cases."""
-    path, new = out / "seal.json", {one.case: one.digests for one in concealed}
-    old = _seal(out).digests if path.exists() else {}
+    path, new = out / "seal.json", {one.case: one.digests for one in cases}
+    old = _load_seal(out).digests if path.exists() else {}
     for case in sorted(set(old) & set(new)):
         if old[case] != new[case]:
             raise DataError(f"case {case} is not the one of {path}: {AGAIN}")
@@ -128,43 +132,43 @@ def publish(out: Path, concealed: Sequence[ConcealedCase]) -> Seal:
     return seal
 
 
-def unsealed(out: Path, number: int) -> SealedTruth:
+def open_sealed(out: Path, number: int) -> SealedTruth:
     """Return the truth of a case, after checking that neither it nor the case has changed since it was sealed."""
-    case = label(number)
-    sealed = _seal(out).digests[case]
-    for name, value in _digests(out, case).items():
+    case = format_case_name(number)
+    sealed = _load_seal(out).digests[case]
+    for name, value in _compute_digests(out, case).items():
         if sealed[name] != value:
-            raise DataError(f"{name} of case {case} is not what seal.json vouches for: nothing is scored")
+            raise DataError(f"{name} of case {case} does not match its digest in seal.json: nothing is scored")
     path = out / "sealed" / f"{case}.json"
     return from_plain(SealedTruth, load_json(path, AGAIN), str(path))
 
 
-def _seal(out: Path) -> Seal:
+def _load_seal(out: Path) -> Seal:
     return from_plain(Seal, load_json(out / "seal.json", AGAIN), str(out / "seal.json"))
 
 
-def _digests(out: Path, case: str) -> dict[str, str]:
+def _compute_digests(out: Path, case: str) -> dict[str, str]:
     place = out / "cases" / case
     files = {"truth": out / "sealed" / f"{case}.json", **{n: place / n for n in ("case.toml", "recording.csv")}}
     return {name: digest(path) for name, path in files.items()}
 
 
-def _chosen(blind: Blind, rng: np.random.Generator, kind: str = "") -> tuple[tuple[str, ...], str]:
-    """Return what is to be hidden, and the kind of measurement noise; `kind` is that of the drive, if it is given."""
+def _choose_effects(blind: Blind, rng: np.random.Generator, kind: str = "") -> tuple[tuple[str, ...], str]:
+    """Return the effects to hide, and the kind of measurement noise; `kind` is that of the drive, if it is given."""
     lot, noisy = rng.random(), str(rng.choice(list(VARIANTS), p=list(VARIANTS.values())))
     if blind.clean or (not blind.only and lot < CLEAN):
         return (), noisy
-    offered = [name for name in blind.only or NAMES if not kind or _possible(name, kind)]
+    offered = [name for name in blind.only or NAMES if not kind or _is_possible(name, kind)]
     if not offered:
         raise DataError(f"{' and '.join(blind.only)} cannot be hidden in a machine under {kind}: name more mechanisms")
     weights = np.array([RARE if name == "unknown" else 1.0 for name in offered])
     count = 1 if blind.only or lot < 1.0 - SEVERAL else int(rng.integers(2, 4))
     picked = rng.choice(offered, size=count, replace=False, p=weights / weights.sum()).tolist()
-    return tuple(_unlike(picked)), PLAIN
+    return tuple(_drop_same_kin(picked)), PLAIN
 
 
-def _unlike(names: Sequence[str]) -> list[str]:
-    """Return the names without those whose kin is there already; what nobody knows stays by itself."""
+def _drop_same_kin(names: Sequence[str]) -> list[str]:
+    """Return the names with at most one of each kin; an effect that no library has is hidden alone."""
     if "unknown" in names:
         return ["unknown"]
     kin = {TABLE[name].kin: name for name in reversed(names)}
@@ -172,16 +176,16 @@ def _unlike(names: Sequence[str]) -> list[str]:
 
 
 Filled = tuple[tuple[Effect, ...], Array, "World | None"]
-"""What is hidden in a machine, with its sizes; its motion (samples,); and its flaws, if it has any."""
+"""The hidden effects of a machine with their sizes; its motion (samples,); and its imperfections, if it has any."""
 
 
-def _machine(
+def _draw_machine(
     names: Sequence[str],
     rng: np.random.Generator,
     draw: Callable[[], BlindMachine],
     fill: Callable[[Pilot], Filled],
 ) -> tuple[BlindMachine, Filled]:
-    """Return a machine that can have all of these mechanisms, and what it is filled with."""
+    """Return a machine that can have all of these mechanisms, with its effects, its motion and its imperfections."""
     for _ in range(TRIES):
         rig = draw()
         if not all(TABLE[name].fits(rig) if name in TABLE else rig.model in SPRUNG for name in names):
@@ -196,21 +200,21 @@ def _machine(
     raise DataError(f"no machine was drawn that can have {' and '.join(names) or 'nothing'}")
 
 
-def _perfect(names: Sequence[str], rng: np.random.Generator, pilot: Pilot) -> Filled:
-    effects = tuple(drawn(name, pilot, rng) for name in names)
+def _fill_perfect(names: Sequence[str], rng: np.random.Generator, pilot: Pilot) -> Filled:
+    effects = tuple(draw_sized_effect(name, pilot, rng) for name in names)
     return effects, moved(pilot.rig, *hidden_in(pilot.rig, effects), rng), None
 
 
-def _rough(names: Sequence[str], kind: str, rng: np.random.Generator, pilot: Pilot) -> Filled:
+def _fill_imperfect(names: Sequence[str], kind: str, rng: np.random.Generator, pilot: Pilot) -> Filled:
     world = draw_world(kind, pilot, rng)
     effects = tuple(draw_effect(name, pilot, rng) for name in names)
-    return effects, moved_roughly(pilot.rig, hidden_in(pilot.rig, effects), world, rng), world
+    return effects, simulate_imperfect(pilot.rig, hidden_in(pilot.rig, effects), world, rng), world
 
 
-def _possible(name: str, kind: str) -> bool:
-    """Return whether a mechanism can be hidden under a kind of drive: some need one whose frequency stays, or a joint.
+def _is_possible(name: str, kind: str) -> bool:
+    """Return whether a mechanism can be hidden under a kind of drive: some need a constant frequency, or a joint.
 
-    No joint is hit.
+    A joint is never driven by impacts.
     """
     mechanism = TABLE.get(name)
     if mechanism is None:
@@ -218,15 +222,15 @@ def _possible(name: str, kind: str) -> bool:
     return (kind == CYCLE or not mechanism.tone) and not (kind == IMPACTS and mechanism.models == ("robot_joint",))
 
 
-def _recorded(
+def _record(
     rig: BlindMachine, truth: Array, step: float, variant: str, rng: np.random.Generator
 ) -> tuple[Array, Array, float]:
-    """Return excitation and response (samples,) as the sensors show them, and the deviation of the latter's noise."""
+    """Return excitation and response (samples,) as recorded, and the standard deviation of the response noise."""
     clean = rig.signal.value(rig.time)
     noise = rig.noise * float(np.std(truth - clean if rig.based else truth))
     white = rng.standard_normal(len(truth))
     if variant == COLOURED:
-        white = _remembering(white, float(rng.uniform(0.3, 0.8)))
+        white = _filter_ar1(white, float(rng.uniform(0.3, 0.8)))
     if variant == OUTLIERS:
         hit = rng.random(len(truth)) < 10.0 ** rng.uniform(-3.0, -2.0)
         white = white + hit * rng.choice([-1.0, 1.0], len(truth)) * rng.uniform(5.0, 20.0, len(truth))
@@ -236,8 +240,8 @@ def _recorded(
     return clean + USUAL * rig.signal.amplitude * rng.standard_normal(len(truth)), shown, noise
 
 
-def _remembering(white: Array, memory: float) -> Array:
-    """Return noise of unit deviation, each sample of which keeps a share of the one before."""
+def _filter_ar1(white: Array, memory: float) -> Array:
+    """Return AR(1) noise of unit standard deviation with the coefficient `memory`, from white noise."""
     from scipy.signal import lfilter
 
     return np.asarray(lfilter([(1.0 - memory**2) ** 0.5], [1.0, -memory], white), dtype=float)

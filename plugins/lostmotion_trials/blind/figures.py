@@ -15,36 +15,36 @@ from lostmotion_trials.blind.results import ProofSummary, Rate, SizeBin
 
 EDGE = "#555555"
 SMALLEST, LARGEST, WIDE = 0.5, 2000.0, 1.5
-"""Gains beyond these are drawn at the rim; errors beyond this ratio need a logarithmic axis."""
+"""Gains beyond these are drawn at the edge; errors beyond this ratio need a logarithmic axis."""
 CAPTIONS = {
     "detection": (
-        "Share of hidden effects that were named, over what their true terms gain in log-likelihood, with exact 95 %"
+        "Share of hidden effects that were named, over the gain in log-likelihood of their true terms, with exact 95 %"
         " bands. Small marks: single effects, named above and not named below. Lines: the likelihood-ratio test at 2 %"
-        " false alarms, told what to look for (dashed), and looking for one of as many candidates (dotted); no test"
-        " does better than the first. Open squares: the targets."
+        " false alarms for the true effect (dashed), and for one of as many candidates (dotted); no test is more"
+        " powerful than the first. Open squares: the targets."
     ),
     "reliability": (
-        "How often a mechanism was at work, over the probability that was stated of it, with exact 95 % bands. Right"
-        " probabilities lie on the line."
+        "Share of mechanisms that were present, over the probability that the diagnosis stated for them, with exact 95"
+        " % bands. Correct probabilities lie on the line."
     ),
     "heldout": (
-        "Errors of the found model on held-out data, over those of the true model in the same free runs. Shaded: within"
-        " 5 %."
+        "Errors of the found model on held-out data, divided by those of the true model in the same free runs. Shaded:"
+        " within 5 %."
     ),
 }
 
 
-def detection(told: ProofSummary) -> Figure:
-    """Return the share of effects that were named, over their size, with what is possible at all."""
-    figure = style.blank(3.6)
+def draw_detection(told: ProofSummary) -> Figure:
+    """Return the share of effects that were named, over their size, with the limit of the likelihood-ratio test."""
+    figure = style.make_figure(3.6)
     axes = figure.subplots()
     limit = told.limit
     axes.plot(limit.gain, limit.informed, color=EDGE, linestyle=(0, (5, 3)), label="likelihood-ratio limit")
     many = f"the same, one of {limit.candidates} candidates"
     axes.plot(limit.gain, limit.one_of_many, color=EDGE, linestyle=(0, (1, 2)), label=many)
     bins = [row for row in told.detection if row.counts.rate.of]
-    centres = np.array([_centre(row, told.sizes) for row in bins])
-    _banded(axes, centres, [row.counts.rate for row in bins])
+    centres = np.array([_find_centre(row, told.sizes) for row in bins])
+    _draw_banded(axes, centres, [row.counts.rate for row in bins])
     sizes = np.clip(np.array(told.sizes, dtype=float).reshape(-1, 2), SMALLEST, None)
     hit = np.array([named for _, named in told.sizes], dtype=bool)
     for chosen, at, colour in ((hit, 1.06, style.AFTER), (~hit, -0.06, style.BEFORE)):
@@ -60,13 +60,13 @@ def detection(told: ProofSummary) -> Figure:
     return figure
 
 
-def _centre(row: SizeBin, sizes: Sequence[tuple[float, float]]) -> float:
+def _find_centre(row: SizeBin, sizes: Sequence[tuple[float, float]]) -> float:
     """Return the middle of the gains in a bin, on a logarithmic axis."""
     own = [max(gain, SMALLEST) for gain, _ in sizes if row.low <= gain and not gain >= row.high]
     return float(np.clip(np.exp(np.mean(np.log(own))), SMALLEST, LARGEST))
 
 
-def _banded(axes: Axes, places: Array, rows: Sequence[Rate]) -> None:
+def _draw_banded(axes: Axes, places: Array, rows: Sequence[Rate]) -> None:
     """Draw shares with their bands."""
     share, low, high = np.array([(row.share, row.low, row.high) for row in rows]).reshape(-1, 3).T
     axes.vlines(places, low, high, color=style.AFTER, linewidth=5, alpha=0.25)
@@ -75,23 +75,23 @@ def _banded(axes: Axes, places: Array, rows: Sequence[Rate]) -> None:
         axes.annotate(f"{row.hits}/{row.of}", (x, y), (6, -3), textcoords="offset points", fontsize=8)
 
 
-def reliability(told: ProofSummary) -> Figure:
-    """Return how often a mechanism was at work, over the probability that was stated."""
-    figure = style.blank(3.6)
+def draw_reliability(told: ProofSummary) -> Figure:
+    """Return the share of mechanisms that were present, over the probability that was stated."""
+    figure = style.make_figure(3.6)
     axes = figure.subplots()
     rows = [row for row in told.reliability if row.rate.of]
     axes.plot([0.0, 1.0], [0.0, 1.0], color=EDGE, linewidth=0.8, linestyle=(0, (3, 2)))
-    _banded(axes, np.array([row.stated for row in rows]), [row.rate for row in rows])
+    _draw_banded(axes, np.array([row.stated for row in rows]), [row.rate for row in rows])
     axes.set_xlim(-0.04, 1.12)
     axes.set_ylim(-0.04, 1.04)
     axes.set_xlabel("stated probability")
-    axes.set_ylabel("share at work")
+    axes.set_ylabel("share present")
     return figure
 
 
-def heldout(told: ProofSummary) -> Figure:
+def draw_heldout(told: ProofSummary) -> Figure:
     """Return the errors of found models over those of the true ones, in order."""
-    figure = style.blank(2.6)
+    figure = style.make_figure(2.6)
     axes = figure.subplots()
     ratios = np.array(told.heldout.ratios)
     axes.axhspan(1.0 / 1.05, 1.05, color=style.SHADE, zorder=0)

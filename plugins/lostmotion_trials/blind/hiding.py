@@ -13,7 +13,7 @@ from lostmotion_trials.integrators.hidden import BOUC_WEN, DAHL, LUGRE, Hidden
 Numbers = Mapping[str, float]
 
 
-def _memory(kind: float, p: Numbers, place: float) -> dict[str, float]:
+def _set_memory(kind: float, p: Numbers, place: float) -> dict[str, float]:
     return {
         "memory": kind,
         "memory_force": p["force"],
@@ -29,9 +29,9 @@ _INSIDE: Mapping[str, Callable[[Numbers, float, float], dict[str, float]]] = {
     "stribeck_friction": lambda p, place, _w: {
         "friction": p["force"], "excess": p["excess"], "velocity": p["velocity"], "friction_place": place,
     },
-    "dahl_friction": lambda p, place, _w: _memory(DAHL, p, place),
-    "lugre_friction": lambda p, place, _w: _memory(LUGRE, p, place),
-    "bouc_wen_hysteresis": lambda p, place, _w: _memory(BOUC_WEN, p, place),
+    "dahl_friction": lambda p, place, _w: _set_memory(DAHL, p, place),
+    "lugre_friction": lambda p, place, _w: _set_memory(LUGRE, p, place),
+    "bouc_wen_hysteresis": lambda p, place, _w: _set_memory(BOUC_WEN, p, place),
     "viscous_damping": lambda p, place, _w: {"drag": p["coefficient"], "drag_place": place},
     "quadratic_damping": lambda p, place, _w: {"square": p["coefficient"], "square_place": place},
     "contact_damping": lambda p, _place, _w: {"contact_drag": p["coefficient"]},

@@ -19,14 +19,14 @@ from lostmotion.contracts import Array
 from lostmotion.settings import DEFAULT
 from lostmotion_trials.blind.mechanisms import NOISY, TABLE, UNKNOWN, Effect, Pilot
 from lostmotion_trials.blind.simulator import (
-    ACROSS,
+    CYCLE_SAMPLES,
     BlindDrive,
     BlindMachine,
     Meddling,
+    bound_pace,
     drawn_log,
-    followed,
-    foot_of,
-    pace_of,
+    find_start,
+    simulate_pieces,
     sized,
     wide_prior,
 )
@@ -35,12 +35,12 @@ from lostmotion_trials.integrators.imperfect import CELLS, REACH, Flaws, move_ro
 
 CYCLE, MULTISINE, SWEEP, STEPS, IMPACTS = "cycle", "multisine", "sweep", "steps", "impacts"
 KINDS = (CYCLE, MULTISINE, SWEEP, STEPS, IMPACTS)
-FINE = 0.003
+STEPS_PER_RATE = 0.003
 """Steps times the fastest rate: a fifth of those of a final fit."""
-SHORTEST = 1500
-SIZE = (0.02, 0.3)
+LEAST_SAMPLES = 1500
+EFFECT_SIZES = (0.02, 0.3)
 """The force of what is hidden over that of inertia, both rms; of an error of a sensor over the motion."""
-SMOOTH = (0.005, 0.05)
+SMOOTH_SIZES = (0.005, 0.05)
 """The rms of all smooth forces together over the amplitude of the drive, or of the force of inertia if that is less."""
 WAVES = 4
 FITTED = 1.0 - DEFAULT.heldout.share
@@ -91,18 +91,20 @@ def draw_machine(kind: str, rng: np.random.Generator, most: int) -> BlindMachine
     if model == "lin_backlash" and kind in (IMPACTS, STEPS):
         values["k1"] = float(rng.uniform(0.03, 0.2)) * values["k0"]
     ratio = drawn_log(rng, *((0.12, 0.5) if model == "robot_joint" else (0.2, 1.2)))
-    samples = round(drawn_log(rng, min(SHORTEST, most), most))
-    period = max(drawn_log(rng, 25.0, 100.0), ACROSS / ratio)
+    samples = round(drawn_log(rng, min(LEAST_SAMPLES, most), most))
+    period = max(drawn_log(rng, 25.0, 100.0), CYCLE_SAMPLES / ratio)
     rate = period * ratio * natural / (2.0 * math.pi)
-    signal = _signal(kind, amplitude, ratio * natural, (natural, samples / rate), rng)
+    signal = _draw_signal(kind, amplitude, ratio * natural, (natural, samples / rate), rng)
     top = max((w for _, w, _ in signal.tones), default=0.0) / (ratio * natural)
-    rate *= max(1.0, ACROSS * top / period)
+    rate *= max(1.0, CYCLE_SAMPLES * top / period)
     estimated = ("c", "k") if model == "linear_oscillator" else ("c", "x0")
     priors = {name: wide_prior(values[name], rng) for name in estimated}
     return BlindMachine(model, values, estimated, signal, rate, samples, drawn_log(rng, 0.002, 0.03), priors)
 
 
-def _signal(kind: str, size: float, omega: float, times: tuple[float, float], rng: np.random.Generator) -> BlindDrive:
+def _draw_signal(
+    kind: str, size: float, omega: float, times: tuple[float, float], rng: np.random.Generator
+) -> BlindDrive:
     """Return a drive of a kind; `times` are the natural angular frequency (rad/s) and the duration (s)."""
     natural, duration = times
     turn = float(rng.uniform(0.0, 2.0 * math.pi))
@@ -136,13 +138,13 @@ def draw_world(kind: str, pilot: Pilot, rng: np.random.Generator) -> World:
     offered = ["position", "velocity", "time", *(["phase"] if kind == CYCLE else [])]
     overs = [str(o) for o in rng.choice(offered, size=int(rng.integers(1, 4)), replace=False)]
     drive = math.inf if rig.based else rig.signal.amplitude
-    whole = drawn_log(rng, *SMOOTH) * min(drive, math.sqrt(2.0) * pilot.inertial) / math.sqrt(len(overs))
+    whole = drawn_log(rng, *SMOOTH_SIZES) * min(drive, math.sqrt(2.0) * pilot.inertial) / math.sqrt(len(overs))
     stiff = body.k + body.k0
     pace = math.sqrt(stiff / body.m)
     foot = stiff * drawn_log(rng, 50.0, 500.0)
     flaws = {
-        "position": _scale(pilot.q),
-        "velocity": _scale(pilot.v),
+        "position": _measure_scale(pilot.q),
+        "velocity": _measure_scale(pilot.v),
         "foot": foot,
         "foot_drag": foot * float(rng.uniform(0.03, 0.1)) / pace,
         "far_pace": float(rng.uniform(6.0, 15.0)) * pace,
@@ -150,11 +152,11 @@ def draw_world(kind: str, pilot: Pilot, rng: np.random.Generator) -> World:
         "far_compliance": drawn_log(rng, 0.001, 0.01) / stiff,
     }
     known = [name for name, value in rig.values.items() if name not in rig.estimated and value]
-    smooth = tuple(Blemish(over, whole, _waves(rng)) for over in overs)
+    smooth = tuple(Blemish(over, whole, _draw_waves(rng)) for over in overs)
     made = World(
         kind=kind,
         smooth=smooth,
-        friction=_waves(rng),
+        friction=_draw_waves(rng),
         flaws=flaws,
         stated={name: 1.0 + float(rng.choice([-1.0, 1.0])) * drawn_log(rng, 0.001, 0.01) for name in known},
         bend=(float(rng.uniform(-0.005, 0.005)), float(rng.uniform(-0.005, 0.005))),
@@ -164,42 +166,42 @@ def draw_world(kind: str, pilot: Pilot, rng: np.random.Generator) -> World:
         hum_pace=float(rng.uniform(0.1, 2.5)) * rig.rate,
         step=drawn_log(rng, 0.1, 2.0),
     )
-    return replace(made, curves=_tables(made, pilot, rng))
+    return replace(made, curves=_tabulate_curves(made, pilot, rng))
 
 
-def _scale(moved: Array) -> float:
+def _measure_scale(moved: Array) -> float:
     """Return the scale of a motion: its deviation, or where it has peaks, as behind a hit, 0.4 of the largest."""
     return max(float(np.std(moved)), 0.4 * float(np.max(np.abs(moved))))
 
 
-def _waves(rng: np.random.Generator) -> Curve:
+def _draw_waves(rng: np.random.Generator) -> Curve:
     """Return the waves of a random smooth function, the faster the smaller."""
     return tuple(tuple((rng.standard_normal(2) / k).tolist()) for k in range(1, WAVES + 1))
 
 
-def _function(waves: Curve, angle: Array) -> Array:
+def _evaluate_waves(waves: Curve, angle: Array) -> Array:
     """Return a random function at angles: half a wave of the slowest over pi."""
     rows = (a * np.cos(k * angle) + b * np.sin(k * angle) for k, (a, b) in enumerate(waves, start=1))
     return np.asarray(sum(rows), dtype=float)
 
 
-def _tables(world: World, pilot: Pilot, rng: np.random.Generator) -> dict[str, tuple[float, ...]]:
+def _tabulate_curves(world: World, pilot: Pilot, rng: np.random.Generator) -> dict[str, tuple[float, ...]]:
     """Return the curves (CELLS + 1,) over position, velocity and speed that the integrator reads."""
     z = np.linspace(-REACH, REACH, CELLS + 1)
-    shape = _function(world.friction, 0.5 * math.pi * np.abs(z))
+    shape = _evaluate_waves(world.friction, 0.5 * math.pi * np.abs(z))
     level = float(rng.uniform(0.05, 0.2))
     tables = {name: np.zeros(CELLS + 1) for name in ("position", "velocity")}
     moved = {"position": pilot.q, "velocity": pilot.v}
     for blemish in world.smooth:
         if blemish.over in tables:
-            raw = _function(blemish.waves, 0.5 * math.pi * z / 2.0 + 0.25 * math.pi)
+            raw = _evaluate_waves(blemish.waves, 0.5 * math.pi * z / 2.0 + 0.25 * math.pi)
             seen = moved[blemish.over] / world.flaws[blemish.over]
-            tables[blemish.over] += _scaled(raw, z, seen, blemish.rms)
+            tables[blemish.over] += _scale_curve(raw, z, seen, blemish.rms)
     friction = np.exp(level * shape / max(float(np.std(shape)), 1e-12))
     return {name: tuple(table.tolist()) for name, table in {"friction": friction, **tables}.items()}
 
 
-def _scaled(raw: Array, z: Array, seen: Array, rms: float) -> Array:
+def _scale_curve(raw: Array, z: Array, seen: Array, rms: float) -> Array:
     """Return a curve over `z` of this rms along what was seen, without the straight line in it.
 
     A constant is an offset and a slope a stiffness or a damping: these have names.
@@ -211,46 +213,50 @@ def _scaled(raw: Array, z: Array, seen: Array, rms: float) -> Array:
     return np.asarray(np.where(np.abs(z) < REACH, curve, np.interp(z, z[1:-1], curve[1:-1])), dtype=float)
 
 
-def moved_roughly(rig: BlindMachine, hidden: tuple[Hidden, Meddling], world: World, rng: np.random.Generator) -> Array:
+def simulate_imperfect(
+    rig: BlindMachine, hidden: tuple[Hidden, Meddling], world: World, rng: np.random.Generator
+) -> Array:
     """Return what the sensor shows (samples,) before its noise, after the machine has settled."""
     inside, meddling = hidden
     curves = np.array([world.curves[name] for name in ("position", "velocity", "friction")])
     flaws, state = Flaws(**world.flaws), np.zeros(9)
-    state[0] = foot_of(rig)
+    state[0] = find_start(rig)
 
     def follow(force: Array, base: Array, clock: tuple[float, float], every: int) -> Array:
         told = (force, base, rig.body, inside, flaws, curves, state, clock, every)
         return np.asarray(move_rough(*told)[:, 0])  # type: ignore[no-untyped-call]
 
-    fastest = max(pace_of(rig), 0.4 * world.flaws["far_pace"])
-    return followed(rig, meddling, rng, fastest / FINE, follow, partial(_timed, world, rig))
+    fastest = max(bound_pace(rig), 0.4 * world.flaws["far_pace"])
+    return simulate_pieces(
+        rig, meddling, rng, fastest / STEPS_PER_RATE, follow, partial(_compute_timed_force, world, rig)
+    )
 
 
-def _timed(world: World, rig: BlindMachine, t: Array) -> Array:
+def _compute_timed_force(world: World, rig: BlindMachine, t: Array) -> Array:
     """Return the smooth forces (samples,) over phase and time at the times `t` (s)."""
     total, duration = np.zeros(len(t)), rig.samples / rig.rate
     for blemish in world.smooth:
         if blemish.over == "phase":
             size = math.sqrt(0.5 * sum(a * a + b * b for a, b in blemish.waves))
-            total += blemish.rms / max(size, 1e-300) * _function(blemish.waves, rig.signal.omega * t)
+            total += blemish.rms / max(size, 1e-300) * _evaluate_waves(blemish.waves, rig.signal.omega * t)
         if blemish.over == "time":
-            size = float(np.std(_over_time(blemish.waves, np.linspace(0.0, 1.0, 2001))))
-            total += blemish.rms / max(size, 1e-300) * _over_time(blemish.waves, t / duration)
+            size = float(np.std(_evaluate_over_time(blemish.waves, np.linspace(0.0, 1.0, 2001))))
+            total += blemish.rms / max(size, 1e-300) * _evaluate_over_time(blemish.waves, t / duration)
     return total
 
 
-def _over_time(waves: Curve, share: Array) -> Array:
+def _evaluate_over_time(waves: Curve, share: Array) -> Array:
     """Return a random function at shares of a recording, without a mean in the part that is fitted nor behind it.
 
     A straight line with these means is taken out: a constant force has a name.
     """
     parts = ((0.0, FITTED), (FITTED, 1.0))
-    means = [float(np.mean(_function(waves, math.pi * np.linspace(a, b, 2001)))) for a, b in parts]
+    means = [float(np.mean(_evaluate_waves(waves, math.pi * np.linspace(a, b, 2001)))) for a, b in parts]
     slope = 2.0 * (means[1] - means[0])
-    return np.asarray(_function(waves, math.pi * share) - means[0] - slope * (share - 0.5 * FITTED))
+    return np.asarray(_evaluate_waves(waves, math.pi * share) - means[0] - slope * (share - 0.5 * FITTED))
 
 
-def recorded_roughly(rig: BlindMachine, truth: Array, world: World, rng: np.random.Generator) -> tuple[Array, float]:
+def record_imperfect(rig: BlindMachine, truth: Array, world: World, rng: np.random.Generator) -> tuple[Array, float]:
     """Return the response (samples,) as the acquisition shows it, and the deviation of its noise."""
     from scipy.signal import lfilter
 
@@ -276,7 +282,7 @@ def draw_effect(name: str, pilot: Pilot, rng: np.random.Generator) -> Effect:
     draft = mechanism.plan(pilot, at, rng)
     if name in NOISY:
         return Effect(name, at, draft.parameters(NOISY[name](pilot, float(rng.random()))))
-    share = drawn_log(rng, *SIZE)
+    share = drawn_log(rng, *EFFECT_SIZES)
     reference = float(np.std(pilot.q)) if draft.shown else pilot.inertial
     size = share * reference / max(float(np.sqrt(np.mean(draft.felt**2))), 1e-300)
     size *= rng.choice([-1.0, 1.0]) if mechanism.signed else 1.0

@@ -1,4 +1,4 @@
-"""The last step of a blind trial: what a diagnosis said of a case, held against the truth once that is unsealed."""
+"""The last step of a blind trial: a diagnosis is compared with the opened truth of its case."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from lostmotion.registry import Registry
 from lostmotion.results import Interval
 from lostmotion.results.diagnosis import Candidate, Confusion, Diagnosis, HeldOutScores, Mechanism
 from lostmotion.storage import load_result
-from lostmotion_trials.blind.bound import ALIKE, Yardstick, alike, covered, with_names, yardstick
-from lostmotion_trials.blind.commitment import unsealed
+from lostmotion_trials.blind.bound import ALIKE, Yardstick, add_library_names, alike, is_covered, yardstick
+from lostmotion_trials.blind.commitment import open_sealed
 from lostmotion_trials.blind.mechanisms import TABLE
 from lostmotion_trials.blind.pilot import Effect
 from lostmotion_trials.blind.results import HeldAgainst, HeldOutJudged, JudgedCase, JudgedEffect, JudgedParameter
@@ -27,26 +27,27 @@ Named = Mechanism | Candidate | Confusion
 FAILED = "failed"
 HIT, CONFUSED, NOTICED, MISNAMED, MISSED = "hit", "confused", "noticed", "misnamed", "missed"
 OUTCOMES = (HIT, CONFUSED, NOTICED, MISNAMED, MISSED)
-"""What may become of an effect: named; named as one that the diagnosis says it cannot tell from it; called unknown;
-called something else; not noticed."""
+"""The outcomes of an effect: named; named as one that the diagnosis lists as indistinguishable from it; called unknown
+or a random force; something else named; not noticed."""
 VAGUE = ("unknown", "random_force")
-RUB = tuple(name for name, mechanism in TABLE.items() if mechanism.kin == "rub")
-"""Laws of dry friction: where the true one has a random shape, each of them names it."""
+FRICTION_TERMS = tuple(name for name, mechanism in TABLE.items() if mechanism.kin == "rub")
+"""Laws of dry friction: where the true law has a random shape, each of these names is correct."""
 FLAWS = ("sensor_quantisation",)
-"""What every machine of an imperfect world has and the library knows."""
+"""Imperfections of every machine of an imperfect world for which the library has a term."""
 SURE = 0.95
+"""A name is sure where its stated probability is above this."""
 REPEATED = ("cosine", "sine")
-"""Parameters that say again what an amplitude and a phase say."""
+"""Parameters that are not counted, since amplitude and phase contain them."""
 TURNING = {"phase": ("depth", "amplitude")}
 """Angles, and the amplitudes whose sign turns them by half a turn."""
 
 
 def score_case(out: Path, registry: Registry, number: int) -> JudgedCase:
-    """Return what became of a case: each effect with its outcome, what was named in error, parameters, held-out errors.
+    """Return the score of a case: each effect with its outcome, false names, parameters, held-out errors.
 
     Raises `DataError` when case or truth are not those that were sealed.
     """
-    truth = unsealed(out, number)
+    truth = open_sealed(out, number)
     place = out / "cases" / truth.case
     file = place / "diagnosis" / "diagnosis.json"
     answer = load_result(Diagnosis, file, "run the same command again") if file.exists() else None
@@ -63,7 +64,7 @@ def score_case(out: Path, registry: Registry, number: int) -> JudgedCase:
         best = Yardstick((math.nan,) * len(truth.effects), ("failed",) * len(truth.effects))
         bound_status, places = " ".join(str(err).split()), 2 if truth.machine.model == "robot_joint" else 1
     each = zip(truth.effects, best.gains, best.status, strict=True)
-    effects = tuple(_as_missed(effect, gain, status) for effect, gain, status in each)
+    effects = tuple(_assume_missed(effect, gain, status) for effect, gain, status in each)
     return JudgedCase(
         case=truth.case,
         model=truth.machine.model,
@@ -71,12 +72,12 @@ def score_case(out: Path, registry: Registry, number: int) -> JudgedCase:
         margin=best.margin,
         bound_status=bound_status,
         verdict=answer.verdict if answer else FAILED,
-        answer=_held_against(answer, effects, truth.machine, several=places > 1) if answer else HeldAgainst(effects),
-        heldout=_heldout(answer.fit, best) if answer else None,
+        answer=_compare_answer(answer, effects, truth.machine, several=places > 1) if answer else HeldAgainst(effects),
+        heldout=_judge_heldout(answer.fit, best) if answer else None,
     )
 
 
-def _as_missed(effect: Effect, gain: float, status: str) -> JudgedEffect:
+def _assume_missed(effect: Effect, gain: float, status: str) -> JudgedEffect:
     """Return an effect as it stands where nothing was said of it."""
     return JudgedEffect(**vars(effect), gain=gain, status=status, outcome=MISSED)
 
@@ -88,107 +89,111 @@ def _score_imperfect(answer: Diagnosis | None, truth: SealedTruth, kind: str) ->
     where one of them names it.
     """
     several = truth.machine.model == "robot_joint"
-    effects = tuple(_as_missed(effect, math.nan, "no true model") for effect in truth.effects)
+    effects = tuple(_assume_missed(effect, math.nan, "no true model") for effect in truth.effects)
     told = partial(
         JudgedCase, case=truth.case, model=truth.machine.model, variant=truth.variant, margin=math.nan, kind=kind,
         heldout=None,
     )  # fmt: skip
     if answer is None:
         return told(verdict=FAILED, answer=HeldAgainst(tuple(replace(e, sure=False) for e in effects)), sure=())
-    against = _held_against(answer, effects, truth.machine, several=several)
+    against = _compare_answer(answer, effects, truth.machine, several=several)
     named = [entry for entry in answer.found if entry.mechanism not in VAGUE]
     stated = [entry for entry in named if entry.probability > SURE and entry.state == "named"]
-    sure = tuple((_name(entry), there_is(effects, entry, several=several)) for entry in stated)
+    sure = tuple((_format_name(entry), is_present(effects, entry, several=several)) for entry in stated)
     against = replace(
         against,
-        effects=tuple(_sured(e, named, stated, several=several) for e in against.effects),
+        effects=tuple(_mark_sure(e, named, stated, several=several) for e in against.effects),
         false=tuple(name for name, right in sure if not right),
         parameters=(),
-        stated=tuple(_stated(answer.ranking, effects, several=several, rough=True)),
+        stated=tuple(_list_stated(answer.ranking, effects, several=several, rough=True)),
     )
     risen = answer.fit.after.nrmse - answer.fit.before.nrmse
     return told(verdict=answer.verdict, answer=against, sure=sure, worse=risen)
 
 
-def in_kind(effect: Effect, entry: Named, *, several: bool) -> bool:
+def is_same_kind(effect: Effect, entry: Named, *, several: bool) -> bool:
     """Return whether an entry names an effect, at its place; any law of friction names friction of a random shape."""
-    if same(effect, entry, several=several):
+    if names_effect(effect, entry, several=several):
         return True
     as_named = replace(effect, mechanism=entry.mechanism)
-    return {effect.mechanism, entry.mechanism} <= set(RUB) and same(as_named, entry, several=several)
+    return {effect.mechanism, entry.mechanism} <= set(FRICTION_TERMS) and names_effect(as_named, entry, several=several)
 
 
-def there_is(effects: Sequence[Effect], entry: Named, *, several: bool) -> bool:
+def is_present(effects: Sequence[Effect], entry: Named, *, several: bool) -> bool:
     """Return whether what an entry names is in a machine of an imperfect world: hidden, or a flaw that each has."""
-    return entry.mechanism in FLAWS or any(in_kind(e, entry, several=several) for e in effects)
+    return entry.mechanism in FLAWS or any(is_same_kind(e, entry, several=several) for e in effects)
 
 
-def _sured(
+def _mark_sure(
     effect: JudgedEffect, named: Sequence[Mechanism], stated: Sequence[Mechanism], *, several: bool
 ) -> JudgedEffect:
     """Return an effect with its outcome, and whether a sure name names it; any law of friction names friction."""
-    hit = any(in_kind(effect, entry, several=several) for entry in named)
-    sure = any(in_kind(effect, entry, several=several) for entry in stated)
+    hit = any(is_same_kind(effect, entry, several=several) for entry in named)
+    sure = any(is_same_kind(effect, entry, several=several) for entry in stated)
     return replace(effect, outcome=HIT if hit else effect.outcome, sure=sure)
 
 
-def _held_against(
+def _compare_answer(
     answer: Diagnosis, effects: Sequence[JudgedEffect], machine: BlindMachine, *, several: bool
 ) -> HeldAgainst:
     found = answer.found
-    right = [entry for entry in found if any(same(e, entry, several=several) for e in effects)]
-    rows = [_with_outcome(e, answer, several=several) for e in effects]
+    right = [entry for entry in found if any(names_effect(e, entry, several=several) for e in effects)]
+    rows = [_find_outcome(e, answer, several=several) for e in effects]
     if len(right) == len(found):
         rows = [replace(row, outcome=MISSED) if row.outcome == MISNAMED else row for row in rows]
     exact = len(right) == len(found) and all(row.outcome == HIT for row in rows)
     return HeldAgainst(
         effects=tuple(rows),
-        named=tuple(_name(entry) for entry in found),
-        false=tuple(_name(entry) for entry in found if entry not in right),
+        named=tuple(_format_name(entry) for entry in found),
+        false=tuple(_format_name(entry) for entry in found if entry not in right),
         parameters=(
-            *(row for e in effects for row in _of_effect(with_names(e, machine), found, several=several)),
-            *(_of_machine(answer.parameters.after, machine.values) if exact else ()),
+            *(
+                row
+                for e in effects
+                for row in _judge_effect_parameters(add_library_names(e, machine), found, several=several)
+            ),
+            *(_judge_machine_parameters(answer.parameters.after, machine.values) if exact else ()),
         ),
-        stated=tuple(_stated(answer.ranking, effects, several=several)),
+        stated=tuple(_list_stated(answer.ranking, effects, several=several)),
     )
 
 
-def same(effect: Effect, entry: Named, *, several: bool) -> bool:
+def names_effect(effect: Effect, entry: Named, *, several: bool) -> bool:
     """Return whether an entry names an effect, at its place where there are several and it has one."""
     at = effect.at if entry.at is None else entry.at
     here = not several or not effect.at or at in (effect.at, "drive", "sensor")
     return here and alike(effect.mechanism, entry.mechanism)
 
 
-def _name(entry: Mechanism) -> str:
+def _format_name(entry: Mechanism) -> str:
     return entry.mechanism if entry.at in ("", "ground", "drive", "sensor") else f"{entry.mechanism}@{entry.at}"
 
 
-def _with_outcome(effect: JudgedEffect, answer: Diagnosis, *, several: bool) -> JudgedEffect:
+def _find_outcome(effect: JudgedEffect, answer: Diagnosis, *, several: bool) -> JudgedEffect:
     """Return an effect with what became of it, and the probability that was stated of what was found of it."""
     for entry in answer.found:
-        if same(effect, entry, several=several):
+        if names_effect(effect, entry, several=several):
             return replace(effect, outcome=HIT, probability=entry.probability)
-    if answer.found and any(same(effect, other, several=several) for other in answer.confused_with):
+    if answer.found and any(names_effect(effect, other, several=several) for other in answer.confused_with):
         return replace(effect, outcome=CONFUSED)
     if any(entry.mechanism in VAGUE for entry in answer.found):
         return replace(effect, outcome=NOTICED)
     return replace(effect, outcome=MISNAMED if answer.found else MISSED)
 
 
-def _of_effect(effect: Effect, found: Sequence[Mechanism], *, several: bool) -> Iterator[JudgedParameter]:
+def _judge_effect_parameters(effect: Effect, found: Sequence[Mechanism], *, several: bool) -> Iterator[JudgedParameter]:
     """Yield each parameter of an effect that was named exactly, with whether its interval holds the truth."""
     for entry in found:
-        if entry.mechanism != effect.mechanism or not same(effect, entry, several=several):
+        if entry.mechanism != effect.mechanism or not names_effect(effect, entry, several=several):
             continue
-        own = _turned(effect.parameters, entry.parameters)
+        own = _align_sign(effect.parameters, entry.parameters)
         for name, interval in entry.parameters.items():
             if name in own and interval.low < interval.high and name not in REPEATED:
-                yield _parameter(f"{effect.mechanism}.{name}", own[name], interval, turn=name in TURNING)
+                yield _judge_parameter(f"{effect.mechanism}.{name}", own[name], interval, turn=name in TURNING)
         return
 
 
-def _turned(truth: Mapping[str, float], said: Mapping[str, Interval]) -> dict[str, float]:
+def _align_sign(truth: Mapping[str, float], said: Mapping[str, Interval]) -> dict[str, float]:
     """Return the true parameters with that sign of the amplitude which was found; an angle turns with it."""
     own = dict(truth)
     for angle, amplitudes in TURNING.items():
@@ -198,26 +203,26 @@ def _turned(truth: Mapping[str, float], said: Mapping[str, Interval]) -> dict[st
     return own
 
 
-def _of_machine(said: Mapping[str, Interval], truth: Mapping[str, float]) -> Iterator[JudgedParameter]:
+def _judge_machine_parameters(said: Mapping[str, Interval], truth: Mapping[str, float]) -> Iterator[JudgedParameter]:
     """Yield the parameters of the machine itself, which are to be right where everything was named.
 
     Where a model does not hold an interval is withheld: its ends are NaN.
     """
     for name, interval in said.items():
         if name in truth and interval.low < interval.high:
-            yield _parameter(name, truth[name], interval)
+            yield _judge_parameter(name, truth[name], interval)
 
 
-def _parameter(name: str, truth: float, said: Interval, *, turn: bool = False) -> JudgedParameter:
+def _judge_parameter(name: str, truth: float, said: Interval, *, turn: bool = False) -> JudgedParameter:
     error = said.median - truth
     if turn:
         error = math.remainder(error, 2.0 * math.pi)
-    inside = covered(said, truth, turn=turn)
+    inside = is_covered(said, truth, turn=turn)
     relative = error / abs(truth) if truth and not turn else math.nan
     return JudgedParameter(name, truth, said.low, said.median, said.high, inside, relative)
 
 
-def _stated(
+def _list_stated(
     ranking: Sequence[Candidate], effects: Sequence[Effect], *, several: bool, rough: bool = False
 ) -> Iterator[tuple[float, float]]:
     """Yield each probability that was stated of a mechanism, and 1 if that was at work, else 0.
@@ -231,17 +236,17 @@ def _stated(
         if name not in (*VAGUE, "nothing_missing"):
             kin = next((min(names) for names in ALIKE if name in names), name)
             place = row.at if row.at in ("ground", "base") else ""
-            shares.setdefault(("rub" if rough and name in RUB else kin, place), []).append(row)
-    there = there_is if rough else _at_work
+            shares.setdefault(("rub" if rough and name in FRICTION_TERMS else kin, place), []).append(row)
+    there = is_present if rough else _is_at_work
     for rows in shares.values():
         yield min(sum(row.probability for row in rows), 1.0), float(there(effects, rows[0], several=several))
 
 
-def _at_work(effects: Sequence[Effect], entry: Named, *, several: bool) -> bool:
-    return any(same(effect, entry, several=several) for effect in effects)
+def _is_at_work(effects: Sequence[Effect], entry: Named, *, several: bool) -> bool:
+    return any(names_effect(effect, entry, several=several) for effect in effects)
 
 
-def _heldout(fit: HeldOutScores, best: Yardstick) -> HeldOutJudged | None:
+def _judge_heldout(fit: HeldOutScores, best: Yardstick) -> HeldOutJudged | None:
     """Return the errors on held-out data of nominal, found and true model, and the share of what can be won."""
     before, after, true = fit.before.nrmse, fit.after.nrmse, best.nrmse
     if not all(map(math.isfinite, (before, after, true))):

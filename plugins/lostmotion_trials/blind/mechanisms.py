@@ -11,9 +11,20 @@ import numpy as np
 from lostmotion_trials.blind import plans
 from lostmotion_trials.blind.pilot import Effect, EffectDraft, Pilot
 from lostmotion_trials.blind.plans import Plan
-from lostmotion_trials.blind.simulator import GAPPED, BlindMachine
+from lostmotion_trials.blind.simulator import GAP_MODELS, BlindMachine
 
-__all__ = ["GAIN", "NAMES", "NOISY", "SPRUNG", "TABLE", "UNKNOWN", "Effect", "HiddenMechanism", "Pilot", "drawn"]
+__all__ = [
+    "GAIN",
+    "NAMES",
+    "NOISY",
+    "SPRUNG",
+    "TABLE",
+    "UNKNOWN",
+    "Effect",
+    "HiddenMechanism",
+    "Pilot",
+    "draw_sized_effect",
+]
 
 LARGEST = 0.3
 """A hidden force has at the most this share of the inertial force, rms."""
@@ -30,7 +41,7 @@ class HiddenMechanism:
     plan: Plan
     kin: str
     at: tuple[str, ...] = ("",)
-    models: tuple[str, ...] = (*GAPPED, "linear_oscillator", "rigid_drive")
+    models: tuple[str, ...] = (*GAP_MODELS, "linear_oscillator", "rigid_drive")
     tone: bool = False
     signed: bool = False
 
@@ -45,7 +56,7 @@ class HiddenMechanism:
 
 
 ANYWHERE = ("ground", "base")
-SPRUNG = (*GAPPED, "linear_oscillator")
+SPRUNG = (*GAP_MODELS, "linear_oscillator")
 TABLE: Mapping[str, HiddenMechanism] = {
     "coulomb_friction": HiddenMechanism(plans.one("force", lambda _, v: np.sign(v)), "rub", ANYWHERE),
     "stribeck_friction": HiddenMechanism(plans.stribeck, "rub", ANYWHERE),
@@ -54,15 +65,15 @@ TABLE: Mapping[str, HiddenMechanism] = {
     "bouc_wen_hysteresis": HiddenMechanism(plans.bristle(name="travel", low=0.1, high=1.0), "rub", ANYWHERE),
     "viscous_damping": HiddenMechanism(plans.one("coefficient", lambda _, v: v), "drag", ("ground",), ("robot_joint",)),
     "quadratic_damping": HiddenMechanism(plans.one("coefficient", lambda _, v: v * np.abs(v)), "drag", ANYWHERE),
-    "contact_damping": HiddenMechanism(plans.contact_drag, "contact", ("own",), GAPPED),
+    "contact_damping": HiddenMechanism(plans.contact_drag, "contact", ("own",), GAP_MODELS),
     "linear_stiffness": HiddenMechanism(
-        plans.one("coefficient", lambda x, _: x), "spring", ANYWHERE, (*GAPPED, "rigid_drive")
+        plans.one("coefficient", lambda x, _: x), "spring", ANYWHERE, (*GAP_MODELS, "rigid_drive")
     ),
     "cubic_stiffness": HiddenMechanism(
         plans.one("coefficient", lambda x, _: x**3), "spring", ANYWHERE, SPRUNG, signed=True
     ),
-    "asymmetric_gap": HiddenMechanism(plans.asymmetric, "gap", ("own",), GAPPED, signed=True),
-    "gap_drift": HiddenMechanism(plans.drift, "gap", ("",), GAPPED),
+    "asymmetric_gap": HiddenMechanism(plans.asymmetric, "gap", ("own",), GAP_MODELS, signed=True),
+    "gap_drift": HiddenMechanism(plans.drift, "gap", ("",), GAP_MODELS),
     "offset_force": HiddenMechanism(
         plans.one("force", lambda x, _: np.ones_like(x)), "push", ("",), SPRUNG, signed=True
     ),
@@ -76,8 +87,8 @@ TABLE: Mapping[str, HiddenMechanism] = {
     "random_force": HiddenMechanism(lambda p, _a, _r: EffectDraft(p.q, lambda s: {"rms": s}), "chance"),
     "backlash": HiddenMechanism(plans.play, "gap", ("",), ("linear_oscillator",)),
     "end_stop": HiddenMechanism(plans.stop, "gap", ("ground",), ("linear_oscillator", "robot_joint")),
-    "hunt_crossley_contact": HiddenMechanism(plans.crushed, "contact", ("own",), GAPPED),
-    "hertz_contact": HiddenMechanism(plans.curved, "spring", ("own",), GAPPED),
+    "hunt_crossley_contact": HiddenMechanism(plans.crushed, "contact", ("own",), GAP_MODELS),
+    "hertz_contact": HiddenMechanism(plans.curved, "spring", ("own",), GAP_MODELS),
     "bilinear_stiffness": HiddenMechanism(
         plans.one("difference", lambda x, _: -0.5 * np.abs(x)), "spring", ("ground",), SPRUNG, signed=True
     ),
@@ -99,7 +110,7 @@ TABLE: Mapping[str, HiddenMechanism] = {
     "cogging": HiddenMechanism(plans.magnets, "wave", ("ground",)),
     "position_ripple": HiddenMechanism(plans.sensor_wave, "round"),
     "actuator_lag": HiddenMechanism(plans.behind, "late"),
-    "sensor_lag": HiddenMechanism(plans.sensor_behind, "late", ("",), GAPPED),
+    "sensor_lag": HiddenMechanism(plans.sensor_behind, "late", ("",), GAP_MODELS),
     "drive_saturation": HiddenMechanism(plans.limited, "more"),
     "drive_dead_zone": HiddenMechanism(plans.dead, "more"),
 }
@@ -118,7 +129,7 @@ NOISY: Mapping[str, Callable[[Pilot, float], float]] = {
 """Sizes of what has no force that could be foretold, from a share between 0 and 1."""
 
 
-def drawn(name: str, pilot: Pilot, rng: np.random.Generator) -> Effect:
+def draw_sized_effect(name: str, pilot: Pilot, rng: np.random.Generator) -> Effect:
     """Return a mechanism of a size at which it should show in `pilot` as well as a random gain in log-likelihood."""
     what = str(rng.choice(list(UNKNOWN))) if name == "unknown" else ""
     mechanism = UNKNOWN[what] if what else TABLE[name]

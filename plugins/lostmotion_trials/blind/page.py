@@ -12,10 +12,10 @@ from matplotlib.figure import Figure
 
 from lostmotion.codec import from_plain, to_plain
 from lostmotion.report import style
-from lostmotion.report.pages import DrawnSection, template, written
-from lostmotion.report.words import DASH, figures, percent, sentence, spoken, typeset
+from lostmotion.report.pages import DrawnSection, load_template, write_page
+from lostmotion.report.words import DASH, figures, percent, sentence, to_words, typeset
 from lostmotion.storage import load_json, require_files
-from lostmotion_trials.blind.figures import CAPTIONS, detection, heldout, reliability
+from lostmotion_trials.blind.figures import CAPTIONS, draw_detection, draw_heldout, draw_reliability
 from lostmotion_trials.blind.results import (
     FalseAlarm,
     Miss,
@@ -30,9 +30,10 @@ from lostmotion_trials.blind.results import (
 
 AGAIN = "run `lostmotion prove` again"
 IMPERFECT = (
-    "Beside what is hidden each machine has flaws that no term describes: small smooth forces, friction of a random"
-    " curve over the speed, a foot that gives way, a far mode, known values that are slightly wrong, a bent sensor, and"
-    " noise with a memory, hum and steps. So no model is true, and no effect has a size in log-likelihood."
+    "Beside the hidden effect each machine has imperfections that no term describes: small smooth forces, friction with"
+    " a random dependence on speed, a compliant foot, a mode far above the band, known values that are slightly wrong,"
+    " a nonlinear sensor, and noise with AR(1) part, mains hum and quantisation. So no model is exactly true, and no"
+    " effect has a size in log-likelihood."
 )
 DRIVES = {
     "all": "all",
@@ -45,7 +46,7 @@ DRIVES = {
 
 
 class Listed(NamedTuple):
-    """A table as the template takes it: each cell with whether it is out of what was wanted."""
+    """A table for the template: each cell with whether it is outside of its target."""
 
     title: str
     head: list[str]
@@ -58,69 +59,72 @@ def write_proof(folder: Path) -> Path:
     require_files(folder, ["proof.json"], "lostmotion prove")
     path = folder / "proof.json"
     proof = from_plain(Proof, load_json(path, AGAIN), str(path))
-    return written(folder / "report.html", lambda: render(proof), AGAIN)
+    return write_page(folder / "report.html", lambda: render(proof), AGAIN)
 
 
 def render(proof: Proof) -> str:
     """Return the page as one self-contained HTML text."""
     told = proof.summary
-    with style.applied():
-        parts = _figures(told)
+    with style.use_style():
+        parts = _list_figures(told)
         drawn = [
-            DrawnSection(name, title, style.embedded(figure, name), CAPTIONS[name]) for name, title, figure in parts
+            DrawnSection(name, title, style.embed_figure(figure, name), CAPTIONS[name]) for name, title, figure in parts
         ]
     states = [row.state for row in told.targets]
-    return template("page.html.j2", __package__).render(
+    return load_template("page.html.j2", __package__).render(
         title=proof.title,
-        badge=_badge(states),
+        badge=_choose_badge(states),
         passes="missed" not in states and "met" in states,
         answer=[typeset(part) for part in told.says],
         world=IMPERFECT if told.sure else "",
         figures=drawn,
-        targets=_targets(told.targets),
-        tables=[table for table in _tables(told) if table.rows],
-        lists=[(title, lines) for title, lines in _lists(told) if lines],
+        targets=_list_targets(told.targets),
+        tables=[table for table in _list_tables(told) if table.rows],
+        lists=[(title, lines) for title, lines in _list_cases(told) if lines],
         provenance=json.dumps(to_plain(proof.provenance), indent=2, ensure_ascii=False),
     )
 
 
-def _badge(states: list[str]) -> str:
+def _choose_badge(states: list[str]) -> str:
     if "missed" in states:
         return "Targets missed"
     tried = [state for state in states if state != "not tried"]
     return "Targets met" if tried and set(tried) == {"met"} else "Not decided"
 
 
-def _figures(told: ProofSummary) -> Iterator[tuple[str, str, Figure]]:
+def _list_figures(told: ProofSummary) -> Iterator[tuple[str, str, Figure]]:
     """Yield name, heading and drawing of each figure that has something to show."""
     if told.sizes:
-        yield "detection", "How small may an effect be?", detection(told)
+        yield "detection", "How small may an effect be?", draw_detection(told)
     if any(row.rate.of for row in told.reliability):
-        yield "reliability", "Are stated probabilities right?", reliability(told)
+        yield "reliability", "Are stated probabilities right?", draw_reliability(told)
     if told.heldout.ratios:
-        yield "heldout", "Is the found model as good as the true one?", heldout(told)
+        yield "heldout", "Is the found model as good as the true one?", draw_heldout(told)
 
 
-def _plain(*cells: str) -> list[tuple[str, bool]]:
+def _make_plain_cells(*cells: str) -> list[tuple[str, bool]]:
     return [(cell, False) for cell in cells]
 
 
-def _rate(row: Rate) -> list[str]:
+def _format_rate(row: Rate) -> list[str]:
     """Return a share as two cells: the counts, and the share with its band."""
     if not row.of:
         return ["0", DASH]
     return [f"{row.hits} of {row.of}", f"{percent(row.share)} [{percent(row.low)}, {percent(row.high)}]"]
 
 
-def _targets(targets: Sequence[Target]) -> Listed:
+def _list_targets(targets: Sequence[Target]) -> Listed:
     rows = [
-        [*_plain(sentence(row.what), _wanted(row), *_rate(row.rate)), (row.state, row.state == "missed")]
+        [
+            *_make_plain_cells(sentence(row.what), _format_wanted(row), *_format_rate(row.rate)),
+            (row.state, row.state == "missed"),
+        ]
         for row in targets
     ]
     return Listed("", ["Target", "Wanted", "Found", "Share, 95 % band", ""], rows, "")
 
 
-def _wanted(row: Target) -> str:
+def _format_wanted(row: Target) -> str:
     if row.at_most == 1.0:
         return f"≥ {percent(row.at_least)}"
     if row.at_least == 0.0:
@@ -128,24 +132,27 @@ def _wanted(row: Target) -> str:
     return f"{percent(row.at_least)} to {percent(row.at_most)}"
 
 
-def _tables(told: ProofSummary) -> Iterator[Listed]:
+def _list_tables(told: ProofSummary) -> Iterator[Listed]:
     """Yield the tables below the figures."""
-    yield _sure(told.sure)
+    yield _list_sure(told.sure)
     outcomes = ["Confused", "Noticed", "Misnamed", "Missed"]
     note = (
-        "Confused: the diagnosis lists the truth among what it cannot tell from what it named. Noticed: called unknown,"
-        " or a random force. Misnamed: something else was named; in brackets how often that fits as well, to within 3"
-        " in log-likelihood. Without a term in the library an effect has no gain."
+        "Confused: the diagnosis lists the truth among the mechanisms that it cannot distinguish from the named one."
+        " Noticed: called unknown, or a random force. Misnamed: something else was named; in brackets how often that"
+        " fits as well, to within 3 in log-likelihood. Without a term in the library an effect has no gain."
     )
     bins = [row for row in told.detection if row.counts.rate.of]
-    rows = [_plain(_size(row), *_rate(row.counts.rate), *_outcomes(row.counts)) for row in bins]
+    rows = [
+        _make_plain_cells(_format_size(row), *_format_rate(row.counts.rate), *_format_outcomes(row.counts))
+        for row in bins
+    ]
     yield Listed("By size", ["Gain", "Named", "Share, 95 % band", *outcomes], rows, note)
-    yield _mechanisms(told, outcomes, note)
-    rows = [_plain(row.noise, *_rate(row.rate)) for row in told.alarms if row.rate.of]
+    yield _list_mechanisms(told, outcomes, note)
+    rows = [_make_plain_cells(row.noise, *_format_rate(row.rate)) for row in told.alarms if row.rate.of]
     title = "False sure names on machines that hide nothing" if told.sure else "False alarms on clean cases"
     yield Listed(title, ["Measurement noise", "Cases", "Share, 95 % band"], rows, "")
     rows = [
-        _plain(_words(row.name), *_rate(row.rate), percent(row.median_relative_error))
+        _make_plain_cells(_format_parameter(row.name), *_format_rate(row.rate), percent(row.median_relative_error))
         for row in told.coverage
         if row.rate.of
     ]
@@ -154,76 +161,80 @@ def _tables(told: ProofSummary) -> Iterator[Listed]:
         "Do 95 % intervals hold the truth?",
         head,
         rows,
-        "Of cases with white noise in which the parameter, and for those of the machine everything, was named exactly.",
+        "For parameters of a mechanism: cases with white noise in which it was named exactly. For parameters of the"
+        " machine: cases with white noise in which everything was named exactly.",
     )
-    rows = [_plain(spoken(row.truth), spoken(row.answer), str(row.cases)) for row in told.confusion]
+    rows = [_make_plain_cells(to_words(row.truth), to_words(row.answer), str(row.cases)) for row in told.confusion]
     yield Listed("What was taken for what", ["Truth", "Answer", "Times"], rows, "")
 
 
-def _sure(counts: Sequence[SureCount]) -> Listed:
-    """Return what became of sure names in an imperfect world, by the kind of drive."""
+def _list_sure(counts: Sequence[SureCount]) -> Listed:
+    """Return the table of the outcomes of sure names in an imperfect world, by the kind of drive."""
     rows = [
-        _plain(
+        _make_plain_cells(
             DRIVES.get(row.kind, row.kind),
             str(row.machines),
-            *(", ".join(_rate(part)) for part in (row.rate, row.named, row.worse)),
+            *(", ".join(_format_rate(part)) for part in (row.rate, row.named, row.worse)),
         )
         for row in counts
     ]
     head = ["Drive", "Machines", "Names that are there", "Hidden effect named", "Held-out error rose"]
     note = (
-        "Shares with exact 95 % bands. Any law of dry friction names friction, for its true curve over the speed is a"
-        " random one; quantisation of the sensor is on every machine. Hidden effects that no term of the library"
-        " describes are not counted among those that could be named."
+        "Shares with exact 95 % bands. Any law of dry friction counts as correct for friction, since its true"
+        " dependence on speed is random; every machine has a quantised sensor. Hidden effects that no term of the"
+        " library describes are not counted among those that could be named."
     )
     return Listed("Names stated with more than 0.95", head, rows, note)
 
 
-def _mechanisms(told: ProofSummary, outcomes: list[str], note: str) -> Listed:
-    """Return what became of each mechanism; in an imperfect world none has a gain or a true model."""
+def _list_mechanisms(told: ProofSummary, outcomes: list[str], note: str) -> Listed:
+    """Return the table of outcomes by mechanism; in an imperfect world none has a gain or a true model."""
     head = ["Named", "Share, 95 % band"]
-    counts = [(row, [*_rate(row.counts.rate), *_outcomes(row.counts)]) for row in told.mechanisms]
+    counts = [(row, [*_format_rate(row.counts.rate), *_format_outcomes(row.counts)]) for row in told.mechanisms]
     if told.sure:
-        rows = [_plain(spoken(row.mechanism), *cells) for row, cells in counts]
+        rows = [_make_plain_cells(to_words(row.mechanism), *cells) for row, cells in counts]
         return Listed("By mechanism", ["Mechanism", *head, *outcomes], rows, note.partition("; in brackets")[0] + ".")
-    rows = [_plain(spoken(row.mechanism), figures(row.median_gain), *cells, row.bound_status) for row, cells in counts]
+    rows = [
+        _make_plain_cells(to_words(row.mechanism), figures(row.median_gain), *cells, row.bound_status)
+        for row, cells in counts
+    ]
     return Listed("By mechanism", ["Mechanism", "Median gain", *head, *outcomes, "True model"], rows, "")
 
 
-def _size(row: SizeBin) -> str:
+def _format_size(row: SizeBin) -> str:
     return f"{figures(row.low)} to {figures(row.high)}" if math.isfinite(row.high) else f"over {figures(row.low)}"
 
 
-def _outcomes(row: Outcomes) -> list[str]:
+def _format_outcomes(row: Outcomes) -> list[str]:
     counts = {name: str(count) for name, count in row.outcomes.items() if name != "hit"}
     if row.misnamed_alike:
         counts["misnamed"] += f" ({row.misnamed_alike})"
     return list(counts.values())
 
 
-def _words(name: str) -> str:
+def _format_parameter(name: str) -> str:
     mechanism, dot, parameter = name.partition(".")
-    return f"{spoken(mechanism)}, {parameter}" if dot else name
+    return f"{to_words(mechanism)}, {parameter}" if dot else name
 
 
-def _lists(told: ProofSummary) -> Iterator[tuple[str, list[str]]]:
+def _list_cases(told: ProofSummary) -> Iterator[tuple[str, list[str]]]:
     """Yield the lists of single cases at the end of the page."""
-    yield "Every effect that was not named", [_missed(one, rough=bool(told.sure)) for one in told.misses]
-    yield "Everything that was named and is not there", [_alarm(one) for one in told.false_alarms]
+    yield "Every effect that was not named", [_describe_miss(one, rough=bool(told.sure)) for one in told.misses]
+    yield "Everything that was named and is not there", [_describe_alarm(one) for one in told.false_alarms]
     yield "Cases without a diagnosis", [f"{one.case}: {sentence(one.says)}" for one in told.failed]
     yield "Cases without a true model", [f"{one.case}: {sentence(one.says)}" for one in told.unmeasured]
 
 
-def _missed(one: Miss, *, rough: bool) -> str:
-    what = one.what or spoken(one.mechanism)
+def _describe_miss(one: Miss, *, rough: bool) -> str:
+    what = one.what or to_words(one.mechanism)
     at = f" at the {one.at}" if one.at else ""
     gain = one.status if math.isnan(one.gain) else f"gain {figures(one.gain)}"
     size = "" if rough else f" ({gain})"
-    named = ", ".join(map(spoken, one.named)) or "nothing"
+    named = ", ".join(map(to_words, one.named)) or "nothing"
     margin = "" if math.isnan(one.margin) or not one.named else f", which fits worse by {figures(one.margin, 2)}"
     return f"{one.folder}: {what}{at}{size}, {one.outcome}; named was {named}{margin}."
 
 
-def _alarm(one: FalseAlarm) -> str:
-    truth = ", ".join(map(spoken, one.truth)) or "nothing"
-    return f"{one.folder}: {', '.join(map(spoken, one.named))}; hidden was {truth}."
+def _describe_alarm(one: FalseAlarm) -> str:
+    truth = ", ".join(map(to_words, one.truth)) or "nothing"
+    return f"{one.folder}: {', '.join(map(to_words, one.named))}; hidden was {truth}."

@@ -1,4 +1,4 @@
-"""The blind trial as part of the product: one process conceals, another diagnoses, a third unseals and scores."""
+"""The steps of a blind trial: one process conceals, another diagnoses, a third opens the truths and scores."""
 
 from __future__ import annotations
 
@@ -16,28 +16,28 @@ from lostmotion.errors import LostMotionError, PlaceError
 from lostmotion.provenance import digest, provenance
 from lostmotion.registry import Registry
 from lostmotion.storage import folder_for, save_json
-from lostmotion_trials.blind.commitment import Blind, concealed, label, publish
+from lostmotion_trials.blind.commitment import Blind, conceal_case, format_case_name, publish
 from lostmotion_trials.blind.judging import score_case
 from lostmotion_trials.blind.page import write_proof
 from lostmotion_trials.blind.results import DiagnosedCase, JudgedCase, Proof
-from lostmotion_trials.blind.score import summary
+from lostmotion_trials.blind.score import summarise
 from lostmotion_trials.blind.sealed import ConcealedCase
 
 T = TypeVar("T")
 Say = Callable[[str, int, int], None]
-"""Told which step is being made, how many of its trials are done, and how many there are."""
+"""Called with the current step, how many of its trials are done, and how many there are."""
 
 
 @dataclass(frozen=True)
 class Diagnoser:
-    """One who diagnoses: knows the folder of the cases and the plugin files, and nothing else."""
+    """The step that diagnoses: it has the folder of the cases and the plugin files, but not the truths."""
 
     cases: Path
     plugins: tuple[str, ...] = ()
 
     def __call__(self, number: int) -> DiagnosedCase:
         """Return whether a case was diagnosed, after writing the diagnosis beside it."""
-        place = self.cases / label(number)
+        place = self.cases / format_case_name(number)
         shutil.rmtree(place / "diagnosis", ignore_errors=True)
         try:
             found = run_diagnosis(
@@ -47,9 +47,9 @@ class Diagnoser:
             raise
         except (LostMotionError, ArithmeticError, ValueError) as err:
             shutil.rmtree(place / "diagnosis", ignore_errors=True)
-            return DiagnosedCase(label(number), "failed", " ".join(str(err).split()))
+            return DiagnosedCase(format_case_name(number), "failed", " ".join(str(err).split()))
         (place / "diagnosis" / "arrays.nc").unlink()
-        return DiagnosedCase(label(number), "ok", " ".join(found.says))
+        return DiagnosedCase(format_case_name(number), "ok", " ".join(found.says))
 
 
 @dataclass(frozen=True)
@@ -60,7 +60,7 @@ class Scorer:
     plugins: tuple[str, ...] = ()
 
     def __call__(self, number: int) -> JudgedCase:
-        """Return what became of a case."""
+        """Return the score of a case."""
         return score_case(self.out, _registry(self.plugins), number)
 
 
@@ -80,7 +80,7 @@ def run_proof(
 ) -> Proof:
     """Return the content of `proof.json` after writing it and `report.html` into `out`, beside cases and truths.
 
-    Each of the three steps is a campaign of processes of its own in `out`/steps; one that was killed goes on.
+    Each of the three steps is a campaign with its own processes in `out`/steps; an interrupted one is continued.
     """
     blind.check()
     out = folder_for(out).absolute()
@@ -91,17 +91,17 @@ def run_proof(
     inputs = {Path(file).name: digest(Path(file)) for file in plugins}
     origin = partial(provenance, seed=blind.seed, inputs=inputs)
 
-    def made(step: str, trial: Trial[T], kind: type[T], given: Mapping[str, object]) -> list[T]:
+    def run_step(step: str, trial: Trial[T], kind: type[T], given: Mapping[str, object]) -> list[T]:
         campaign = Campaign(trial, kind, cases, origin(f"prove {step}", given), apart=True)
         return campaign.run(out / "steps" / step, jobs, partial(say, step), fresh=fresh)
 
-    publish(out, made("conceal", partial(concealed, blind, out), ConcealedCase, settings))
-    diagnosed = made("diagnose", Diagnoser(out / "cases", plugins), DiagnosedCase, library)
-    scored = made("score", Scorer(out, plugins), JudgedCase, library)
+    publish(out, run_step("conceal", partial(conceal_case, blind, out), ConcealedCase, settings))
+    diagnosed = run_step("diagnose", Diagnoser(out / "cases", plugins), DiagnosedCase, library)
+    scored = run_step("score", Scorer(out, plugins), JudgedCase, library)
     content = Proof(
         schema="lostmotion.proof/1",
-        title=_title(blind),
-        summary=summary(scored, [row for row in diagnosed if row.status != "ok"]),
+        title=_format_title(blind),
+        summary=summarise(scored, [row for row in diagnosed if row.status != "ok"]),
         provenance=origin("prove", {**library, "cases": cases}),
     )
     save_json(out / "proof.json", to_plain(content))
@@ -109,7 +109,7 @@ def run_proof(
     return content
 
 
-def _title(blind: Blind) -> str:
+def _format_title(blind: Blind) -> str:
     if blind.clean:
         return "Blind trial on clean machines"
     return f"Blind trial of {', '.join(blind.only)}" if blind.only else "Blind trial"

@@ -38,20 +38,20 @@ from lostmotion_trials.blind.results import (
     SureCount,
     Target,
 )
-from lostmotion_trials.blind.sentences import says_of
+from lostmotion_trials.blind.sentences import write_sentences
 
-GAINS = (0.0, 5.0, 15.0, 50.0, 150.0, 500.0, math.inf)
+GAIN_EDGES = (0.0, 5.0, 15.0, 50.0, 150.0, 500.0, math.inf)
 """Edges of the bins of effect size, in log-likelihood that the true terms gain."""
-ALARMS = 0.02
+MOST_ALARMS = 0.02
 """False alarms that a clean recording may raise."""
-STATED = (0.0, 0.01, 0.05, 0.2, 0.5, 0.8, 0.95, 0.99, 1.0)
-COVERED = (0.90, 0.98)
-CLOSE, WITHIN = 1.05, 0.9
+STATED_EDGES = (0.0, 0.01, 0.05, 0.2, 0.5, 0.8, 0.95, 0.99, 1.0)
+COVERAGE_LIMITS = (0.90, 0.98)
+CLOSE_RATIO, LEAST_CLOSE = 1.05, 0.9
 """The found model may err on held-out data by so much more than the true one, in this share of cases at the least."""
-LEVEL = 0.95
-NEAR = 3.0
+SURE_LEVEL = 0.95
+EQUAL_MARGIN = 3.0
 """What was named in error cannot be told from the truth if that is better by less than this in log-likelihood."""
-ENOUGH = 20
+LEAST_TRIES = 20
 """With fewer tries a target is not said to be met."""
 
 
@@ -62,7 +62,7 @@ class HiddenEffect(NamedTuple):
     of: JudgedCase
 
 
-def summary(rows: Sequence[JudgedCase], failed: Sequence[DiagnosedCase]) -> ProofSummary:
+def summarise(rows: Sequence[JudgedCase], failed: Sequence[DiagnosedCase]) -> ProofSummary:
     """Return what a blind trial found, from what became of each case."""
     lost = {row.case for row in failed}
     effects = [HiddenEffect(effect, row) for row in rows for effect in row.answer.effects]
@@ -71,72 +71,72 @@ def summary(rows: Sequence[JudgedCase], failed: Sequence[DiagnosedCase]) -> Proo
         cases=len(rows),
         clean=len(clean),
         effects=len(effects),
-        detection=tuple(_bin(effects, low, high) for low, high in pairwise(GAINS)),
+        detection=tuple(_count_bin(effects, low, high) for low, high in pairwise(GAIN_EDGES)),
         sizes=tuple((e.gain, float(e.outcome == HIT)) for e, _ in effects if not math.isnan(e.gain)),
-        limit=_limit(rows),
-        mechanisms=tuple(_mechanisms(effects)),
-        confusion=tuple(_confusion(rows)),
-        reliability=tuple(_reliability([pair for row in rows for pair in row.answer.stated])),
-        coverage=tuple(_coverage([one for row in rows if row.variant == PLAIN for one in row.answer.parameters])),
-        heldout=_heldout([row.heldout for row in rows if row.heldout and row.answer.effects]),
-        alarms=tuple(_alarms(clean)),
-        sure=tuple(_sure([row for row in rows if row.sure is not None])),
-        misses=tuple(_miss(effect, of) for effect, of in effects if effect.outcome != HIT),
-        false_alarms=tuple(_alarm(row) for row in rows if row.answer.false),
+        limit=_compute_limit(rows),
+        mechanisms=tuple(_count_mechanisms(effects)),
+        confusion=tuple(_count_confusion(rows)),
+        reliability=tuple(_count_reliability([pair for row in rows for pair in row.answer.stated])),
+        coverage=tuple(_count_coverage([one for row in rows if row.variant == PLAIN for one in row.answer.parameters])),
+        heldout=_count_heldout([row.heldout for row in rows if row.heldout and row.answer.effects]),
+        alarms=tuple(_count_alarms(clean)),
+        sure=tuple(_count_sure([row for row in rows if row.sure is not None])),
+        misses=tuple(_make_miss(effect, of) for effect, of in effects if effect.outcome != HIT),
+        false_alarms=tuple(_make_alarm(row) for row in rows if row.answer.false),
         failed=tuple(LostCase(row.case, row.says) for row in failed),
         unmeasured=tuple(LostCase(row.case, row.bound_status) for row in rows if row.bound_status is not None),
     )
-    aimed = replace(found, targets=tuple(_targets(found, effects)))
-    return replace(aimed, says=tuple(says_of(aimed)))
+    aimed = replace(found, targets=tuple(_judge_targets(found, effects)))
+    return replace(aimed, says=tuple(write_sentences(aimed)))
 
 
-def rate(hits: int, of: int) -> Rate:
+def estimate_rate(hits: int, of: int) -> Rate:
     """Return a share with its exact 95 % band (Clopper, Pearson 1934); no share of nothing."""
     if not of:
         return Rate(0, 0, math.nan, math.nan, math.nan)
-    tail = 0.5 * (1.0 - LEVEL)
+    tail = 0.5 * (1.0 - SURE_LEVEL)
     low = float(beta.ppf(tail, hits, of - hits + 1)) if hits else 0.0
     high = float(beta.ppf(1.0 - tail, hits + 1, of - hits)) if hits < of else 1.0
     return Rate(hits, of, hits / of, low, high)
 
 
-def _bin(effects: Sequence[HiddenEffect], low: float, high: float) -> SizeBin:
+def _count_bin(effects: Sequence[HiddenEffect], low: float, high: float) -> SizeBin:
     """Return what became of the effects with gains from `low` to below `high`."""
-    return SizeBin(low, high, _counts([e for e in effects if low <= e.effect.gain < high]))
+    return SizeBin(low, high, _count_outcomes([e for e in effects if low <= e.effect.gain < high]))
 
 
-def _counts(effects: Sequence[HiddenEffect]) -> Outcomes:
+def _count_outcomes(effects: Sequence[HiddenEffect]) -> Outcomes:
     found = Counter(e.outcome for e, _ in effects)
-    close = sum(e.outcome == MISNAMED and of.margin < NEAR for e, of in effects)
-    return Outcomes(rate(found[HIT], len(effects)), {name: found[name] for name in OUTCOMES}, close)
+    close = sum(e.outcome == MISNAMED and of.margin < EQUAL_MARGIN for e, of in effects)
+    return Outcomes(estimate_rate(found[HIT], len(effects)), {name: found[name] for name in OUTCOMES}, close)
 
 
-def _limit(rows: Sequence[JudgedCase]) -> LikelihoodLimit:
+def _compute_limit(rows: Sequence[JudgedCase]) -> LikelihoodLimit:
     """Return the chance of the likelihood-ratio test, which knows what to look for, to notice an effect.
 
     At a gain of g twice the log of the ratio is a non-central chi-square of one degree of freedom about 2 g (Wilks).
     """
     candidates = int(np.median([len(row.answer.stated) for row in rows if row.answer.stated] or [1]))
     gain = np.geomspace(0.3, 2000.0, 81)
-    told, many = (ncx2.sf(chi2.isf(share, 1), 1, 2.0 * gain) for share in (ALARMS, ALARMS / candidates))
-    return LikelihoodLimit(tuple(gain.tolist()), tuple(told.tolist()), tuple(many.tolist()), candidates, ALARMS)
+    told, many = (ncx2.sf(chi2.isf(share, 1), 1, 2.0 * gain) for share in (MOST_ALARMS, MOST_ALARMS / candidates))
+    return LikelihoodLimit(tuple(gain.tolist()), tuple(told.tolist()), tuple(many.tolist()), candidates, MOST_ALARMS)
 
 
-def _median(values: Sequence[float]) -> float:
+def _take_median(values: Sequence[float]) -> float:
     """Return the median, NaN of nothing."""
     return float(np.median(values)) if values else math.nan
 
 
-def _mechanisms(effects: Sequence[HiddenEffect]) -> Iterator[MechanismCounts]:
+def _count_mechanisms(effects: Sequence[HiddenEffect]) -> Iterator[MechanismCounts]:
     """Yield one row for each mechanism that was hidden."""
     for name in sorted({e.mechanism for e, _ in effects}):
         own = [e for e in effects if e.effect.mechanism == name]
         gains = [e.gain for e, _ in own if not math.isnan(e.gain)]
         status = Counter(e.status for e, _ in own).most_common(1)[0][0]
-        yield MechanismCounts(name, _median(gains), status, _counts(own))
+        yield MechanismCounts(name, _take_median(gains), status, _count_outcomes(own))
 
 
-def _confusion(rows: Sequence[JudgedCase]) -> list[ConfusionCount]:
+def _count_confusion(rows: Sequence[JudgedCase]) -> list[ConfusionCount]:
     """Return how often each answer was given to each truth; of several effects each counts."""
     pairs: Counter[tuple[str, str]] = Counter()
     for row in rows:
@@ -148,40 +148,40 @@ def _confusion(rows: Sequence[JudgedCase]) -> list[ConfusionCount]:
     return [ConfusionCount(t, a, n) for (t, a), n in sorted(pairs.items())]
 
 
-def _reliability(stated: Sequence[tuple[float, float]]) -> Iterator[ReliabilityBin]:
+def _count_reliability(stated: Sequence[tuple[float, float]]) -> Iterator[ReliabilityBin]:
     """Yield for each range of stated probability how often the mechanism was at work."""
-    for low, high in pairwise(STATED):
+    for low, high in pairwise(STATED_EDGES):
         own = [(p, at) for p, at in stated if low <= p < high or p == high == 1.0]
         mean = float(np.mean([p for p, _ in own])) if own else math.nan
-        yield ReliabilityBin(low, high, mean, rate(int(sum(at for _, at in own)), len(own)))
+        yield ReliabilityBin(low, high, mean, estimate_rate(int(sum(at for _, at in own)), len(own)))
 
 
-def _coverage(found: Sequence[JudgedParameter]) -> list[CoverageRow]:
+def _count_coverage(found: Sequence[JudgedParameter]) -> list[CoverageRow]:
     """Return how many truths the 95 % intervals hold, and how far medians are off: all together, then one by one."""
     names = sorted({one.name for one in found})
-    return [_covered("all", found), *(_covered(n, [one for one in found if one.name == n]) for n in names)]
+    return [_count_covered("all", found), *(_count_covered(n, [one for one in found if one.name == n]) for n in names)]
 
 
-def _covered(name: str, found: Sequence[JudgedParameter]) -> CoverageRow:
+def _count_covered(name: str, found: Sequence[JudgedParameter]) -> CoverageRow:
     errors = [abs(one.relative_error) for one in found if not math.isnan(one.relative_error)]
-    return CoverageRow(name, rate(sum(one.inside for one in found), len(found)), _median(errors))
+    return CoverageRow(name, estimate_rate(sum(one.inside for one in found), len(found)), _take_median(errors))
 
 
-def _heldout(found: Sequence[HeldOutJudged]) -> HeldOutCounts:
+def _count_heldout(found: Sequence[HeldOutJudged]) -> HeldOutCounts:
     """Return what was won on held-out data, over what the true model wins, and how near the errors come to its own."""
     shares = [one.share for one in found if not math.isnan(one.share)]
     ratios = [one.ratio for one in found]
     return HeldOutCounts(
         cases=len(found),
-        median_share=_median(shares),
+        median_share=_take_median(shares),
         shares=len(shares),
-        median_ratio=_median(ratios),
-        within=rate(sum(ratio <= CLOSE for ratio in ratios), len(ratios)),
+        median_ratio=_take_median(ratios),
+        within=estimate_rate(sum(ratio <= CLOSE_RATIO for ratio in ratios), len(ratios)),
         ratios=tuple(sorted(ratios)),
     )
 
 
-def _alarms(clean: Sequence[JudgedCase]) -> list[AlarmCount]:
+def _count_alarms(clean: Sequence[JudgedCase]) -> list[AlarmCount]:
     """Return false alarms on clean cases: all together, then by the kind of measurement noise.
 
     In an imperfect world each machine lacks something and has noise of its own kind: an alarm is a false sure name.
@@ -190,10 +190,10 @@ def _alarms(clean: Sequence[JudgedCase]) -> list[AlarmCount]:
     kinds = [] if rough else sorted({row.variant for row in clean})
     groups = [("all", clean), *((kind, [row for row in clean if row.variant == kind]) for kind in kinds)]
     wrong = [(name, [row.answer.false if rough else row.answer.named for row in rows]) for name, rows in groups]
-    return [AlarmCount(name, rate(sum(map(bool, names)), len(names))) for name, names in wrong]
+    return [AlarmCount(name, estimate_rate(sum(map(bool, names)), len(names))) for name, names in wrong]
 
 
-def _sure(rows: Sequence[JudgedCase]) -> Iterator[SureCount]:
+def _count_sure(rows: Sequence[JudgedCase]) -> Iterator[SureCount]:
     """Yield for each kind of drive in an imperfect world how many of the sure names are there, and what was named.
 
     Without machines of such a world there are no rows.
@@ -208,13 +208,13 @@ def _sure(rows: Sequence[JudgedCase]) -> Iterator[SureCount]:
         yield SureCount(
             kind=kind,
             machines=len(own),
-            rate=rate(sum(names), len(names)),
-            named=rate(sum(bool(effect.sure) for effect in nameable), len(nameable)),
-            worse=rate(sum(rise > 0.0 for rise in tried), len(tried)),
+            rate=estimate_rate(sum(names), len(names)),
+            named=estimate_rate(sum(bool(effect.sure) for effect in nameable), len(nameable)),
+            worse=estimate_rate(sum(rise > 0.0 for rise in tried), len(tried)),
         )
 
 
-def _miss(effect: JudgedEffect, of: JudgedCase) -> Miss:
+def _make_miss(effect: JudgedEffect, of: JudgedCase) -> Miss:
     return Miss(
         case=of.case,
         mechanism=effect.mechanism,
@@ -229,40 +229,42 @@ def _miss(effect: JudgedEffect, of: JudgedCase) -> Miss:
     )
 
 
-def _alarm(row: JudgedCase) -> FalseAlarm:
+def _make_alarm(row: JudgedCase) -> FalseAlarm:
     truth = tuple(e.mechanism for e in row.answer.effects)
     return FalseAlarm(row.case, f"cases/{row.case}", truth, row.answer.false)
 
 
-def _targets(found: ProofSummary, effects: Sequence[HiddenEffect]) -> list[Target]:
+def _judge_targets(found: ProofSummary, effects: Sequence[HiddenEffect]) -> list[Target]:
     """Return what a diagnosis should reach, what it reached, and whether that is as it should be.
 
     In an imperfect world no model is true and no effect has a gain: what counts are the names that were sure.
     """
     if found.sure:
-        return [_target(f"sure names that are there, {row.kind}", row.rate, LEVEL, 1.0) for row in found.sure]
-    plain = next((row.rate for row in found.alarms if row.noise == PLAIN), rate(0, 0))
+        return [
+            _judge_target(f"sure names that are there, {row.kind}", row.rate, SURE_LEVEL, 1.0) for row in found.sure
+        ]
+    plain = next((row.rate for row in found.alarms if row.noise == PLAIN), estimate_rate(0, 0))
     near = "cases with a held-out error within 5 % of the true model's"
     return [
-        _target("effects named, gain above 50", _named(effects, 50.0, math.inf), 0.95, 1.0),
-        _target("effects named, gain 15 to 50", _named(effects, 15.0, 50.0), 0.80, 1.0),
-        _target("truths in 95 % intervals", found.coverage[0].rate, *COVERED),
-        _target("false alarms on clean cases, white noise", plain, 0.0, ALARMS),
-        _target(near, found.heldout.within, WITHIN, 1.0),
+        _judge_target("effects named, gain above 50", _count_named(effects, 50.0, math.inf), 0.95, 1.0),
+        _judge_target("effects named, gain 15 to 50", _count_named(effects, 15.0, 50.0), 0.80, 1.0),
+        _judge_target("truths in 95 % intervals", found.coverage[0].rate, *COVERAGE_LIMITS),
+        _judge_target("false alarms on clean cases, white noise", plain, 0.0, MOST_ALARMS),
+        _judge_target(near, found.heldout.within, LEAST_CLOSE, 1.0),
     ]
 
 
-def _named(effects: Iterable[HiddenEffect], low: float, high: float) -> Rate:
+def _count_named(effects: Iterable[HiddenEffect], low: float, high: float) -> Rate:
     own = [e for e, _ in effects if low < e.gain <= high]
-    return rate(sum(e.outcome == HIT for e in own), len(own))
+    return estimate_rate(sum(e.outcome == HIT for e in own), len(own))
 
 
-def _target(what: str, found: Rate, low: float, high: float) -> Target:
+def _judge_target(what: str, found: Rate, low: float, high: float) -> Target:
     """Return a target with what was reached: "met", "missed", or "open" where it may be chance."""
     if not found.of:
         state = "not tried"
     elif low <= found.share <= high:
-        state = "met" if found.of >= ENOUGH else "open"
+        state = "met" if found.of >= LEAST_TRIES else "open"
     else:
         state = "open" if found.low <= high and found.high >= low else "missed"
     return Target(what, low, high, state, found)

@@ -1,4 +1,4 @@
-"""What is sealed before a blind trial: the truth behind each case, and the digests that vouch for it."""
+"""The sealed data of a blind trial: the truth of each case, and the digests that prove it unchanged."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ class SealedMachine(BlindMachine):
 
 @dataclass(frozen=True, kw_only=True)
 class SealedTruth:
-    """The truth behind one case: `sealed/NNN.json`."""
+    """The truth of one case: `sealed/NNN.json`."""
 
     schema: str = described("`lostmotion.sealed/1`")
     case: str = described("name of the case")
-    salt: str = described("random bytes, so that nobody finds a truth by trying")
+    salt: str = described("random bytes, so that a truth cannot be guessed from its digest")
     variant: str = described("kind of the measurement noise: plain, coloured or outliers")
     effects: tuple[Effect, ...] = described("what is hidden in the machine")
     machine: SealedMachine = described("the machine and how it is recorded")
-    world: World | None = described("the flaws of a machine of an imperfect world", default=None)
+    world: World | None = described("the imperfections of a machine of an imperfect world", default=None)
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class ConcealedCase:
 
 @dataclass(frozen=True)
 class Seal:
-    """What is published before the first diagnosis: `seal.json`."""
+    """The digests that are published before the first diagnosis: `seal.json`."""
 
     schema: str = described("`lostmotion.seal/1`")
     digest: str = described("name of the digest")

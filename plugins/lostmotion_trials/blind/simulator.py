@@ -15,20 +15,20 @@ from lostmotion.contracts import Array
 from lostmotion.errors import DataError
 from lostmotion_trials.integrators.hidden import Body, Hidden, move
 
-FINE = 0.0015
+STEPS_PER_RATE = 0.0015
 """Steps times the fastest rate: a tenth of those of a final fit."""
-FEWEST, MOST = 10, 6000
-PIECE = 500
+LEAST_SUBSTEPS, MOST_SUBSTEPS = 10, 6000
+PIECE_SAMPLES = 500
 """Samples that are computed at a time."""
-SETTLE = 40
+SETTLING_PERIODS = 40
 """Periods of the drive that pass before a recording begins."""
-AT_REST = 20
+REST_SAMPLES = 20
 """Samples before a recording that begins at rest."""
-ACROSS = 12.0
+CYCLE_SAMPLES = 12.0
 """Samples to a cycle of the contact at the least."""
 USUAL = 1e-3
 """Noise of the measured excitation over its amplitude."""
-GAPPED = ("lin_backlash", "robot_joint")
+GAP_MODELS = ("lin_backlash", "robot_joint")
 CHANNELS = ("position", "velocity", "acceleration")
 LAG_STEPS = 20
 """Steps to a sample of a sensor that lags."""
@@ -64,10 +64,10 @@ class BlindDrive:
         more = 0.5 * self.sweep * np.maximum(t, 0.0) ** 2
         value = sum((a * np.cos(w * t + p + more) for a, w, p in self.tones), np.zeros(len(t)))
         for at, size, long in self.steps:
-            value[t >= at] += size * _risen((t[t >= at] - at) / long)[0]
+            value[t >= at] += size * _rise_smoothly((t[t >= at] - at) / long)[0]
         for at, size, long in self.hits:
             during = (t > at) & (t < at + long)
-            value[during] += size * _hump((t[during] - at) / long)[0]
+            value[during] += size * _shape_hump((t[during] - at) / long)[0]
         return np.asarray(value, dtype=float)
 
     def slope(self, t: Array) -> Array:
@@ -76,7 +76,7 @@ class BlindDrive:
         more = 0.5 * self.sweep * late**2
         slopes = (-a * (w + self.sweep * late) * np.sin(w * t + p + more) for a, w, p in self.tones)
         slope = sum(slopes, np.zeros(len(t)))
-        for events, shape in ((self.steps, _risen), (self.hits, _hump)):
+        for events, shape in ((self.steps, _rise_smoothly), (self.hits, _shape_hump)):
             for at, size, long in events:
                 during = (t > at) & (t < at + long)
                 slope[during] += size / long * shape((t[during] - at) / long)[1]
@@ -84,16 +84,16 @@ class BlindDrive:
 
     def settling(self, rate: float) -> int:
         """Return how many samples pass before a recording begins: before steps and hits a machine is at rest."""
-        return math.ceil(SETTLE * 2.0 * math.pi / self.omega * rate) if self.tones else AT_REST
+        return math.ceil(SETTLING_PERIODS * 2.0 * math.pi / self.omega * rate) if self.tones else REST_SAMPLES
 
 
-def _risen(z: Array) -> tuple[Array, Array]:
+def _rise_smoothly(z: Array) -> tuple[Array, Array]:
     """Return a smooth step from 0 to 1 over 0 < z < 1, and its slope."""
     at = np.clip(z, 0.0, 1.0)
     return at**3 * (10.0 - 15.0 * at + 6.0 * at**2), 30.0 * (at * (1.0 - at)) ** 2
 
 
-def _hump(z: Array) -> tuple[Array, Array]:
+def _shape_hump(z: Array) -> tuple[Array, Array]:
     """Return one hump of height 1 over 0 < z < 1, and its slope."""
     at = np.clip(z, 0.0, 1.0)
     return np.sin(math.pi * at) ** 2, math.pi * np.sin(2.0 * math.pi * at)
@@ -132,12 +132,12 @@ class Meddling:
     def shown(self, seen: Array, rate: float) -> Array:
         """Return what a sensor shows (samples,) that lags and has a ripple over what it shows."""
         if self.sensor_time > 0.0:
-            seen = _behind(seen, rate, self.sensor_time)
+            seen = _filter_lag(seen, rate, self.sensor_time)
         size, pitch, phase = self.ripple
         return np.asarray(seen + size * np.cos(2.0 * math.pi * seen / pitch + phase))
 
 
-def _behind(seen: Array, rate: float, time: float) -> Array:
+def _filter_lag(seen: Array, rate: float, time: float) -> Array:
     """Return samples behind a lag of first order with a time constant (s), by Euler's rule on a fine spline."""
     fine = np.arange(len(seen) * LAG_STEPS) / LAG_STEPS
     between = CubicSpline(np.arange(len(seen)), seen)(fine)
@@ -195,21 +195,21 @@ class BlindMachine:
 def moved(rig: BlindMachine, hidden: Hidden, meddling: Meddling, rng: np.random.Generator) -> Array:
     """Return what a sensor without noise shows (samples,), after the machine has settled."""
     state = np.zeros(6)
-    state[0] = foot_of(rig)
+    state[0] = find_start(rig)
 
     def follow(force: Array, base: Array, clock: tuple[float, float], every: int) -> Array:
         seen = np.asarray(move(force, base, rig.body, hidden, state, clock, every))  # type: ignore[no-untyped-call]
         return np.asarray(seen[:, CHANNELS.index(rig.channel)])
 
-    return followed(rig, meddling, rng, pace_of(rig) / FINE, follow)
+    return simulate_pieces(rig, meddling, rng, bound_pace(rig) / STEPS_PER_RATE, follow)
 
 
-def pace_of(rig: BlindMachine) -> float:
+def bound_pace(rig: BlindMachine) -> float:
     """Return an upper bound of the rates (1/s) at which a machine moves."""
     return math.sqrt((rig.body.k + rig.body.k0) / rig.body.m) + rig.body.c / rig.body.m + rig.signal.omega
 
 
-def foot_of(rig: BlindMachine) -> float:
+def find_start(rig: BlindMachine) -> float:
     """Return the position at which a machine begins, before it settles."""
     return float(rig.signal.value(np.array([-rig.signal.settling(rig.rate) / rig.rate]))[0]) if rig.based else 0.0
 
@@ -220,7 +220,7 @@ steps, velocity at their ends. Told when it begins and the step (s), and how man
 sensor shows at samples."""
 
 
-def followed(
+def simulate_pieces(
     rig: BlindMachine,
     meddling: Meddling,
     rng: np.random.Generator,
@@ -233,13 +233,13 @@ def followed(
     At least `pace` steps are made in a second. `beside` is a further force (N) at times (s). Raises `DataError` when
     the motion leaves all bounds.
     """
-    every = int(min(max(math.ceil(pace / rig.rate), FEWEST), MOST))
+    every = int(min(max(math.ceil(pace / rig.rate), LEAST_SUBSTEPS), MOST_SUBSTEPS))
     settle = rig.signal.settling(rig.rate)
     step = 1.0 / (rig.rate * every)
     kicks, seen = meddling.rms * rng.standard_normal(settle + rig.samples), []
     behind = 0.0
-    for first in range(-settle, rig.samples, PIECE):
-        count = min(PIECE, rig.samples - first)
+    for first in range(-settle, rig.samples, PIECE_SAMPLES):
+        count = min(PIECE_SAMPLES, rig.samples - first)
         begin = first / rig.rate - meddling.sensor_delay
         edges = np.asarray(begin + np.arange(count * every + 1) * step, dtype=float)
         middles = edges[:-1] + 0.5 * step
@@ -270,10 +270,10 @@ def draw_rig(rng: np.random.Generator, most: int) -> BlindMachine:
     natural, mass = drawn_log(rng, 5.0, 300.0), drawn_log(rng, 0.05, 50.0)
     ratio = drawn_log(rng, *((0.12, 0.5) if model == "robot_joint" else (0.2, 1.2)))
     values, amplitude = sized(model, mass, natural, rng)
-    signal = _signal(amplitude, ratio * natural, rng, single=model in GAPPED)
+    signal = _draw_signal(amplitude, ratio * natural, rng, single=model in GAP_MODELS)
     top = max(w for _, w, _ in signal.tones)
     samples = round(drawn_log(rng, min(3000, most), most))
-    period = max(drawn_log(rng, 20.0, 200.0), ACROSS / ratio, ACROSS * top / signal.omega)
+    period = max(drawn_log(rng, 20.0, 200.0), CYCLE_SAMPLES / ratio, CYCLE_SAMPLES * top / signal.omega)
     rate = period * signal.omega / (2.0 * math.pi)
     if rng.random() < 0.15:
         signal = BlindDrive(signal.tones[:1], float(rng.uniform(0.3, 1.0)) * signal.omega * rate / samples)
@@ -309,7 +309,7 @@ def sized(model: str, mass: float, natural: float, rng: np.random.Generator) -> 
     return {"m": mass, "c": 10.0 * damping}, stiff * length
 
 
-def _signal(amplitude: float, omega: float, rng: np.random.Generator, *, single: bool) -> BlindDrive:
+def _draw_signal(amplitude: float, omega: float, rng: np.random.Generator, *, single: bool) -> BlindDrive:
     """Return one tone, or several that do not repeat; a machine without a gap needs several to tell anything."""
     tones = [(amplitude, omega, float(rng.uniform(0.0, 2.0 * math.pi)))]
     if not single or rng.random() < 0.3:
@@ -322,8 +322,8 @@ def _signal(amplitude: float, omega: float, rng: np.random.Generator, *, single:
 def wide_prior(value: float, rng: np.random.Generator) -> WidePrior:
     """Return a wide prior that holds a value, anywhere but near its ends."""
     below, above = 10.0 ** rng.uniform(0.4, 1.2, 2)
-    return WidePrior(_figures(value / below), _figures(value * above))
+    return WidePrior(_round_digits(value / below), _round_digits(value * above))
 
 
-def _figures(value: float) -> float:
+def _round_digits(value: float) -> float:
     return float(f"{value:.3g}")

@@ -1,4 +1,4 @@
-"""A machine as whoever diagnoses it gets it: a case file, which tells what its owner believes, and a recording."""
+"""The files of a machine that the diagnosis reads: a case file with the nominal model, and a recording."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`lostmotion calibrate`: whether the intervals of `identify` hold the truth as often as they say."""
+"""`lostmotion calibrate`: test whether the intervals of `identify` cover the truth as often as they state."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
         "    --noise 0.01 --out calibration",
         "lostmotion calibrate case.toml --drive harmonic:amplitude=100,omega=40 --duration 4.712 --rate 636.6 \\",
         "    --noise 0.01 --hide coulomb_friction:force=1 --machines 100 --out lie",
-        "lostmotion simulate --help     the drives there are",
+        "lostmotion simulate --help     lists the drives",
     )
 )
 @add_case_options
@@ -33,24 +33,28 @@ if TYPE_CHECKING:
     metavar="KIND:KEY=VALUE,...",
     multiple=True,
     required=True,
-    help="What moves the machines, as of `simulate`; one recording to each that is given.",
+    help="Drive of the machines, as in `simulate`; each one that is given makes one recording.",
 )
-@click.option("--duration", type=float, required=True, metavar="S", help="Of each recording, after as long a run-up.")
+@click.option(
+    "--duration", type=float, required=True, metavar="S", help="Duration of each recording, after an equal run-up."
+)
 @click.option("--rate", type=float, required=True, metavar="HZ", help="Samples per second.")
-@click.option("--noise", type=float, required=True, metavar="SHARE", help="Noise of the position, over its deviation.")
+@click.option(
+    "--noise", type=float, required=True, metavar="SHARE", help="Noise of the position over its standard deviation."
+)
 @click.option(
     "--excitation-noise",
     type=float,
     default=1e-3,
     show_default=True,
     metavar="SHARE",
-    help="Noise of the recorded excitation, over its amplitude; the machine feels the true one.",
+    help="Noise of the recorded excitation over its amplitude; the true excitation acts on the machine.",
 )
 @click.option(
     "--hide",
     metavar="NAME[@PLACE]:PARAM=VALUE,...",
     multiple=True,
-    help="Physics that acts in every machine, whether it is fitted or not.",
+    help="Term that acts in every machine, whether it is fitted or not.",
 )
 @add_terms_option
 @click.option(
@@ -58,24 +62,24 @@ if TYPE_CHECKING:
     type=click.Choice(["trajectory", "quantifiers"]),
     default="trajectory",
     show_default=True,
-    help="To the posterior.",
+    help="Method that computes the posterior.",
 )
 @add_maps_option
 @click.option("--machines", default=200, show_default=True, type=click.IntRange(1), help="How many machines to draw.")
-@click.option("--ess", default=300.0, show_default=True, type=click.FloatRange(100), help="Effective draws of each.")
-@click.option("--max-steps", default=2000, show_default=True, type=click.IntRange(10), help="Steps at the most.")
-@click.option("--fresh", is_flag=True, help="Throw away the campaign that is there, instead of continuing it.")
+@click.option("--ess", default=300.0, show_default=True, type=click.FloatRange(100), help="Effective draws for each.")
+@click.option("--max-steps", default=2000, show_default=True, type=click.IntRange(10), help="Largest number of steps.")
+@click.option("--fresh", is_flag=True, help="Delete an existing campaign instead of continuing it.")
 @click.pass_context
 def command(ctx: click.Context, /, case: Path, out: Path, drives: tuple[str, ...], **given: Any) -> None:
-    """Calibrate `identify` by simulation: see whether its intervals hold the truth as often as they say.
+    """Test by simulation whether the intervals of `identify` cover the truth as often as they state.
 
-    Machines are drawn from the priors of the case, recorded by an integrator that shares nothing with the fit, and
-    identified; the case needs no recordings. If all is right, the rank of the truth among the draws is uniform, and
-    central intervals hold it as often as their name says (Talts et al. 2018).
+    Machines are drawn from the priors of the case, simulated by an integrator that shares no code with the fit, and
+    identified; the case needs no recordings. If the posterior is correct, the rank of the truth among its draws is
+    uniform, and central intervals cover the truth with their nominal probability (Talts et al. 2018).
 
     Writes calibration.json, machines.csv and report.html into DIR. The same command continues a campaign that was
-    interrupted, at any moment, or enlarges it by more --machines; the bytes depend neither on that nor on --jobs. Exit
-    status 0 when the campaign ended, passed or not; 2 for what cannot be used.
+    interrupted at any time, or enlarges it with a larger --machines; the files depend neither on that nor on --jobs.
+    The exit status is 0 when the campaign was completed, passed or not, and 2 for unusable input.
     """
     from lostmotion.identification.sampling import SamplingPlan
     from lostmotion_trials.coverage.design import Design
@@ -91,18 +95,18 @@ def command(ctx: click.Context, /, case: Path, out: Path, drives: tuple[str, ...
     with show_count("calibrate", given["machines"], "machines", quiet=given["quiet"]) as say:
         options = {key: given[key] for key in ("machines", "jobs", "fresh")}
         content = run_calibration(design, out, say=say, **options)
-    for line in (*_table(content.summary.parameters), *content.summary.says):
+    for line in (*_format_table(content.summary.parameters), *content.summary.says):
         click.echo(line)
     click.echo(str(out / "report.html"))
 
 
-def _table(rows: Mapping[str, ParameterCheck]) -> list[str]:
-    """Return one line for each parameter: the tests of its ranks, and how many truths its intervals hold."""
+def _format_table(rows: Mapping[str, ParameterCheck]) -> list[str]:
+    """Return one line for each parameter: the tests of its ranks, and how many truths its intervals cover."""
     width = max(map(len, rows), default=0)
-    return [f"{name:<{width}}  {_line(row)}" for name, row in rows.items()]
+    return [f"{name:<{width}}  {_format_row(row)}" for name, row in rows.items()]
 
 
-def _line(row: ParameterCheck) -> str:
+def _format_row(row: ParameterCheck) -> str:
     covered = ", ".join(f"{share} % {one.inside}/{one.of}" for share, one in row.coverage.items())
     chi2 = "" if math.isnan(row.chi2_p) else f"chi2 p {row.chi2_p:.3f}, "
     tested = f"{chi2}ecdf p {row.ecdf_p:.3f}" if row.drawn else "not drawn"

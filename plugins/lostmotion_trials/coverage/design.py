@@ -14,15 +14,15 @@ from lostmotion.case import CaseFile, Prior, load_case
 from lostmotion.contracts import Array, Group, Model, Term
 from lostmotion.errors import CaseError
 from lostmotion.identification.sampling import SamplingPlan
-from lostmotion.inference.setup import known_of
+from lostmotion.inference.setup import make_known
 from lostmotion.likelihood.system import Slot, System, key_of
 from lostmotion.provenance import digest
 from lostmotion.registry import Registry
 from lostmotion.simulation.simulate import assembly_of
-from lostmotion_trials.coverage.machines import SeenMachine, Stand, moved_by, recorded
+from lostmotion_trials.coverage.machines import SeenMachine, Stand, describe_motion, record_machine
 
 ROUTES = ("trajectory", "quantifiers")
-TRIES = 1000
+MOST_DRAWS = 1000
 """Draws from a prior until one is a machine that can be: a normal prior may reach below zero."""
 
 
@@ -87,41 +87,41 @@ class Workshop:
     @property
     def moved_by(self) -> str:
         """What moves the machines, in words."""
-        return moved_by(self.system)
+        return describe_motion(self.system)
 
     def draw(self, rng: np.random.Generator) -> DrawnMachine:
         """Return a machine drawn from the priors of the case."""
         truth = dict(self.hidden)
-        fulls = [self._known() for _ in self.design.labels]
+        fulls = [self._fill_known() for _ in self.design.labels]
         for name, prior in self.case.estimate.items():
             if name not in {group.name for group in self.groups}:
                 slot = self.system.slot(name)
-                for full, (told, value) in zip(fulls, self._values(slot, prior, rng), strict=True):
+                for full, (told, value) in zip(fulls, self._draw_values(slot, prior, rng), strict=True):
                     full[self.system.index[slot.key]] = truth[told] = value
         for group in self.groups:
             truth[group.name] = self.case.estimate[group.name].quantile(rng.uniform())
             for full in fulls:
-                full[self.system.index[group.target]] = group.law(_named(self.system, full), truth[group.name])
-        offsets = self._offsets(rng)
+                full[self.system.index[group.target]] = group.law(_name_values(self.system, full), truth[group.name])
+        offsets = self._draw_offsets(rng)
         truth |= offsets
         drawn = frozenset(truth) - frozenset(self.hidden)
         return DrawnMachine(tuple(fulls), tuple(offsets.values()) or (0.0,) * len(fulls), truth, drawn)
 
-    def _known(self) -> Array:
+    def _fill_known(self) -> Array:
         """Return the parameters that are the same in every machine; what is drawn stands at its middle."""
-        full = known_of(self.system, _plain(self.case, self.groups))
+        full = make_known(self.system, _replace_groups(self.case, self.groups))
         for key, value in self.hidden.items():
             full[self.system.index[key]] = value
         return full
 
-    def _values(self, slot: Slot, prior: Prior, rng: np.random.Generator) -> list[tuple[str, float]]:
+    def _draw_values(self, slot: Slot, prior: Prior, rng: np.random.Generator) -> list[tuple[str, float]]:
         """Return the name and the value of a parameter in each recording."""
         labels = self.design.labels
         if prior.each and len(labels) > 1:
-            return [(f"{slot.key}[{label}]", _possible(slot, prior, rng)) for label in labels]
-        return [(slot.key, _possible(slot, prior, rng))] * len(labels)
+            return [(f"{slot.key}[{label}]", _draw_possible(slot, prior, rng)) for label in labels]
+        return [(slot.key, _draw_possible(slot, prior, rng))] * len(labels)
 
-    def _offsets(self, rng: np.random.Generator) -> dict[str, float]:
+    def _draw_offsets(self, rng: np.random.Generator) -> dict[str, float]:
         prior, labels = self.case.sensor.offset, self.design.labels
         if prior is None:
             return {}
@@ -132,11 +132,11 @@ class Workshop:
         """Return what the sensors show of a machine under each drive."""
         bench, streams = self.design.bench, rng.spawn(len(self.design.labels))
         both = zip(machine.fulls, bench.drives, streams, strict=True)
-        return [recorded(self.system, full, bench, drive, stream) for full, drive, stream in both]
+        return [record_machine(self.system, full, bench, drive, stream) for full, drive, stream in both]
 
 
 @lru_cache(maxsize=4)
-def workshop(design: Design) -> Workshop:
+def make_workshop(design: Design) -> Workshop:
     """Return the workshop of a design; whatever cannot be meant is refused here."""
     design.bench.check()
     if design.route not in ROUTES:
@@ -150,14 +150,14 @@ def workshop(design: Design) -> Workshop:
     model: Model = registry.make("model", case.model)
     hidden, values = assembly_of(registry, case.model, design.hide)
     assembly_of(registry, case.model, design.terms)
-    system = System(model, _terms(hidden.terms, model, case, registry))
+    system = System(model, _collect_terms(hidden.terms, model, case, registry))
     groups = tuple(g for g in model.groups if g.name in case.estimate and design.route != ROUTES[0])
-    known_of(system, _plain(case, groups))
+    make_known(system, _replace_groups(case, groups))
     _require_values(system, case, values)
     return Workshop(design, registry, case, system, values, groups)
 
 
-def _plain(case: CaseFile, groups: tuple[Group, ...]) -> CaseFile:
+def _replace_groups(case: CaseFile, groups: tuple[Group, ...]) -> CaseFile:
     """Return the case with parameters in place of dimensionless numbers, at the middle of their priors."""
     numbers = {group.name: case.estimate[group.name].start() for group in groups}
     estimate = {key: prior for key, prior in case.estimate.items() if key not in numbers}
@@ -166,7 +166,7 @@ def _plain(case: CaseFile, groups: tuple[Group, ...]) -> CaseFile:
     return replace(case, known={**case.known, **targets}, estimate=estimate)
 
 
-def _named(system: System, full: Array) -> dict[str, float]:
+def _name_values(system: System, full: Array) -> dict[str, float]:
     return {key: float(full[i]) for key, i in system.index.items()}
 
 
@@ -177,7 +177,7 @@ def _require_values(system: System, case: CaseFile, values: Mapping[str, float])
         raise CaseError(f"{lacking[0]} has no value: add it to --hide, or to the case")
 
 
-def _terms(hidden: tuple[Term, ...], model: Model, case: CaseFile, registry: Registry) -> tuple[Term, ...]:
+def _collect_terms(hidden: tuple[Term, ...], model: Model, case: CaseFile, registry: Registry) -> tuple[Term, ...]:
     """Return the terms that act in every machine: those that are hidden, and those whose parameters the case names."""
     found = {key_of(term): term for term in hidden}
     for key in (name.rpartition(".")[0] for name in (*case.known, *case.estimate) if "." in name):
@@ -188,9 +188,9 @@ def _terms(hidden: tuple[Term, ...], model: Model, case: CaseFile, registry: Reg
     return tuple(found.values())
 
 
-def _possible(slot: Slot, prior: Prior, rng: np.random.Generator) -> float:
+def _draw_possible(slot: Slot, prior: Prior, rng: np.random.Generator) -> float:
     """Return a draw from a prior that lies within the bounds of the parameter, as that of the fit does."""
-    for _ in range(TRIES):
+    for _ in range(MOST_DRAWS):
         value = prior.quantile(rng.uniform())
         if slot.param.low <= value <= slot.param.high:
             return value

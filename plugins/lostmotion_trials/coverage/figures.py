@@ -11,28 +11,29 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from lostmotion.report import style
-from lostmotion.report.words import readable, with_unit
+from lostmotion.report.words import choose_scale, with_unit
 from lostmotion.results import Array
 from lostmotion_trials.coverage.results import BarBand, CurveBand, ParameterCheck
 
-ACROSS = 3
+PANELS_ACROSS = 3
 DECADE = 4.0
 """Ratio of largest to smallest truth from which the axis is logarithmic."""
-FAR = 5.0
+FRAME_SDS = 5.0
 """Standard deviations beyond which an interval is drawn at the rim."""
 CAPTIONS = {
     "ranks": (
-        "Ranks of the true value among 99 draws of its posterior. A posterior that is right gives even bars; one that"
-        " is too narrow a bowl, one too wide a hill, a biased one a slope. Shaded: what a single bar leaves one time in"
-        " a hundred."
+        "Ranks of the true value among 99 draws of its posterior. A correct posterior gives equal bars; one that is too"
+        " narrow gives a U shape, one that is too wide a hump, a biased one a slope. Shaded: the band that a single bar"
+        " leaves with probability 1 %."
     ),
     "ecdf": (
-        "Share of ranks below each place, less what is expected. A right posterior leaves the shaded band anywhere in"
-        " one campaign of a hundred (Säilynoja, Bürkner, Vehtari 2022)."
+        "Share of ranks below each value, minus the expected share. With a correct posterior the curve leaves the"
+        " shaded band somewhere in one of a hundred campaigns (Säilynoja, Bürkner, Vehtari 2022)."
     ),
     "intervals": (
-        "Central 95 % intervals less the truth, in standard deviations of each posterior, over the true value. An"
-        " interval that misses is coloured; one in twenty should. Triangles lie beyond the frame."
+        "Central 95 % intervals minus the truth, in standard deviations of each posterior, over the true value."
+        " Intervals that miss the truth are coloured; one in twenty is expected. Triangles mark machines beyond the"
+        " frame."
     ),
 }
 
@@ -45,11 +46,11 @@ class Found(NamedTuple):
     columns: Mapping[str, Array]
 
 
-def _panels(found: Sequence[Found], height: float, across: int = ACROSS) -> tuple[Figure, list[Axes]]:
+def _make_panels(found: Sequence[Found], height: float, across: int = PANELS_ACROSS) -> tuple[Figure, list[Axes]]:
     """Return a figure with a panel for each parameter, titled with its name."""
     wide = min(across, len(found))
     rows = -(-len(found) // wide)
-    figure = style.blank(height * rows + 0.2)
+    figure = style.make_figure(height * rows + 0.2)
     panels = list(figure.subplots(rows, wide, squeeze=False).flat)
     for axes in panels[len(found) :]:
         axes.remove()
@@ -58,9 +59,9 @@ def _panels(found: Sequence[Found], height: float, across: int = ACROSS) -> tupl
     return figure, panels[: len(found)]
 
 
-def histograms(found: Sequence[Found], band: BarBand) -> Figure:
+def draw_histograms(found: Sequence[Found], band: BarBand) -> Figure:
     """Return one histogram of ranks for each parameter, with the band of a single bar."""
-    figure, panels = _panels(found, 2.2)
+    figure, panels = _make_panels(found, 2.2)
     for axes, one in zip(panels, found, strict=True):
         counts = np.array(one.row.histogram)
         edges = np.linspace(0.0, 100.0, len(counts) + 1)
@@ -79,13 +80,13 @@ def histograms(found: Sequence[Found], band: BarBand) -> Figure:
     return figure
 
 
-def ecdf(found: Sequence[Found], band: CurveBand) -> Figure:
+def draw_ecdf(found: Sequence[Found], band: CurveBand) -> Figure:
     """Return the differences of the empirical distribution functions of ranks to the uniform one, in their band."""
-    figure, panels = _panels(found, 2.4)
+    figure, panels = _make_panels(found, 2.4)
     at, middle, low, high = map(np.array, (band.at, band.middle, band.low, band.high))
     for axes, one in zip(panels, found, strict=True):
         machines = sum(one.row.histogram)
-        curves = [_closed(x, middle, machines) for x in (low, high, np.array(one.row.ecdf))]
+        curves = [_close_curve(x, middle, machines) for x in (low, high, np.array(one.row.ecdf))]
         places = np.concatenate([[0.0], at, [1.0]])
         axes.fill_between(places, curves[0], curves[1], color=style.SHADE, zorder=0, step="mid")
         axes.axhline(0.0, color="#555555", linewidth=0.8, linestyle=(0, (3, 2)))
@@ -97,14 +98,14 @@ def ecdf(found: Sequence[Found], band: CurveBand) -> Figure:
     return figure
 
 
-def _closed(counts: Array, middle: Array, machines: int) -> Array:
+def _close_curve(counts: Array, middle: Array, machines: int) -> Array:
     """Return counts as shares less what is expected, with nothing at both ends."""
     return np.concatenate([[0.0], (counts - middle) / machines, [0.0]])
 
 
-def intervals(found: Sequence[Found]) -> Figure:
+def draw_intervals(found: Sequence[Found]) -> Figure:
     """Return one panel for each parameter: its intervals about the truth, over the true values."""
-    figure, panels = _panels(found, 2.5)
+    figure, panels = _make_panels(found, 2.5)
     for axes, one in zip(panels, found, strict=True):
         _draw_intervals(axes, one)
     panels[0].set_ylabel("(interval − truth) / sd")
@@ -114,7 +115,7 @@ def intervals(found: Sequence[Found]) -> Figure:
 def _draw_intervals(axes: Axes, one: Found) -> None:
     kept = np.isfinite(one.columns["median"])
     truth, low, median, high, sd = (one.columns[k][kept] for k in ("truth", "low", "median", "high", "sd"))
-    scale = readable(float(np.median(np.abs(truth))), one.row.unit)
+    scale = choose_scale(float(np.median(np.abs(truth))), one.row.unit)
     down, middle, up = ((x - truth) / sd for x in (low, median, high))
     missed = (down > 0.0) | (up < 0.0)
     place = scale.factor * truth if np.ptp(truth) else np.arange(len(truth), dtype=float)
@@ -123,7 +124,7 @@ def _draw_intervals(axes: Axes, one: Found) -> None:
         axes.plot(place[chosen], middle[chosen], "o", color=colour, markersize=2.4)
     axes.axhline(0.0, color="#555555", linewidth=0.8)
     _draw_beyond(axes, place, middle)
-    axes.set_ylim(-FAR - 0.6, FAR + 0.6)
+    axes.set_ylim(-FRAME_SDS - 0.6, FRAME_SDS + 0.6)
     if np.ptp(truth) and truth.min() > 0.0 and truth.max() > DECADE * truth.min():
         axes.set_xscale("log")
         style.log_ticks(axes.xaxis)
@@ -135,7 +136,11 @@ def _draw_intervals(axes: Axes, one: Found) -> None:
 def _draw_beyond(axes: Axes, place: Array, middle: Array) -> None:
     """Mark the machines whose posterior lies beyond the frame by a triangle at its rim."""
     for side, marker in ((1.0, "^"), (-1.0, "v")):
-        beyond = side * middle > FAR
+        beyond = side * middle > FRAME_SDS
         axes.plot(
-            place[beyond], np.full(int(beyond.sum()), side * (FAR + 0.3)), marker, color=style.BEFORE, markersize=4
+            place[beyond],
+            np.full(int(beyond.sum()), side * (FRAME_SDS + 0.3)),
+            marker,
+            color=style.BEFORE,
+            markersize=4,
         )

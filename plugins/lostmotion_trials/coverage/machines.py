@@ -1,8 +1,8 @@
-"""Machines whose truth is known: parameters drawn from the priors of a case, and recordings that no fit had a part in.
+"""Machines with known parameters, drawn from the priors of a case, and their simulated recordings.
 
-Oscillator and joint with backlash are moved by an integrator of their own, leapfrog with dry friction that truly
-sticks. Any other model, or one with other terms, is moved by its own right-hand side in steps ten times finer than
-those of a fit.
+Oscillator and joint with backlash are simulated by an independent integrator: leapfrog, with dry friction that sticks
+exactly. Any other model, or one with other terms, is simulated by its own right-hand side, in steps ten times finer
+than those of a fit.
 """
 
 from __future__ import annotations
@@ -16,20 +16,20 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.errors import CaseError, DataError
-from lostmotion.likelihood.drive import substeps
+from lostmotion.likelihood.drive import count_substeps
 from lostmotion.likelihood.system import Clock, System
 from lostmotion.simulation.drives import DriveSignal, signal_of
 from lostmotion_trials.integrators.oscillator import rattle
 
 FRICTION = "coulomb_friction"
-FINE = 0.003
+STEPS_PER_RATE = 0.003
 """Leapfrog steps times the fastest rate: two thousand steps a cycle of the contact."""
-FINER = 0.0015
+MODEL_STEPS_PER_RATE = 0.0015
 """Steps of the model's own right-hand side times its fastest rate: a tenth of those of a final fit."""
-FEWEST, MOST = 8, 4000
-LARGEST = 10_000_000
+LEAST_SUBSTEPS, MOST_SUBSTEPS = 8, 4000
+MOST_STEPS = 10_000_000
 """Steps of the right-hand side in all, which is what a gigabyte holds."""
-PIECE = 1000
+PIECE_SAMPLES = 1000
 """Samples that are computed at a time."""
 TRANSIENT = ("step", "sweep")
 """Drives that begin with the recording; before it they are as at their beginning."""
@@ -89,22 +89,22 @@ class _DrivenRun:
 
     def pieces(self, fine: int) -> Iterator[Array]:
         """Yield the edges (s) of the steps, `fine` to each sample, in pieces of so many samples."""
-        ends = [*range(0, self.samples, PIECE), self.samples]
+        ends = [*range(0, self.samples, PIECE_SAMPLES), self.samples]
         for first, last in pairwise(ends):
             yield np.arange(first * fine, last * fine + 1) / (fine * self.rate)
 
 
-def recorded(system: System, full: Array, bench: Stand, drive: str, rng: np.random.Generator) -> SeenMachine:
-    """Return what the sensors show of a machine with the parameters `full` under one drive.
+def record_machine(system: System, full: Array, bench: Stand, drive: str, rng: np.random.Generator) -> SeenMachine:
+    """Return the recording of a machine with the parameters `full` under one drive.
 
-    It has settled from a random start; what is seen of the response is its position.
+    The machine has settled from a random start; the response is its position.
     """
     of_drive, of_start, of_noise = rng.spawn(3)
     signal = signal_of(drive, duration=2.0 * bench.duration, rng=of_drive)
     if drive.partition(":")[0] in TRANSIENT:
-        signal = _delayed(signal, bench.samples / bench.rate)
+        signal = _delay_signal(signal, bench.samples / bench.rate)
     run = _DrivenRun(signal, bench.rate, 2 * bench.samples)
-    response = _mover(system)(system, full, run, of_start.uniform(-1.0, 1.0, 2))[bench.samples :]
+    response = _choose_mover(system)(system, full, run, of_start.uniform(-1.0, 1.0, 2))[bench.samples :]
     if not np.isfinite(response).all():
         raise DataError(f"the simulated motion of {system.model.name} left all bounds")
     excitation = signal.value(np.arange(bench.samples, run.samples) / bench.rate)
@@ -114,12 +114,12 @@ def recorded(system: System, full: Array, bench: Stand, drive: str, rng: np.rand
     return SeenMachine(excitation + loud * other, response + noise * own, noise)
 
 
-def moved_by(system: System) -> str:
-    """Return in words what moves the machines of a system."""
-    return OWN if _mover(system) is _own else INDEPENDENT
+def describe_motion(system: System) -> str:
+    """Return in words which integrator simulates the machines of a system."""
+    return OWN if _choose_mover(system) is _move_by_model else INDEPENDENT
 
 
-def _delayed(signal: DriveSignal, begin: float) -> DriveSignal:
+def _delay_signal(signal: DriveSignal, begin: float) -> DriveSignal:
     """Return a signal that begins at the time `begin` (s)."""
     return DriveSignal(
         lambda t: signal.value(np.maximum(t - begin, 0.0)),
@@ -132,32 +132,32 @@ _Mover = Callable[[System, Array, _DrivenRun, Array], Array]
 """Makes the position (samples,) from parameters, the run, and two numbers from -1 to 1 that say where it starts."""
 
 
-def _mover(system: System) -> _Mover:
+def _choose_mover(system: System) -> _Mover:
     frictions = [key for key in system.keys if key.partition("@")[0] == FRICTION]
     if len(frictions) == len(system.keys) < 2 and system.model.name in _LEAPFROG:
         return _LEAPFROG[system.model.name]
-    return _own
+    return _move_by_model
 
 
-def _values(system: System, full: Array) -> dict[str, float]:
+def _read_values(system: System, full: Array) -> dict[str, float]:
     """Return the parameters by name; `friction` is that of the term, wherever it acts."""
     values = {key: float(full[i]) for key, i in system.index.items()}
     return {**values, "friction": sum(v for k, v in values.items() if k.startswith(FRICTION) and k.endswith(".force"))}
 
 
-def _numbers(p: Mapping[str, float], rate: float) -> tuple[int, tuple[float, ...], float]:
+def _scale_numbers(p: Mapping[str, float], rate: float) -> tuple[int, tuple[float, ...], float]:
     """Return steps between samples, the `numbers` of `rattle`, and the velocity that fills the gap."""
     m, contact = p["m"], p["k0"] / p["m"]
     fastest = math.sqrt(contact + p.get("k1", 0.0) / m) + p["c"] / m
-    fine = min(max(math.ceil(fastest / rate / FINE), FEWEST), MOST)
+    fine = min(max(math.ceil(fastest / rate / STEPS_PER_RATE), LEAST_SUBSTEPS), MOST_SUBSTEPS)
     own = (p["c"] / m, p.get("k1", 0.0) / m, contact, p["x0"], p["friction"] / m, p.get("mgl", 0.0) / m)
     return fine, (1.0 / (fine * rate), *own), p["x0"] * math.sqrt(contact)
 
 
-def _lin(system: System, full: Array, run: _DrivenRun, start: Array) -> Array:
+def _move_oscillator(system: System, full: Array, run: _DrivenRun, start: Array) -> Array:
     """Return the motion of the oscillator with backlash."""
-    p = _values(system, full)
-    fine, numbers, quick = _numbers(p, run.rate)
+    p = _read_values(system, full)
+    fine, numbers, quick = _scale_numbers(p, run.rate)
     state = start * np.array([p["x0"], quick])
     seen = []
     for edges in run.pieces(fine):
@@ -167,10 +167,10 @@ def _lin(system: System, full: Array, run: _DrivenRun, start: Array) -> Array:
     return np.concatenate(seen)
 
 
-def _joint(system: System, full: Array, run: _DrivenRun, start: Array) -> Array:
+def _move_joint(system: System, full: Array, run: _DrivenRun, start: Array) -> Array:
     """Return the motion of the link behind a joint with backlash; it is computed relative to the base."""
-    p = _values(system, full)
-    fine, numbers, quick = _numbers(p, run.rate)
+    p = _read_values(system, full)
+    fine, numbers, quick = _scale_numbers(p, run.rate)
     state = start * np.array([p["x0"], quick])
     grounded = FRICTION in system.keys
     seen = []
@@ -183,10 +183,10 @@ def _joint(system: System, full: Array, run: _DrivenRun, start: Array) -> Array:
     return np.concatenate(seen)
 
 
-_LEAPFROG: Mapping[str, _Mover] = {"lin_backlash": _lin, "robot_joint": _joint}
+_LEAPFROG: Mapping[str, _Mover] = {"lin_backlash": _move_oscillator, "robot_joint": _move_joint}
 
 
-def _own(system: System, full: Array, run: _DrivenRun, start: Array) -> Array:
+def _move_by_model(system: System, full: Array, run: _DrivenRun, start: Array) -> Array:
     """Return the motion by the model's own right-hand side, from rest at a random place in its gap if it has one."""
     model, dt = system.model, 1.0 / run.rate
     known = {"force": run.drive.value, "base_position": run.drive.value, "base_velocity": run.drive.slope}
@@ -195,20 +195,20 @@ def _own(system: System, full: Array, run: _DrivenRun, start: Array) -> Array:
     inputs = [known[name] for name in model.driven]
     y0 = np.zeros(len(model.states))
     y0[0] = start[0] * full[system.index["x0"]] if "x0" in system.index else 0.0
-    rough = system.moved(full, y0, inputs, Clock(dt, FEWEST, run.samples))
+    rough = system.moved(full, y0, inputs, Clock(dt, LEAST_SUBSTEPS, run.samples))
     picked = np.unique(np.linspace(0, max(rough.finite - 1, 0), 200).astype(int))
     u = np.stack([f(picked * dt) for f in inputs], axis=1)
-    rate = system.stiffness(full, system.everything, rough.states[picked, : len(model.states)], u)
-    nsub = max(FEWEST, substeps(rate, dt, accuracy=FINER, most=MOST))
-    if nsub * run.samples > LARGEST:
+    rate = system.find_fastest_rate(full, system.everything, rough.states[picked, : len(model.states)], u)
+    nsub = max(LEAST_SUBSTEPS, count_substeps(rate, dt, accuracy=MODEL_STEPS_PER_RATE, most=MOST_SUBSTEPS))
+    if nsub * run.samples > MOST_STEPS:
         raise CaseError(
-            f"{run.samples} samples with {nsub} steps between them are more than {LARGEST} steps: shorten the duration"
+            f"{run.samples} samples with {nsub} steps between them are more than {MOST_STEPS}: shorten the duration"
         )
     states = system.moved(full, y0, inputs, Clock(dt, nsub, run.samples)).states
-    return states[:, _position(system)]
+    return states[:, _find_position(system)]
 
 
-def _position(system: System) -> int:
+def _find_position(system: System) -> int:
     """Return which state is the position that the sensor shows."""
     state = system.channel("position")[1]
     if state < 0:

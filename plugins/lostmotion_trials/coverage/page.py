@@ -15,10 +15,10 @@ from lostmotion.codec import from_plain, to_plain
 from lostmotion.contracts import Array
 from lostmotion.errors import DataError
 from lostmotion.report import style
-from lostmotion.report.pages import DrawnSection, template, written
-from lostmotion.report.words import DASH, figures, pretty, readable, sentence, spoken, words_of
+from lostmotion.report.pages import DrawnSection, load_template, write_page
+from lostmotion.report.words import DASH, choose_scale, figures, format_unit, sentence, to_words, words_of
 from lostmotion.storage import load_json, require_files
-from lostmotion_trials.coverage.figures import CAPTIONS, Found, ecdf, histograms, intervals
+from lostmotion_trials.coverage.figures import CAPTIONS, Found, draw_ecdf, draw_histograms, draw_intervals
 from lostmotion_trials.coverage.results import (
     CalibrationResult,
     CalibrationSummary,
@@ -49,19 +49,19 @@ class Calibration:
 
     def _found(self, name: str, row: ParameterCheck) -> Found:
         columns = {key: self.columns[f"{name}.{key}"] for key in ("truth", "low", "median", "high", "sd")}
-        return Found(_words(name), row, columns)
+        return Found(_format_name(name), row, columns)
 
 
-def _words(name: str) -> str:
-    """Return the name of a parameter as a reader meets it; the recording it belongs to stays behind it."""
+def _format_name(name: str) -> str:
+    """Return the name of a parameter in words, followed by that of its recording."""
     own, bracket, rest = name.partition("[")
-    return (words_of(own) if "." in own else spoken(own)) + bracket + rest
+    return (words_of(own) if "." in own else to_words(own)) + bracket + rest
 
 
 def write_calibration(folder: Path) -> Path:
     """Return the path of `report.html`, written from `calibration.json` and `machines.csv` in the folder."""
     calibration = read_calibration(folder)
-    return written(folder / "report.html", lambda: render(calibration), AGAIN)
+    return write_page(folder / "report.html", lambda: render(calibration), AGAIN)
 
 
 def read_calibration(folder: Path) -> Calibration:
@@ -73,94 +73,96 @@ def read_calibration(folder: Path) -> Calibration:
         with (folder / "machines.csv").open(encoding="utf-8", newline="") as stream:
             head, *lines = csv.reader(stream)
         table = list(zip(head, zip(*lines, strict=True), strict=True))
-        return Calibration(facts, {name: _numbers(cells) for name, cells in table if name != "status"})
+        return Calibration(facts, {name: _read_numbers(cells) for name, cells in table if name != "status"})
     except (OSError, ValueError, csv.Error) as err:
         raise DataError(f"{folder / 'machines.csv'} cannot be read, or is damaged ({err}): {AGAIN}") from err
 
 
-def _numbers(cells: tuple[str, ...]) -> Array:
+def _read_numbers(cells: tuple[str, ...]) -> Array:
     return np.array([float(cell) if cell else np.nan for cell in cells])
 
 
 def render(calibration: Calibration) -> str:
     """Return the page as one self-contained HTML text."""
     facts, summary = calibration.facts, calibration.summary
-    with style.applied():
+    with style.use_style():
         drawn = [
-            DrawnSection(name, title, style.embedded(figure, name), said)
-            for name, title, figure, said in _figures(calibration)
+            DrawnSection(name, title, style.embed_figure(figure, name), said)
+            for name, title, figure, said in _list_figures(calibration)
         ]
-    return template("page.html.j2", __package__).render(
+    return load_template("page.html.j2", __package__).render(
         title=facts.title,
         model=facts.model,
         passes=summary.passes,
-        badge=_badge(summary),
+        badge=_choose_badge(summary),
         answer=summary.says,
-        facts=_facts(facts),
-        head=_head(summary),
-        rows=[_row(name, row) for name, row in summary.parameters.items()],
+        facts=_list_facts(facts),
+        head=_make_head(summary),
+        rows=[_make_row(name, row) for name, row in summary.parameters.items()],
         figures=drawn,
-        hardest=[_hard(one) for one in summary.hardest],
-        lost=list(_lost(summary)),
+        hardest=[_format_hardest(one) for one in summary.hardest],
+        lost=list(_list_lost(summary)),
         provenance=json.dumps(to_plain(facts.provenance), indent=2, ensure_ascii=False),
     )
 
 
-def _badge(summary: CalibrationSummary) -> str:
-    """Return the verdict in two words; of few machines nothing better can be said than that no fault was found."""
+def _choose_badge(summary: CalibrationSummary) -> str:
+    """Return the verdict in two words; with few machines the best verdict is that no fault was found."""
     if not summary.passes:
         return "Not calibrated"
     return "No fault found" if summary.few else "Calibrated"
 
 
-def _figures(calibration: Calibration) -> Iterator[tuple[str, str, Figure, str]]:
+def _list_figures(calibration: Calibration) -> Iterator[tuple[str, str, Figure, str]]:
     """Yield name, heading, drawing and caption of each figure that has something to show."""
     drawn, bands = calibration.found(drawn=True), calibration.summary.bands
     if drawn and bands.histogram and bands.ecdf:
-        yield "ranks", "Are the ranks uniform?", histograms(drawn, bands.histogram), CAPTIONS["ranks"]
-        yield "ecdf", "Do they stay in their band?", ecdf(drawn, bands.ecdf), CAPTIONS["ecdf"]
+        yield "ranks", "Are the ranks uniform?", draw_histograms(drawn, bands.histogram), CAPTIONS["ranks"]
+        yield "ecdf", "Is their distribution within its band?", draw_ecdf(drawn, bands.ecdf), CAPTIONS["ecdf"]
     if everything := calibration.found(drawn=False):
-        yield "intervals", "Where do intervals miss?", intervals(everything), CAPTIONS["intervals"]
+        yield "intervals", "Which intervals miss the truth?", draw_intervals(everything), CAPTIONS["intervals"]
 
 
-def _facts(facts: CalibrationResult) -> list[str]:
-    hidden = ", ".join(f"{_words(name)} = {figures(value)}" for name, value in facts.hidden.items())
+def _list_facts(facts: CalibrationResult) -> list[str]:
+    hidden = ", ".join(f"{_format_name(name)} = {figures(value)}" for name, value in facts.hidden.items())
     told = [
         f"{facts.summary.machines} machines, by the {facts.route} route.",
-        f"Machines are moved by {facts.moved_by}.",
+        f"Machines are simulated by {facts.moved_by}.",
         f"Hidden in every machine: {hidden}." if hidden else "",
     ]
     return [line for line in told if line]
 
 
-def _head(summary: CalibrationSummary) -> list[str]:
+def _make_head(summary: CalibrationSummary) -> list[str]:
     shares = next((list(row.coverage) for row in summary.parameters.values()), [])
     wide = [f"In {share} %" for share in shares]
     return ["Parameter", "Of", *wide, "χ² p", "ECDF p", "z mean", "z rms", "Relative sd"]
 
 
-def _row(name: str, row: ParameterCheck) -> list[tuple[str, bool]]:
+def _make_row(name: str, row: ParameterCheck) -> list[tuple[str, bool]]:
     """Return the cells of a parameter, each with whether it is out of its limits."""
-    covered = [_covered(one, drawn=row.drawn) for one in row.coverage.values()]
+    covered = [_format_coverage(one, drawn=row.drawn) for one in row.coverage.values()]
     tests = [(figures(p, 2), False) for p in (row.chi2_p, row.ecdf_p)]
     numbers = [(figures(x, 3), False) for x in (row.mean_z, row.rms_z, row.median_relative_sd)]
     count = str(next(iter(row.coverage.values())).of)
-    return [(_words(name), False), (count, False), *covered, *tests, *numbers]
+    return [(_format_name(name), False), (count, False), *covered, *tests, *numbers]
 
 
-def _covered(one: Coverage, *, drawn: bool) -> tuple[str, bool]:
-    """Return how many truths an interval holds, with the limits of that number."""
+def _format_coverage(one: Coverage, *, drawn: bool) -> tuple[str, bool]:
+    """Return how many truths an interval covers, with the limits of that number."""
     text = f"{one.inside} ({one.low}–{one.high})"
     return text, drawn and not one.low <= one.inside <= one.high
 
 
-def _hard(one: HardMachine) -> list[str]:
-    scale = readable(one.truth, one.unit)
-    truth, median = (f"{figures(scale.factor * x, 6)} {pretty(scale.unit)}".rstrip() for x in (one.truth, one.median))
-    return [str(one.machine), _words(one.parameter), truth, median, figures(one.z) or DASH]
+def _format_hardest(one: HardMachine) -> list[str]:
+    scale = choose_scale(one.truth, one.unit)
+    truth, median = (
+        f"{figures(scale.factor * x, 6)} {format_unit(scale.unit)}".rstrip() for x in (one.truth, one.median)
+    )
+    return [str(one.machine), _format_name(one.parameter), truth, median, figures(one.z) or DASH]
 
 
-def _lost(summary: CalibrationSummary) -> Iterator[str]:
+def _list_lost(summary: CalibrationSummary) -> Iterator[str]:
     for word, machines in summary.lost.items():
         for one in machines:
             yield f"Machine {one.machine}, {word}: {sentence(one.says)}"

@@ -17,7 +17,7 @@ from lostmotion.contracts import Array
 from lostmotion.provenance import provenance
 from lostmotion.storage import folder_for, save_json, whole
 from lostmotion_trials.coverage import ranks
-from lostmotion_trials.coverage.design import Design, workshop
+from lostmotion_trials.coverage.design import Design, make_workshop
 from lostmotion_trials.coverage.page import write_calibration
 from lostmotion_trials.coverage.results import (
     FAILED,
@@ -35,16 +35,16 @@ from lostmotion_trials.coverage.results import (
     RankBands,
     Sought,
 )
-from lostmotion_trials.coverage.sentences import FEW, says_of
-from lostmotion_trials.coverage.trials import maps_for, trial
+from lostmotion_trials.coverage.sentences import FEW_MACHINES, write_sentences
+from lostmotion_trials.coverage.trials import make_maps, run_trial
 
-LEVEL = 0.01
+TEST_LEVEL = 0.01
 """The level of the tests, for all drawn parameters together."""
 SHARES = (50, 90, 95)
 """Intervals that are looked at, in per cent."""
-LOST = 0.05
+MOST_LOST = 0.05
 """Machines without a posterior that a calibration may have: with more it says nothing of those."""
-HARDEST = 8
+HARDEST_LISTED = 8
 COLUMNS = ("truth", "low", "median", "high", "sd", "rank", "z")
 
 
@@ -55,11 +55,11 @@ def run_calibration(
 
     The trials are kept in `out`/trials, and a campaign that was killed goes on with those that are missing.
     """
-    shop = workshop(design)
+    shop = make_workshop(design)
     if design.route == "quantifiers" and not design.maps:
-        design = replace(design, maps=maps_for(shop, folder_for(out), jobs))
-    origin = provenance("calibrate", _settings(design), design.seed, design.inputs)
-    rows = Campaign(partial(trial, design), MachineTrial, machines, origin).run(out, jobs, say, fresh=fresh)
+        design = replace(design, maps=make_maps(shop, folder_for(out), jobs))
+    origin = provenance("calibrate", _list_settings(design), design.seed, design.inputs)
+    rows = Campaign(partial(run_trial, design), MachineTrial, machines, origin).run(out, jobs, say, fresh=fresh)
     content = CalibrationResult(
         schema="lostmotion.calibration/1",
         title=shop.case.title,
@@ -67,7 +67,7 @@ def run_calibration(
         route=design.route,
         moved_by=shop.moved_by,
         hidden=shop.hidden,
-        summary=summary(rows),
+        summary=summarise(rows),
         provenance={**origin, "settings": {**origin["settings"], "machines": machines}},
     )
     save_json(out / "calibration.json", to_plain(content))
@@ -76,32 +76,32 @@ def run_calibration(
     return content
 
 
-def _settings(design: Design) -> dict[str, object]:
+def _list_settings(design: Design) -> dict[str, object]:
     given = asdict(design)
     return {**given.pop("bench"), **given.pop("plan"), **{k: v for k, v in given.items() if k not in ("case", "seed")}}
 
 
-def summary(rows: Sequence[MachineTrial]) -> CalibrationSummary:
+def summarise(rows: Sequence[MachineTrial]) -> CalibrationSummary:
     """Return what the trials say together: ranks, coverage, and whether all of it is as it should be."""
     good = [row for row in rows if row.status == OK]
     names = list(dict.fromkeys(name for row in good for name in row.parameters))
-    found = {name: parameter([row.parameters[name] for row in good]) for name in names}
-    wrong = [name for name, row in found.items() if row.drawn and not sound(row, _level(found))]
+    found = {name: check_parameter([row.parameters[name] for row in good]) for name in names}
+    wrong = [name for name, row in found.items() if row.drawn and not is_sound(row, _share_level(found))]
     made = CalibrationSummary(
         machines=len(rows),
-        unconverged=_listed(rows, UNCONVERGED),
-        failed=_listed(rows, FAILED),
+        unconverged=_list_lost(rows, UNCONVERGED),
+        failed=_list_lost(rows, FAILED),
         parameters=found,
-        bands=_bands(len(good)),
-        hardest=_hardest(good),
-        level=LEVEL,
-        passes=bool(found) and len(rows) - len(good) <= LOST * len(rows) and not wrong,
-        few=len(good) < FEW,
+        bands=_compute_bands(len(good)),
+        hardest=_find_hardest(good),
+        level=TEST_LEVEL,
+        passes=bool(found) and len(rows) - len(good) <= MOST_LOST * len(rows) and not wrong,
+        few=len(good) < FEW_MACHINES,
     )
-    return replace(made, says=says_of(made, wrong))
+    return replace(made, says=write_sentences(made, wrong))
 
 
-def parameter(sought: Sequence[Sought]) -> ParameterCheck:
+def check_parameter(sought: Sequence[Sought]) -> ParameterCheck:
     """Return what is said of one parameter: tests of its ranks where it was drawn from a prior, and its coverage."""
     drawn, places = sought[0].drawn, [one.standing for one in sought if one.standing]
     found = np.array([one.rank for one in places], dtype=np.int64)
@@ -110,41 +110,41 @@ def parameter(sought: Sequence[Sought]) -> ParameterCheck:
     return ParameterCheck(
         unit=places[0].unit,
         drawn=drawn,
-        chi2_p=ranks.chi_square(found) if drawn else math.nan,
-        ecdf_p=ranks.ecdf_test(found) if drawn else math.nan,
-        coverage={str(share): _coverage(below, share) for share in SHARES},
+        chi2_p=ranks.compute_chi_square_p(found) if drawn else math.nan,
+        ecdf_p=ranks.compute_ecdf_p(found) if drawn else math.nan,
+        coverage={str(share): _count_coverage(below, share) for share in SHARES},
         mean_z=float(np.mean(z)),
         rms_z=float(np.sqrt(np.mean(z**2))),
         median_relative_sd=float(np.median(spread)) if spread.size else math.nan,
-        histogram=tuple(ranks.counts_of(found, ranks.bins_for(len(found))).tolist()),
-        ecdf=tuple(ranks.ecdf(found).tolist()),
+        histogram=tuple(ranks.count_ranks(found, ranks.choose_bin_count(len(found))).tolist()),
+        ecdf=tuple(ranks.count_below(found).tolist()),
     )
 
 
-def _coverage(below: Array, share: int) -> Coverage:
+def _count_coverage(below: Array, share: int) -> Coverage:
     """Return how many truths lie in the central interval of so many per cent, and the limits of that number."""
     tail = 0.5 * (1.0 - 0.01 * share)
-    low, high = ranks.coverage_limits(len(below), 0.01 * share)
+    low, high = ranks.compute_coverage_limits(len(below), 0.01 * share)
     inside = int(np.sum((below >= tail) & (below <= 1.0 - tail)))
     return Coverage(inside, len(below), low, high)
 
 
-def _listed(rows: Sequence[MachineTrial], status: str) -> tuple[LostMachine, ...]:
+def _list_lost(rows: Sequence[MachineTrial], status: str) -> tuple[LostMachine, ...]:
     return tuple(LostMachine(row.machine, row.says) for row in rows if row.status == status)
 
 
-def _bands(machines: int) -> RankBands:
+def _compute_bands(machines: int) -> RankBands:
     """Return what uniform ranks leave with a probability of 1 %: single bins of the histogram, and the whole ECDF."""
     if not machines:
         return RankBands()
-    bins = ranks.bins_for(machines)
-    low, high = ranks.histogram_band(machines, bins)
-    band = ranks.ecdf_band(machines)
+    bins = ranks.choose_bin_count(machines)
+    low, high = ranks.compute_histogram_band(machines, bins)
+    band = ranks.compute_ecdf_band(machines)
     columns = (tuple(column.tolist()) for column in (band.at, band.middle, band.low, band.high))
     return RankBands(BarBand(bins, machines / bins, low, high), CurveBand(*columns))
 
 
-def _hardest(good: Sequence[MachineTrial]) -> tuple[HardMachine, ...]:
+def _find_hardest(good: Sequence[MachineTrial]) -> tuple[HardMachine, ...]:
     """Return the machines whose truth lies farthest out, in standard deviations of the posterior."""
     places = [
         HardMachine(row.machine, name, at.z, one.truth, at.median, at.sd, at.unit)
@@ -152,15 +152,15 @@ def _hardest(good: Sequence[MachineTrial]) -> tuple[HardMachine, ...]:
         for name, one in row.parameters.items()
         if one.drawn and (at := one.standing)
     ]
-    return tuple(sorted(places, key=lambda one: -abs(one.z))[:HARDEST])
+    return tuple(sorted(places, key=lambda one: -abs(one.z))[:HARDEST_LISTED])
 
 
-def _level(found: Mapping[str, ParameterCheck]) -> float:
+def _share_level(found: Mapping[str, ParameterCheck]) -> float:
     """Return the level of each test, so that all together have that of one."""
-    return LEVEL / max(1, sum(row.drawn for row in found.values()))
+    return TEST_LEVEL / max(1, sum(row.drawn for row in found.values()))
 
 
-def sound(row: ParameterCheck, level: float) -> bool:
+def is_sound(row: ParameterCheck, level: float) -> bool:
     """Return whether the ranks of one parameter stay in their band and its intervals cover within their limits.
 
     Of perfect campaigns with two parameters 4.6 % are refused (20,000 simulated), mostly for the limits of coverage.

@@ -1,6 +1,6 @@
-"""One trial of a calibration: a machine drawn from the priors, its recordings, its posterior, and where the truth lies.
+"""One trial of a calibration: a machine drawn from the priors, its recordings, its posterior, the rank of the truth.
 
-A trial is made from the design and its number alone.
+A trial depends only on the design and its number.
 """
 
 from __future__ import annotations
@@ -21,65 +21,65 @@ from lostmotion.identification.sampling import SampledPosterior, identify
 from lostmotion.identification.trajectory import choose_terms, sample_case
 from lostmotion.preparation.prepare import case_of, prepare
 from lostmotion.quantities import ANGULAR, SI, unit_of
-from lostmotion.simulation.drives import Options, pairs
+from lostmotion.simulation.drives import Options, parse_pairs
 from lostmotion.storage import save_table
-from lostmotion_trials.coverage.design import Design, DrawnMachine, Workshop, workshop
+from lostmotion_trials.coverage.design import Design, DrawnMachine, Workshop, make_workshop
 from lostmotion_trials.coverage.machines import SeenMachine
-from lostmotion_trials.coverage.ranks import rank_of
+from lostmotion_trials.coverage.ranks import compute_rank
 from lostmotion_trials.coverage.results import FAILED, OK, UNCONVERGED, MachineTrial, Sought, Standing
 
 REPLACED = ("recordings", "levels", "truth", "plugins")
-"""What of the case a machine brings itself, or what the registry holds already."""
+"""Tables of the case that are replaced by those of the machine, or that the registry has loaded already."""
 
 
-def trial(design: Design, number: int) -> MachineTrial:
-    """Return what became of machine `number`: its truth, and where that lies."""
-    shop = workshop(design)
+def run_trial(design: Design, number: int) -> MachineTrial:
+    """Return the result of machine `number`: its true parameters and their ranks in the posterior."""
+    shop = make_workshop(design)
     of_truth, of_motion, of_fit = np.random.default_rng([design.seed, number]).spawn(3)
     machine = shop.draw(of_truth)
     unknown = {name: Sought(value, name in machine.drawn) for name, value in machine.truth.items()}
     try:
-        result, also = WAYS[design.route](shop, machine, of_motion, int(of_fit.integers(2**32)))
+        result, also = ROUTE_FUNCTIONS[design.route](shop, machine, of_motion, int(of_fit.integers(2**32)))
     except PlaceError:
         raise
     except (LostMotionError, ArithmeticError, ValueError) as err:
         return MachineTrial(number, FAILED, " ".join(str(err).split()), unknown)
     if not result.converged:
         return MachineTrial(number, UNCONVERGED, "; ".join(result.lacks), unknown)
-    found = _ranks_of(result, {**machine.truth, **also}, machine.drawn)
+    found = _locate_truths(result, {**machine.truth, **also}, machine.drawn)
     return MachineTrial(number, OK, "", found, float(result.quality.ess.min()), float(result.quality.rhat.max()))
 
 
-def _ranks_of(result: SampledPosterior, truth: Mapping[str, float], drawn: frozenset[str]) -> dict[str, Sought]:
+def _locate_truths(result: SampledPosterior, truth: Mapping[str, float], drawn: frozenset[str]) -> dict[str, Sought]:
     """Return for each parameter whose truth is known where that lies among the draws."""
     if lost := drawn - set(result.keys):
         raise ValueError(f"the posterior has no parameter {sorted(lost)[0]}, which was drawn")
     return {
-        key: Sought(truth[key], key in drawn, _standing(truth[key], result.chain[:, :, i], unit))
+        key: Sought(truth[key], key in drawn, _locate_truth(truth[key], result.chain[:, :, i], unit))
         for i, (key, unit) in enumerate(zip(result.keys, result.units, strict=True))
         if key in truth
     }
 
 
-def _standing(truth: float, chain: Array, unit: str) -> Standing:
+def _locate_truth(truth: float, chain: Array, unit: str) -> Standing:
     """Return where a truth lies among the draws of a chain (walkers, steps)."""
     low, median, high = np.quantile(chain, [0.025, 0.5, 0.975]).tolist()
     mean, sd = float(chain.mean()), float(chain.std())
     below = float(np.mean(chain < truth))
-    return Standing(unit, low, median, high, sd, (truth - mean) / sd, below, rank_of(truth, chain))
+    return Standing(unit, low, median, high, sd, (truth - mean) / sd, below, compute_rank(truth, chain))
 
 
 RouteFunction = Callable[[Workshop, DrawnMachine, np.random.Generator, int], tuple[SampledPosterior, dict[str, float]]]
 """Makes the posterior of a machine from a generator for its motion and a seed for the fit; and further truths."""
 
 
-def by_trajectory(
+def infer_by_trajectory(
     shop: Workshop, machine: DrawnMachine, rng: np.random.Generator, seed: int
 ) -> tuple[SampledPosterior, dict[str, float]]:
     """Return the posterior from the recordings themselves, and the true measurement noise of each."""
     seen = shop.record(machine, rng)
     with tempfile.TemporaryDirectory() as folder:
-        prepared = prepare(_write(shop, machine, seen, Path(folder)), shop.registry)
+        prepared = prepare(_write_case(shop, machine, seen, Path(folder)), shop.registry)
     terms = choose_terms(prepared, shop.design.terms, shop.registry)
     result = sample_case(prepared, terms, shop.design.plan, rng=np.random.default_rng(seed)).result
     several = len(seen) > 1
@@ -87,31 +87,31 @@ def by_trajectory(
     return result, {name: one.noise for name, one in zip(names, seen, strict=True)}
 
 
-def by_quantifiers(
+def infer_by_quantifiers(
     shop: Workshop, machine: DrawnMachine, rng: np.random.Generator, seed: int
 ) -> tuple[SampledPosterior, dict[str, float]]:
     """Return the posterior from what the recordings are read as, one level of the drive each."""
     seen, design = shop.record(machine, rng), shop.design
     fit = np.random.default_rng(seed)
     with tempfile.TemporaryDirectory() as folder:
-        case = case_of(_write(shop, machine, seen, Path(folder)), shop.registry)
+        case = case_of(_write_case(shop, machine, seen, Path(folder)), shop.registry)
         task = make_quantifier_task(case, shop.registry, Path(folder), fit, MapGrid(maps=design.maps, jobs=1))
     return identify(task, rng=fit, plan=design.plan), {}
 
 
-def maps_for(shop: Workshop, out: Path, jobs: int) -> tuple[Path, ...]:
+def make_maps(shop: Workshop, out: Path, jobs: int) -> tuple[Path, ...]:
     """Return the maps in which every machine is looked up, made in the folder `out` unless they are there."""
     unit = unit_of(shop.system.model.inputs[0], shop.system.model.motion)
     both = zip(shop.design.labels, shop.design.bench.drives, strict=True)
-    levels = tuple(Level(label, *_harmonic(drive), unit=unit) for label, drive in both)
+    levels = tuple(Level(label, *_read_harmonic(drive), unit=unit) for label, drive in both)
     make_inversion(shop.case, levels, shop.registry, out, MapGrid(jobs=jobs))
     return tuple(sorted(out.glob("map-*.nc")))
 
 
-def _harmonic(drive: str) -> tuple[float, float]:
+def _read_harmonic(drive: str) -> tuple[float, float]:
     """Return amplitude and angular frequency (rad/s) of a drive, which must be a plain sine."""
     kind, _, rest = drive.partition(":")
-    options = Options(kind, {"harmonics": "", **pairs(rest, f"drive {drive!r}")})
+    options = Options(kind, {"harmonics": "", **parse_pairs(rest, f"drive {drive!r}")})
     if kind != "harmonic" or options.shares():
         raise CaseError(
             f"the drive {drive!r} is no sine: the route by quantifiers wants harmonic:amplitude=...,omega=..."
@@ -119,7 +119,7 @@ def _harmonic(drive: str) -> tuple[float, float]:
     return options.number("amplitude"), options.omega()
 
 
-def _write(shop: Workshop, machine: DrawnMachine, seen: list[SeenMachine], folder: Path) -> Path:
+def _write_case(shop: Workshop, machine: DrawnMachine, seen: list[SeenMachine], folder: Path) -> Path:
     """Return the case of a machine, written with its recordings into a folder."""
     design, model = shop.design, shop.system.model
     quantity = model.inputs[0]
@@ -143,5 +143,5 @@ def _write(shop: Workshop, machine: DrawnMachine, seen: list[SeenMachine], folde
     return folder / design.case.name
 
 
-WAYS: Mapping[str, RouteFunction] = {"trajectory": by_trajectory, "quantifiers": by_quantifiers}
+ROUTE_FUNCTIONS: Mapping[str, RouteFunction] = {"trajectory": infer_by_trajectory, "quantifiers": infer_by_quantifiers}
 """The ways to a posterior."""

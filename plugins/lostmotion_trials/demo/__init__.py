@@ -1,1 +1,1 @@
-"""`lostmotion demo`: a robot joint hides friction, and it is found."""
+"""`lostmotion demo`: friction is hidden in a simulated robot joint, and found."""

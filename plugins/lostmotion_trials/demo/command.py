@@ -12,13 +12,13 @@ import click
 from lostmotion.cli import examples, registry_of
 from lostmotion.cli.progress import show_progress
 
-MISSED = 1
+NOT_FOUND = 1
 
 
 @click.command(
     epilog=examples(
         "lostmotion demo",
-        "lostmotion demo --clean --out clean       nothing is hidden, and nothing may be found",
+        "lostmotion demo --clean --out clean       nothing is hidden, so nothing must be found",
         "lostmotion diagnose lostmotion-demo/case/case.toml --out again",
     )
 )
@@ -28,11 +28,11 @@ MISSED = 1
     show_default=True,
     metavar="DIR",
     type=click.Path(file_okay=False, path_type=Path),
-    help="Where the case and the results go.",
+    help="Folder for the case and the results.",
 )
-@click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="Another seed, another recording.")
-@click.option("--clean", is_flag=True, help="Hide nothing, and see that nothing is found.")
-@click.option("--quick", is_flag=True, help="Record for half as long.")
+@click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="Seed of the recording.")
+@click.option("--clean", is_flag=True, help="Hide nothing, and test that nothing is found.")
+@click.option("--quick", is_flag=True, help="Make the recording half as long.")
 @click.option("--no-open", is_flag=True, help="Do not open the report in a browser.")
 @click.option("--jobs", default=2, show_default=True, type=click.IntRange(1), help="How many cores to use.")
 @click.option("--quiet", is_flag=True, help="Show no progress.")
@@ -42,8 +42,9 @@ def command(
 ) -> None:
     """Hide friction in a simulated robot joint, and find it.
 
-    Another integrator than that of the models makes the recording; encoders add noise. The case is written into
-    DIR/case, and diagnosed as yours would be. Exit status 0 when exactly what was hidden was found, 1 otherwise.
+    The recording comes from an integrator that is independent of the models, and encoders add noise. The case is
+    written into DIR/case and diagnosed like any other case. The exit status is 0 when exactly the hidden friction was
+    found, else 1.
     """
     from lostmotion_trials.demo.run import DemoSetting, run_demo
 
@@ -54,14 +55,14 @@ def command(
     click.echo("\n".join(told.lines))
     click.echo(f"took       {time.perf_counter() - begin:.0f} s")
     click.echo(str(report))
-    if not no_open and _watched():
+    if not no_open and _has_display():
         click.launch(report.resolve().as_uri())
     if not told.right:
-        ctx.exit(MISSED)
+        ctx.exit(NOT_FOUND)
 
 
-def _watched() -> bool:
-    """Return whether somebody sits before a screen, and not before a pipe or at the end of a network line."""
+def _has_display() -> bool:
+    """Return whether the command runs in a terminal with a display, not in a pipe or over a network connection."""
     if os.environ.get("CI") or not sys.stdout.isatty():
         return False
     return sys.platform in ("darwin", "win32") or bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))

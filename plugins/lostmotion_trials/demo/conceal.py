@@ -1,7 +1,7 @@
-"""A robot joint with something hidden in it: the recording of the demo, made without the models that will explain it.
+"""The recording of the demo: a robot joint with hidden friction, simulated without the models of the framework.
 
-The motion is computed in degrees and relative to the motor side, with friction that truly sticks, by time stepping
-some forty times finer than any fit. Nothing here is shared with the kernels of the models.
+The motion is computed in degrees and relative to the motor side, with friction that sticks exactly, by time stepping
+about forty times finer than any fit. No code is shared with the kernels of the models.
 """
 
 from __future__ import annotations
@@ -26,19 +26,21 @@ FRICTION = 0.03
 """Hidden friction (N m): 12 % of the peak inertial torque, 2.2 % of the peak torque of the joint."""
 FREQUENCY = 1.54
 AMPLITUDE = 3.0
-"""Base motion (Hz, deg): the link rattles chaotically, with an exponent of 1.2 1/s, and of 2.4 without friction."""
-COUNT = 360.0 / 2**17
-FINER = 5.0
-"""One count of the link's encoder (deg), and how much finer the other one is: it sits on the motor, before the gear."""
-FINE = 200
-SETTLE = 30
-"""Steps between samples, and periods that pass before the recording begins."""
+"""Base motion (Hz, deg): the link moves chaotically, with an exponent of 1.2 1/s, and of 2.4 without friction."""
+ENCODER_COUNT = 360.0 / 2**17
+MOTOR_FINER = 5.0
+"""One count of the encoder of the link (deg), and how much finer the other encoder is: it is on the motor, before the
+gear."""
+SUBSTEPS = 200
+SETTLING_PERIODS = 30
+"""Steps between samples, and drive periods before the recording begins."""
 DIGITS = 6
+"""Decimal digits of the recorded angles (deg)."""
 
 
 @dataclass(frozen=True)
 class NominalJoint:
-    """What the owner of the joint believes, in SI units: known values, and ends of log-uniform priors of the rest."""
+    """The nominal model of the joint, in SI units: known values, and ends of log-uniform priors of the others."""
 
     known: Mapping[str, float]
     estimate: Mapping[str, tuple[float, float]]
@@ -46,10 +48,10 @@ class NominalJoint:
 
 @dataclass(frozen=True)
 class Concealed:
-    """A recording and the truth behind it.
+    """A recording and its true parameters.
 
-    `time` (s), `base_position` and `position` (deg, as the encoders show them), each (samples,); `stuck` is the share
-    of time in which the friction holds. `truth` is in SI units; `nominal` is what the owner of the joint believes.
+    `time` (s), `base_position` and `position` (deg, as read by the encoders), each (samples,); `stuck` is the share of
+    time in which the friction sticks. `truth` is in SI units; `nominal` is the model that the case states.
     """
 
     time: Array
@@ -70,32 +72,32 @@ def conceal_joint(
 ) -> Concealed:
     """Return a recording (degrees, `rate` in Hz) of a joint that hides `friction` (N m); with 0 nothing is hidden.
 
-    `noise` (deg) is the standard deviation of what the encoder of the link adds, 0.6 % of that of the motion; the one
-    of the motor adds a fifth. Both round to whole counts.
+    `noise` (deg) is the standard deviation of the noise of the encoder of the link, 0.6 % of that of the motion; the
+    encoder of the motor has a fifth of that. Both round to whole counts.
     """
     phase, start = rng.uniform(0.0, 2.0 * math.pi), rng.uniform(-0.5, 0.5)
-    settle = round(SETTLE * rate / FREQUENCY)
+    settle = round(SETTLING_PERIODS * rate / FREQUENCY)
     samples = settle + round(periods * rate / FREQUENCY)
-    base, seen = joint_motion(phase, start, friction, rate, samples)
+    base, seen = simulate_joint(phase, start, friction, rate, samples)
     base, seen = base[settle:], seen[settle:]
     return Concealed(
         time=np.arange(len(base)) / rate,
-        base_position=_encoded(base, 1.0 / FINER, noise, rng),
-        position=_encoded(base + seen[:, 0], 1.0, noise, rng),
+        base_position=_read_encoder(base, 1.0 / MOTOR_FINER, noise, rng),
+        position=_read_encoder(base + seen[:, 0], 1.0, noise, rng),
         stuck=float(seen[:, 2].mean()),
         truth={**JOINT, HIDDEN: friction},
-        nominal=_nominal(),
+        nominal=_make_nominal(),
     )
 
 
-def joint_motion(phase: float, start: float, friction: float, rate: float, samples: int) -> tuple[Array, Array]:
+def simulate_joint(phase: float, start: float, friction: float, rate: float, samples: int) -> tuple[Array, Array]:
     """Return the true base angle (samples,) in deg and the columns of `slide` (samples, 3) from rest at `start` deg."""
-    step, omega = 1.0 / (rate * FINE), 2.0 * math.pi * FREQUENCY
-    base = AMPLITUDE * np.cos(omega * (np.arange(samples * FINE) + 0.5) * step + phase)
+    step, omega = 1.0 / (rate * SUBSTEPS), 2.0 * math.pi * FREQUENCY
+    base = AMPLITUDE * np.cos(omega * (np.arange(samples * SUBSTEPS) + 0.5) * step + phase)
     m = JOINT["m"]
     forces = math.degrees(friction / m), math.degrees(JOINT["mgl"] / m)
     numbers = (step, JOINT["c"] / m, JOINT["k0"] / m, math.degrees(JOINT["x0"]), *forces)
-    seen = slide(omega**2 * base, base, numbers, (start, 0.0), FINE)
+    seen = slide(omega**2 * base, base, numbers, (start, 0.0), SUBSTEPS)
     return AMPLITUDE * np.cos(omega * np.arange(samples) / rate + phase), seen
 
 
@@ -133,13 +135,13 @@ def write_case(concealed: Concealed, folder: Path) -> Path:
     return path
 
 
-def _encoded(angle: Array, coarse: float, noise: float, rng: np.random.Generator) -> Array:
-    """Return an angle (deg) as an encoder shows it whose noise and count are `coarse` times those of the link's."""
-    count = coarse * COUNT
+def _read_encoder(angle: Array, coarse: float, noise: float, rng: np.random.Generator) -> Array:
+    """Return an angle (deg) as read by an encoder whose noise and count are `coarse` times those of the link."""
+    count = coarse * ENCODER_COUNT
     shown = count * np.round((angle + coarse * noise * rng.standard_normal(len(angle))) / count)
     return np.round(shown, DIGITS)
 
 
-def _nominal() -> NominalJoint:
-    """Return the model that its owner believes in: the inertia, the stiffness and the weight come from drawings."""
+def _make_nominal() -> NominalJoint:
+    """Return the nominal model: inertia, stiffness and weight are known, as from drawings."""
     return NominalJoint({key: JOINT[key] for key in ("m", "k0", "mgl")}, {"c": (0.01, 2.0), "x0": (0.002, 0.1)})

@@ -1,4 +1,4 @@
-"""The demo: something is hidden in a simulated robot joint, the whole way is gone, and what was found is judged."""
+"""The demo: friction is hidden in a simulated robot joint, the case is diagnosed, and the result is judged."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.diagnosis.report.hero import figure_hero
+from lostmotion.diagnosis.report.hero import save_hero
 from lostmotion.diagnosis.run import run_diagnosis
 from lostmotion.registry import Registry
 from lostmotion.results import percent
@@ -19,12 +19,12 @@ from lostmotion_trials.demo.conceal import AMPLITUDE, FREQUENCY, FRICTION, HIDDE
 
 PERIODS = 40
 QUICK = 20
-"""Recorded periods of the base motion: 26 s, and 13 s for a quick look."""
+"""Recorded periods of the base motion: 26 s, and 13 s with `--quick`."""
 
 
 @dataclass(frozen=True)
 class DemoSetting:
-    """What is asked of the demo; `clean` hides nothing, `quick` records for half as long."""
+    """Options of the demo; `clean` hides nothing, `quick` makes the recording half as long."""
 
     seed: int = 0
     clean: bool = False
@@ -33,8 +33,8 @@ class DemoSetting:
 
 
 @dataclass(frozen=True)
-class Judged:
-    """What the demo has to show: sentences for people, and whether the diagnosis was right."""
+class DemoResult:
+    """The result of the demo: lines to print, and whether the diagnosis was right."""
 
     lines: tuple[str, ...]
     right: bool
@@ -42,10 +42,10 @@ class Judged:
 
 def run_demo(
     out: Path, registry: Registry, setting: DemoSetting, *, say: Callable[[str], None] = lambda _: None
-) -> Judged:
+) -> DemoResult:
     """Return what was hidden, what was found and whether that is right.
 
-    The case goes into `out`/case, the results into `out`, and `out`/hero.png is the picture of the README.
+    The case is written into `out`/case, the results into `out`, and `out`/hero.png is the picture of the README.
     """
     say("conceal")
     rng = np.random.default_rng(setting.seed)
@@ -53,46 +53,46 @@ def run_demo(
     concealed = conceal_joint(rng, periods=periods, friction=0.0 if setting.clean else FRICTION)
     case = write_case(concealed, out / "case")
     diagnosis = run_diagnosis(case, out, registry, seed=setting.seed, jobs=setting.jobs, say=say)
-    figure_hero(out)
-    found = _nothing_hidden(diagnosis) if setting.clean else _hidden(diagnosis)
-    lines = (_recorded(concealed.time), *found, _improved(diagnosis))
-    return Judged(lines, judge(diagnosis, clean=setting.clean))
+    save_hero(out)
+    found = _describe_clean(diagnosis) if setting.clean else _describe_hidden(diagnosis)
+    lines = (_describe_recording(concealed.time), *found, _describe_improvement(diagnosis))
+    return DemoResult(lines, judge(diagnosis, clean=setting.clean))
 
 
 def judge(diagnosis: Diagnosis, *, clean: bool) -> bool:
     """Return whether a diagnosis names what was hidden, and nothing else; its interval is shown but not judged.
 
-    One interval in twenty misses the truth, as it should.
+    A 95 % interval misses the truth in one of twenty cases.
     """
-    keys = {_key(entry) for entry in diagnosis.found}
+    keys = {_format_key(entry) for entry in diagnosis.found}
     return keys == (set() if clean else {HIDDEN.partition(".")[0]})
 
 
-def _key(entry: Mechanism) -> str:
+def _format_key(entry: Mechanism) -> str:
     return entry.mechanism if entry.at in ("", "ground") else f"{entry.mechanism}@{entry.at}"
 
 
-def _recorded(time: Array) -> str:
+def _describe_recording(time: Array) -> str:
     motion = f"moved by {AMPLITUDE:g} deg at {FREQUENCY:g} Hz"
     return f"recorded   {time[-1] - time[0]:.0f} s of a robot link that rattles in its backlash, {motion}"
 
 
-def _nothing_hidden(diagnosis: Diagnosis) -> tuple[str, str]:
-    found = ", ".join(map(_key, diagnosis.found)) or "nothing, as it should be"
+def _describe_clean(diagnosis: Diagnosis) -> tuple[str, str]:
+    found = ", ".join(map(_format_key, diagnosis.found)) or "nothing, as it should be"
     return "hidden     nothing", f"found      {found}"
 
 
-def _hidden(diagnosis: Diagnosis) -> tuple[str, ...]:
-    """Return what was hidden, and what was found with its interval and whether that holds the truth."""
+def _describe_hidden(diagnosis: Diagnosis) -> tuple[str, ...]:
+    """Return lines about what was hidden, and what was found, with its interval and whether that holds the truth."""
     key, _, name = HIDDEN.partition(".")
-    told = f"hidden     {key}, {FRICTION:g} N m: the model that is fitted knows nothing of it"
-    found = [line for entry in diagnosis.found for line in _entry_lines(entry, key, name)]
+    told = f"hidden     {key}, {FRICTION:g} N m: the model of the case does not contain it"
+    found = [line for entry in diagnosis.found for line in _describe_entry(entry, key, name)]
     return told, *(found or ["found      nothing: this should not happen"])
 
 
-def _entry_lines(entry: Mechanism, key: str, name: str) -> list[str]:
-    """Return one entry in words; the truth stands beside the parameter that was hidden."""
-    mine, lines = _key(entry), []
+def _describe_entry(entry: Mechanism, key: str, name: str) -> list[str]:
+    """Return the lines about one entry; the true value follows the parameter that was hidden."""
+    mine, lines = _format_key(entry), []
     for own, q in entry.parameters.items():
         value = f"{q.median:.4g} {q.unit} [{q.low:.4g}, {q.high:.4g}]"
         lines.append(f"found      {mine}, {own} {value}, probability {entry.probability:.3f}")
@@ -103,7 +103,7 @@ def _entry_lines(entry: Mechanism, key: str, name: str) -> list[str]:
     return lines
 
 
-def _improved(diagnosis: Diagnosis) -> str:
+def _describe_improvement(diagnosis: Diagnosis) -> str:
     fit = diagnosis.fit
     before, after = fit.before.nrmse, fit.after.nrmse
     over = f"{fit.after.horizon:g} {fit.horizon_unit}"

@@ -1,1 +1,1 @@
-"""Integrators that share nothing with the framework: what moves the machines of the trials."""
+"""Integrators that simulate the machines of the trials and share no code with the framework."""

@@ -1,8 +1,8 @@
-"""A body with almost anything hidden in it, moved by leapfrog: what a blind trial conceals, written without the terms.
+"""A body with any of the effects that a blind trial hides, simulated by leapfrog and independent of the terms.
 
-All is in absolute coordinates. Dry friction is set-valued: the impulse of a step is whatever holds the parts together,
-up to its bound, so the body truly sticks (Moreau's time stepping; Acary, Brogliato, Numerical Methods for Nonsmooth
-Dynamical Systems (2008)). A place is 0 for the ground and 1 for the base.
+All coordinates are absolute. Dry friction is set-valued: the impulse of a step is the one that holds the parts
+together, up to its bound, so the body sticks exactly (Moreau's time stepping; Acary, Brogliato, Numerical Methods for
+Nonsmooth Dynamical Systems (2008)). A place is 0 for the ground and 1 for the base.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ import numba
 import numpy as np
 
 DAHL, LUGRE, BOUC_WEN = 1.0, 2.0, 3.0
-"""The kinds of a force that remembers."""
+"""The kinds of a force with a state of its own."""
 
 
 class Body(NamedTuple):
-    """What the model knows of, in SI units: m, c and k0 with the gap x0 act towards the base, k towards the ground."""
+    """The nominal parameters in SI units: c and k0 with the gap x0 act towards the base, k towards the ground."""
 
     m: float
     c: float
@@ -28,7 +28,7 @@ class Body(NamedTuple):
 
 
 class Hidden(NamedTuple):
-    """What the model does not know of, in SI units; nothing of it when all is as it stands here."""
+    """The hidden effects, in SI units; with the default values there are none."""
 
     friction: float = 0.0
     excess: float = 0.0
@@ -130,7 +130,7 @@ def _drags(t, x, v, gap, slide, body, h):  # type: ignore[no-untyped-def]
 
 @numba.njit(cache=True, nogil=True)
 def _ridden(far, fast_far, middle, fast, step, h):  # type: ignore[no-untyped-def]
-    """Return the force (N) of a hidden mass on the body, and place and velocity of that mass after one step."""
+    """Return the force (N) of a hidden mass on the body, and position and velocity of that mass after one step."""
     between = h.mode_stiffness * (far + 0.5 * step * fast_far - middle) + h.mode_drag * (fast_far - fast)
     fast_far -= step * between / h.mode_mass
     return between, far + step * fast_far, fast_far
@@ -150,7 +150,7 @@ def _levels(t, rub, place, load, h):  # type: ignore[no-untyped-def]
 
 @numba.njit(cache=True, nogil=True)
 def _pressing(force, gap, body):  # type: ignore[no-untyped-def]
-    """Return the load (N) on the parts: the force of their contact, or where there is none the drive."""
+    """Return the load (N) on the parts: the contact force, or the drive where there is no contact."""
     if body.k0 > 0.0:
         return body.k0 * max(abs(gap) - body.x0, 0.0)
     return abs(force)
@@ -158,7 +158,7 @@ def _pressing(force, gap, body):  # type: ignore[no-untyped-def]
 
 @numba.njit(cache=True, nogil=True)
 def _remembered(z, v, step, h):  # type: ignore[no-untyped-def]
-    """Return the state of a force that remembers after one step at the velocity `v`: the force (N), or its share."""
+    """Return the state of a force with memory after one step at the velocity `v`: the force (N), or its share."""
     if h.memory == BOUC_WEN:
         middle = z + 0.5 * step * (v - 0.5 * (abs(v) * abs(z) * z + v * z * z)) / h.memory_travel
         return z + step * (v - 0.5 * (abs(v) * abs(middle) * middle + v * middle * middle)) / h.memory_travel
@@ -174,16 +174,16 @@ def move(force, base, body, hidden, state, clock, every):  # type: ignore[no-unt
     """Return position, velocity and acceleration (samples, 3) before every `every` steps; `state` moves on to the end.
 
     `force` (steps,) acts at the middle of each step; `base` (3, steps) is the position of the base at the middle and
-    its velocity at the middle and at the end; `clock` is the time at the beginning and the step, in s. `state` holds
-    position, velocity, acceleration, what is remembered, and place and velocity of a hidden mass. Before its onset
-    nothing that is hidden acts.
+    its velocity at the middle and at the end; `clock` is the time at the beginning and the step, in s. `state` has
+    position, velocity, acceleration, the state of the force with memory, and position and velocity of a hidden mass.
+    Hidden effects act from their onset on.
     """
     return _moved(force, base, body, hidden, Hidden(), state, clock, every)
 
 
 @numba.njit(cache=True, nogil=True)
 def _moved(force, base, body, hidden, nothing, state, clock, every):  # type: ignore[no-untyped-def]
-    """Return what `move` does; before its onset `nothing` stands for what is hidden."""
+    """Return the result of `move`; before the onset `nothing` replaces the hidden effects."""
     begin, step = clock
     x, v, a, z, far, fast_far = state
     seen = np.zeros((len(force) // every, 3))

@@ -1,8 +1,8 @@
-"""A body as real rigs have it: moved by leapfrog, with small forces and flaws that no term of the library describes.
+"""A body with the imperfections of real rigs, simulated by leapfrog: small forces that no library term describes.
 
-The hidden mechanisms are those of `hidden`. Beside them act a force over the position, one over the velocity,
-a law of friction whose level follows a curve over the speed, a foot that gives way, and a far mode that the sensor
-sees. With none of these it is the same motion as that of `hidden.move` (`tests/science/test_rough.py`).
+The hidden mechanisms are those of `hidden`. In addition there are a force over position, a force over velocity,
+friction whose level follows a curve over the speed, a compliant foot, and a mode far above the band that the sensor
+sees. Without these the motion equals that of `hidden.move` (`tests/science/test_rough.py`).
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ REACH = 3.0
 
 
 class Flaws(NamedTuple):
-    """What the motion of a real rig has beside its physics; SI units, nothing of it when all is as it stands here.
+    """The imperfections of a rig, in SI units; with the default values there are none.
 
     `position` and `velocity` (m, m/s) are the scales of the three curves. The foot has a stiffness (N/m, 0: rigid) and
     a drag (N s/m). The far mode has an angular frequency (rad/s, 0: none), a damping ratio and a compliance (m/N).

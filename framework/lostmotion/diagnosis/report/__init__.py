@@ -1,1 +1,1 @@
-"""The page of a diagnosis: reads its result and arrays, and computes nothing."""
+"""The page of a diagnosis: it shows the result and its arrays, and computes nothing."""

@@ -1,4 +1,4 @@
-"""Figures: how the error of a prediction grows with its lead, and whether the innovations are white."""
+"""Figures of the growth of the prediction error with the lead time, and of the whiteness of the innovations."""
 
 from __future__ import annotations
 
@@ -9,38 +9,38 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter
 
-from lostmotion.diagnosis.report.cast import versions
 from lostmotion.diagnosis.report.evidence import Evidence
+from lostmotion.diagnosis.report.versions import list_versions
 from lostmotion.report import style
 from lostmotion.report.words import chance, figures, percent, sentence
 
-FEW_DECADES = 300.0
-LOWEST = 1e-5
+LABELLED_RANGE = 300.0
+LOWEST_SHARE = 1e-5
 
 
 class LeadAxis(NamedTuple):
-    """What one second of lead is in the unit of the axis, and the name of that unit."""
+    """One second of lead time in the unit of the axis, and the name of that unit."""
 
     rate: float
     name: str
 
 
 def draw(evidence: Evidence) -> Figure | None:
-    """Return the growth of the prediction error, or None without its curves."""
-    if not evidence.has("lead") or not _curves(evidence):
+    """Return the figure of the growth of the prediction error, or None without its curves."""
+    if not evidence.has("lead") or not _list_curves(evidence):
         return None
-    figure = style.blank(3.4)
+    figure = style.make_figure(3.4)
     axes = figure.subplots()
-    draw_growth(axes, evidence, clock_of(evidence))
+    draw_growth(axes, evidence, make_lead_axis(evidence))
     style.legend_above(figure, axes)
     return figure
 
 
 def caption(evidence: Evidence) -> str:
-    """Return what to see in the figure."""
+    """Return the caption of the figure."""
     floor = (
-        " The noise floor is what the right model would reach from states known no better than these: a curve that "
-        "keeps to it has nothing left to gain."
+        " The noise floor is the error of the correct model from equally uncertain states: a curve on the noise floor "
+        "cannot be improved."
     )
     return (
         "Error of free-running predictions of held-out data over the standard deviation of the response, against the "
@@ -48,16 +48,16 @@ def caption(evidence: Evidence) -> str:
     ) + (floor if evidence.has("growth_floor") else "")
 
 
-def clock_of(evidence: Evidence) -> LeadAxis:
-    """Return the unit of the horizon."""
+def make_lead_axis(evidence: Evidence) -> LeadAxis:
+    """Return the unit of the prediction horizon for the axis of lead times."""
     fit = evidence.result.fit
     return LeadAxis(1.0 / fit.horizon_unit_time, fit.horizon_unit)
 
 
 def draw_growth(axes: Axes, evidence: Evidence, clock: LeadAxis) -> None:
-    """Draw the error over the lead before, after and at the noise floor, on a logarithmic scale."""
+    """Draw the error over the lead time before, after and at the noise floor, on a logarithmic scale."""
     lead = clock.rate * evidence.arrays["lead"]
-    for name, colour, words in _curves(evidence):
+    for name, colour, words in _list_curves(evidence):
         curve = evidence.arrays[f"growth_{name}"]
         axes.plot(lead, np.where(curve > 0, curve, np.nan), color=colour, label=words, linewidth=1.8)
     axes.set_yscale("log")
@@ -67,24 +67,24 @@ def draw_growth(axes: Axes, evidence: Evidence, clock: LeadAxis) -> None:
     axes.yaxis.set_major_formatter(lambda value, _: percent(value))
     axes.yaxis.set_minor_formatter(NullFormatter())
     low, high = axes.get_ylim()
-    low = max(low, LOWEST * high)
+    low = max(low, LOWEST_SHARE * high)
     axes.set_ylim(low, high)
-    axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if high < FEW_DECADES * low else (1.0,)))
+    axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if high < LABELLED_RANGE * low else (1.0,)))
     _mark_validity(axes, evidence, clock)
     turns = (lambda lead: np.asarray(lead, float) / clock.rate, lambda at: np.asarray(at, float) * clock.rate)
     above = axes.secondary_xaxis("top", functions=turns)
     above.set_xlabel("lead (s)")
 
 
-def _curves(evidence: Evidence) -> list[tuple[str, str, str]]:
-    models = [(who.key, who.colour, who.named("error")) for who in versions(evidence)]
+def _list_curves(evidence: Evidence) -> list[tuple[str, str, str]]:
+    models = [(version.key, version.colour, version.make_label("error")) for version in list_versions(evidence)]
     return [entry for entry in [("floor", style.QUIET, "noise floor"), *models] if evidence.has(f"growth_{entry[0]}")]
 
 
 def _mark_validity(axes: Axes, evidence: Evidence, clock: LeadAxis) -> None:
     valid = evidence.result.valid_prediction_time
-    times, longer = ({"before": told.before, "after": told.after} for told in (valid, valid.or_longer))
-    for row, (name, colour, _) in enumerate(_curves(evidence)):
+    times, longer = ({"before": one.before, "after": one.after} for one in (valid, valid.or_longer))
+    for row, (name, colour, _) in enumerate(_list_curves(evidence)):
         at = clock.rate * times.get(name, np.nan)
         if not at <= axes.get_xlim()[1] or longer[name]:
             continue
@@ -96,28 +96,27 @@ def _mark_validity(axes: Axes, evidence: Evidence, clock: LeadAxis) -> None:
 
 def draw_whiteness(evidence: Evidence) -> Figure | None:
     """Return the autocorrelation of the innovations before and after, or None without it."""
-    shown = [who for who in versions(evidence) if evidence.has(f"acf_{who.key}")]
+    shown = [version for version in list_versions(evidence) if evidence.has(f"acf_{version.key}")]
     if not shown:
         return None
-    figure = style.blank(2.2)
+    figure = style.make_figure(2.2)
     panels = figure.subplots(1, len(shown), squeeze=False, sharey=True)[0]
-    for axes, who in zip(panels, shown, strict=True):
-        _draw_lags(axes, evidence, who.key, who.colour)
-        axes.set_title(who.named("model"), color=who.colour)
+    for axes, version in zip(panels, shown, strict=True):
+        _draw_lags(axes, evidence, version.key, version.colour)
+        axes.set_title(version.make_label("model"), color=version.colour)
     panels[0].set_ylabel("autocorrelation")
     return figure
 
 
-def whiteness_caption(evidence: Evidence) -> str:
-    """Return what to see in the autocorrelations."""
-    said = []
-    for who in versions(evidence):
-        told = who.of(evidence.result.whiteness.before, evidence.result.whiteness.after)
-        said.append(f"{who.named('model')} ({chance(told.p)}): {told.says}")
-    opening = "Autocorrelation of the innovations, the part of each sample that the model did not expect."
-    return " ".join(
-        [opening, "White ones stay within the grey band but for one lag in twenty.", *(sentence(part) for part in said)]
-    )
+def caption_whiteness(evidence: Evidence) -> str:
+    """Return the caption of the figure of the autocorrelations."""
+    sentences: list[str] = []
+    for version in list_versions(evidence):
+        found = version.select(evidence.result.whiteness.before, evidence.result.whiteness.after)
+        sentences.append(f"{version.make_label('model')} ({chance(found.p)}): {found.says}")
+    opening = "Autocorrelation of the innovations, the part of each sample that the model does not predict."
+    band = "White innovations are within the grey band except for one lag in twenty."
+    return " ".join([opening, band, *(sentence(part) for part in sentences)])
 
 
 def _draw_lags(axes: Axes, evidence: Evidence, name: str, colour: str) -> None:

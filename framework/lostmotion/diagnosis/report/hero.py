@@ -1,4 +1,4 @@
-"""The one wide picture that tells the whole story, for a README or a talk."""
+"""The summary figure of a diagnosis, for a README or a talk."""
 
 from __future__ import annotations
 
@@ -12,32 +12,32 @@ from lostmotion.diagnosis.report import missing, prediction, ranking
 from lostmotion.diagnosis.report.evidence import Evidence, read_evidence
 from lostmotion.report import style
 
-CANDIDATES = 7
+CANDIDATES_SHOWN = 7
 Place = tuple[GridSpec, int]
 Panel = Callable[[Figure, Evidence, Place], None]
 
 
-def figure_hero(folder: Path) -> Path:
-    """Return the path of `hero.png` in the folder: held-out prediction, missing force with its law, and ranking."""
+def save_hero(folder: Path) -> Path:
+    """Write `hero.png` into the folder (held-out prediction, missing force, ranking) and return its path."""
     evidence = read_evidence(folder)
-    with style.applied(evidence.result.units.angle):
+    with style.use_style(evidence.result.units.angle):
         return style.save(draw(evidence), folder / "hero.png")
 
 
 def draw(evidence: Evidence) -> Figure:
-    """Return the three panels side by side; one whose arrays are absent stays out."""
-    panels = _panels(evidence)
-    figure = style.blank(3.7, width=4.8 * max(1, len(panels)))
+    """Return the three panels side by side; a panel whose arrays are absent is left out."""
+    panels = _list_panels(evidence)
+    figure = style.make_figure(3.7, width=4.8 * max(1, len(panels)))
     grid = figure.add_gridspec(2, max(1, len(panels)), height_ratios=[2.2, 1])
     for column, panel in enumerate(panels):
         panel(figure, evidence, (grid, column))
     return figure
 
 
-def _panels(evidence: Evidence) -> list[Panel]:
+def _list_panels(evidence: Evidence) -> list[Panel]:
     able = (
-        (_draw_prediction, prediction.predicted(evidence)),
-        (_draw_force, bool(missing.curve_of(evidence, "before_mean", "velocity").size)),
+        (_draw_prediction, prediction.has_prediction(evidence)),
+        (_draw_force, bool(missing.get_curve(evidence, "before_mean", "velocity").size)),
         (_draw_ranking, bool(evidence.result.ranking)),
     )
     return [panel for panel, can in able if can]
@@ -47,7 +47,7 @@ def _draw_prediction(figure: Figure, evidence: Evidence, place: Place) -> None:
     grid, column = place
     below = figure.add_subplot(grid[1, column])
     axes = figure.add_subplot(grid[0, column], sharex=below)
-    window = prediction.window_of(evidence)
+    window = prediction.choose_window(evidence)
     prediction.draw_window(axes, evidence, window)
     prediction.draw_error(below, evidence, window)
     low, high = axes.get_ylim()
@@ -64,11 +64,11 @@ def _draw_force(figure: Figure, evidence: Evidence, place: Place) -> None:
     names = [n for n in evidence.labels.get("covariate", ()) if n.startswith("velocity")]
     missing.draw_curve(axes, evidence, max(names, key=lambda n: shares.get(n, 0.0)))
     axes.legend(loc="best", fontsize=8)
-    axes.set_title("The force that was missing" if evidence.augmented else "No force is missing", color="black")
+    axes.set_title("Missing force" if evidence.augmented else "No force is missing", color="black")
 
 
 def _draw_ranking(figure: Figure, evidence: Evidence, place: Place) -> None:
     axes = figure.add_subplot(place[0][:, place[1]])
-    ranking.draw_bars(axes, evidence, ranking.ranked(evidence, CANDIDATES))
-    axes.set_title("Which physics it is" if evidence.augmented else "What was tried")
+    ranking.draw_bars(axes, evidence, ranking.rank_candidates(evidence, CANDIDATES_SHOWN))
+    axes.set_title("Ranking of the candidates" if evidence.augmented else "Tested candidates")
     axes.set_xlabel("log evidence gain")

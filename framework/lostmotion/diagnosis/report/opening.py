@@ -1,10 +1,10 @@
-"""How the report opens: the verdict in words, over which horizon it predicts, and what cannot be told apart."""
+"""Texts at the top of the report: the verdict, the prediction horizon, and mechanisms that cannot be distinguished."""
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
-from lostmotion.report.words import sentence, span, spoken
+from lostmotion.report.words import sentence, span, to_words
 from lostmotion.results.diagnosis import Diagnosis
 
 
@@ -15,7 +15,7 @@ class Badge(NamedTuple):
     words: str
 
 
-def badge(result: Diagnosis) -> Badge:
+def make_badge(result: Diagnosis) -> Badge:
     """Return the verdict: adequate, or a mismatch whose cause is named, likely or open."""
     if result.verdict == "adequate":
         return Badge("adequate", "Adequate")
@@ -25,11 +25,11 @@ def badge(result: Diagnosis) -> Badge:
     return Badge("unknown", "Mismatch, likely" if "likely" in states else "Mismatch, open")
 
 
-def horizon(result: Diagnosis) -> str:
-    """Return ` over 0.5 Lyapunov times`."""
+def format_horizon(result: Diagnosis) -> str:
+    """Return the prediction horizon as text, such as ` over 0.5 Lyapunov times`."""
     return f" over {span(result.fit.before.horizon, result.fit.horizon_unit)}"
 
 
-def confused(result: Diagnosis) -> list[str]:
-    """Return one sentence for each mechanism that the recording cannot tell from the one found."""
-    return [f"{sentence(spoken(one.mechanism))}: {one.says}" for one in result.confused_with]
+def write_confusions(result: Diagnosis) -> list[str]:
+    """Return one sentence for each mechanism that the recording cannot distinguish from the found one."""
+    return [f"{sentence(to_words(one.mechanism))}: {one.says}" for one in result.confused_with]

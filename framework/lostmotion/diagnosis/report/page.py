@@ -1,4 +1,4 @@
-"""The page of a diagnosis: its sections in their order, and what stands above and below them."""
+"""The page of a diagnosis: its sections in order, and the texts above and below them."""
 
 from __future__ import annotations
 
@@ -22,49 +22,49 @@ from lostmotion.diagnosis.report import (
     strip,
     tables,
 )
-from lostmotion.diagnosis.report.evidence import AGAIN, Evidence, read_evidence
+from lostmotion.diagnosis.report.evidence import RERUN_HINT, Evidence, read_evidence
 from lostmotion.report import style
-from lostmotion.report.pages import PageSection, drawn, template, written
-from lostmotion.report.words import headed, typeset
+from lostmotion.report.pages import PageSection, draw_sections, load_template, write_page
+from lostmotion.report.words import typeset
 
 SECTIONS: tuple[PageSection[Evidence], ...] = (
     PageSection("prediction", "Recording and prediction", prediction.draw, prediction.caption),
-    PageSection("decay", "Free decay", decay.draw, decay.caption, words=decay.words),
-    PageSection("sensors", "All sensors", sensors.draw, sensors.caption, sensors.table),
+    PageSection("decay", "Free decay", decay.draw, decay.caption, words=decay.write_words),
+    PageSection("sensors", "All sensors", sensors.draw, sensors.caption, sensors.make_table),
     PageSection("missing", "The force that the model does not explain", missing.draw, missing.caption),
-    PageSection("when", "When the model disagrees", strip.draw, strip.caption, strip.table),
-    PageSection("learned", "The force that was learned", learned.draw, learned.caption),
-    PageSection("ranking", "Which physics it may be", ranking.draw, ranking.caption),
-    PageSection("parameters", "Parameters", posteriors.draw, posteriors.caption, posteriors.table),
-    PageSection("sharing", "What recordings share", table=sharing.table, words=sharing.words),
-    PageSection("portraits", portraits.title, portraits.draw, portraits.caption),
-    PageSection("show", "Before and after in numbers", table=show.table, look="prose"),
-    PageSection("growth", "How far ahead predictions hold", growth.draw, growth.caption),
-    PageSection("whiteness", "Are the innovations white?", growth.draw_whiteness, growth.whiteness_caption),
+    PageSection("when", "When the model disagrees", strip.draw, strip.caption, strip.make_table),
+    PageSection("learned", "The learned force", learned.draw, learned.caption),
+    PageSection("ranking", "Ranking of the candidates", ranking.draw, ranking.caption),
+    PageSection("parameters", "Parameters", posteriors.draw, posteriors.caption, posteriors.make_table),
+    PageSection("sharing", "Parameters in each recording", table=sharing.make_table, words=sharing.write_words),
+    PageSection("portraits", portraits.make_title, portraits.draw, portraits.caption),
+    PageSection("show", "Before and after in numbers", table=show.make_table, look="prose"),
+    PageSection("growth", "Growth of the prediction error", growth.draw, growth.caption),
+    PageSection("whiteness", "Are the innovations white?", growth.draw_whiteness, growth.caption_whiteness),
 )
 
 
 def write_report(folder: Path) -> Path:
     """Return the path of `report.html`, written from `diagnosis.json` and `arrays.nc` in the folder."""
     evidence = read_evidence(folder)
-    return written(folder / "report.html", lambda: render(evidence), AGAIN)
+    return write_page(folder / "report.html", lambda: render(evidence), RERUN_HINT)
 
 
 def render(evidence: Evidence) -> str:
     """Return the page as one self-contained HTML text."""
     result = evidence.result
-    with style.applied(result.units.angle):
-        sections = list(drawn(SECTIONS, evidence))
-        numbers, mechanisms = tables.key_numbers(evidence), tables.mechanisms(evidence)
-    return template("page.html.j2", __package__).render(
+    with style.use_style(result.units.angle):
+        sections = list(draw_sections(SECTIONS, evidence))
+        numbers, mechanisms = tables.make_number_table(evidence), tables.make_mechanism_table(evidence)
+    return load_template("page.html.j2", __package__).render(
         title=result.title,
-        badge=opening.badge(result),
-        answer=[typeset(part) for part in headed(result.says)],
+        badge=opening.make_badge(result),
+        answer=[typeset(part) for part in result.says],
         model=result.model,
         numbers=numbers,
         mechanisms=mechanisms,
         sections=[one._replace(caption=typeset(one.caption), words=typeset(one.words)) for one in sections],
         notes=result.notes,
-        confused=opening.confused(result),
+        confused=opening.write_confusions(result),
         provenance=json.dumps(to_plain(result.provenance), indent=2, ensure_ascii=False),
     )

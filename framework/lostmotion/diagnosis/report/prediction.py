@@ -1,4 +1,4 @@
-"""Figure: the recording and the free-running predictions of held-out data, before and after."""
+"""Figure of the recording and the free-running predictions of held-out data, before and after."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from lostmotion.diagnosis.report.cast import versions
 from lostmotion.diagnosis.report.evidence import Evidence
+from lostmotion.diagnosis.report.versions import list_versions
 from lostmotion.report import style
 from lostmotion.report.words import Scale, with_unit
 from lostmotion.results import Array
 
 PERIODS_SHOWN = 6
-COLUMNS = 900
+ENVELOPE_COLUMNS = 900
 
 
 class Window(NamedTuple):
-    """Samples of one recording, those of them to be drawn large, and where the predictions start anew."""
+    """Samples of one recording, the samples of the enlarged window, and the restarts of the predictions."""
 
     record: NDArray[np.intp]
     shown: NDArray[np.intp]
@@ -28,12 +28,12 @@ class Window(NamedTuple):
 
 
 def draw(evidence: Evidence) -> Figure | None:
-    """Return overview, predictions and their errors one below the other, or None without a recording."""
+    """Return overview, predictions and errors one below the other, or None without a recording."""
     if not evidence.has("time", "response"):
         return None
-    window = window_of(evidence)
-    panels = 3 if predicted(evidence) else 2
-    figure = style.blank(0.4 + 1.85 * panels)
+    window = choose_window(evidence)
+    panels = 3 if has_prediction(evidence) else 2
+    figure = style.make_figure(0.4 + 1.85 * panels)
     rows = figure.subplots(panels, 1, height_ratios=[0.55, 2, 1][:panels])
     draw_overview(rows[0], evidence, window)
     draw_window(rows[1], evidence, window)
@@ -48,52 +48,53 @@ def draw(evidence: Evidence) -> Figure | None:
 
 
 def caption(evidence: Evidence) -> str:
-    """Return what to see in the figure."""
-    if not predicted(evidence):
-        return "The recording; held-out part shaded, and a few periods of it drawn large."
+    """Return the caption of the figure."""
+    if not has_prediction(evidence):
+        return "The recording, with the held-out part shaded, and a few enlarged periods."
     closing = (
-        " The vermillion curve leaves the recording where the missing physics acts; the blue one should stay on it."
-        if len(_forecasts(evidence)) > 1
-        else " Where nothing is missing, the prediction stays on the recording until noise and chaos part them."
+        " The vermillion curve deviates from the black one where the missing physics acts; the blue one should follow"
+        " it."
+        if len(_list_forecasts(evidence)) > 1
+        else " Without missing physics, the prediction follows the recording until noise and chaos separate them."
     )
     names = [one.name for one in evidence.result.sensors]
     whose = f" of the first sensor, {names[0]}" if len(names) > 1 else ""
     return (
-        f"Top: the whole recording{whose}, with the part that no fit has seen shaded and the enlarged window outlined. "
-        "Middle: recording and free-running prediction, started anew from a filtered state at each triangle. "
+        f"Top: the whole recording{whose}, with the held-out part shaded and the enlarged window outlined. "
+        "Middle: recording and free-running prediction, restarted from a filtered state at each triangle. "
         "Bottom: prediction minus recording." + closing
     )
 
 
-def predicted(evidence: Evidence) -> bool:
-    """Return whether there is a recording with a prediction of it."""
-    return evidence.has("time", "response") and bool(_forecasts(evidence))
+def has_prediction(evidence: Evidence) -> bool:
+    """Return whether there is a recording with a prediction."""
+    return evidence.has("time", "response") and bool(_list_forecasts(evidence))
 
 
-def window_of(evidence: Evidence) -> Window:
-    """Return the recording that holds the first held-out restart, and a few periods around that restart."""
+def choose_window(evidence: Evidence) -> Window:
+    """Return the recording with the first held-out restart, and a few periods around this restart."""
     time = evidence.arrays["time"]
     held = evidence.arrays.get("heldout", np.zeros(time.size)) > 0
     starts = np.flatnonzero((evidence.arrays.get("restart", np.zeros(time.size)) > 0) & held)
     centre = int(starts[0]) if starts.size else int(np.argmax(held))
     number = evidence.arrays.get("record", np.zeros(time.size))
     record = np.flatnonzero(number == number[centre])
-    return Window(record, _around(evidence, record, centre), np.intersect1d(starts, record))
+    return Window(record, _select_periods(evidence, record, centre), np.intersect1d(starts, record))
 
 
-def _around(evidence: Evidence, record: NDArray[np.intp], centre: int) -> NDArray[np.intp]:
+def _select_periods(evidence: Evidence, record: NDArray[np.intp], centre: int) -> NDArray[np.intp]:
     time = evidence.arrays["time"][record]
     frequency = evidence.result.drive.frequency
     whole = float(time[-1] - time[0])
-    cycle = 1.0 / frequency if frequency else _natural_period(evidence)
+    cycle = 1.0 / frequency if frequency else _get_natural_period(evidence)
     length = min(whole, PERIODS_SHOWN * cycle if cycle > 0 else whole / 8)
     start = min(max(float(evidence.arrays["time"][centre]) - length / 12, time[0]), time[-1] - length)
     shown: NDArray[np.intp] = record[(time >= start) & (time <= start + length)]
     return shown
 
 
-def _natural_period(evidence: Evidence) -> float:
-    """Return the natural period (s) where predictions are judged over so many of them, else NaN."""
+def _get_natural_period(evidence: Evidence) -> float:
+    """Return the natural period (s) where it is the unit of the prediction horizon, else NaN."""
     fit = evidence.result.fit
     return fit.horizon_unit_time if fit.horizon_unit == "natural periods" else float("nan")
 
@@ -101,7 +102,7 @@ def _natural_period(evidence: Evidence) -> float:
 def draw_overview(axes: Axes, evidence: Evidence, window: Window) -> None:
     """Draw the whole recording small, with the held-out part shaded and the window outlined."""
     time, values = evidence.arrays["time"][window.record], evidence.arrays["response"][window.record]
-    scale = scale_used(evidence)
+    scale = choose_scale(evidence)
     _draw_envelope(axes, time, scale.factor * values)
     held = evidence.arrays.get("heldout", np.zeros(evidence.arrays["time"].size))[window.record] > 0
     if held.any():
@@ -116,11 +117,11 @@ def draw_overview(axes: Axes, evidence: Evidence, window: Window) -> None:
 
 
 def _draw_envelope(axes: Axes, time: Array, values: Array) -> None:
-    """Draw a curve, or lowest and highest values of its columns where it has more samples than the page has dots."""
-    if values.size < 3 * COLUMNS:
+    """Draw a curve, or for many samples the lowest and highest values in each column of the figure."""
+    if values.size < 3 * ENVELOPE_COLUMNS:
         axes.plot(time, values, color=style.QUIET, linewidth=0.8)
         return
-    firsts = np.linspace(0, values.size, COLUMNS, endpoint=False).astype(int)
+    firsts = np.linspace(0, values.size, ENVELOPE_COLUMNS, endpoint=False).astype(int)
     low, high = np.fmin.reduceat(values, firsts), np.fmax.reduceat(values, firsts)
     axes.fill_between(time[firsts], low, high, color=style.QUIET, linewidth=0.4)
 
@@ -128,55 +129,58 @@ def _draw_envelope(axes: Axes, time: Array, values: Array) -> None:
 def draw_window(axes: Axes, evidence: Evidence, window: Window) -> None:
     """Draw the recording and the predictions of a few periods."""
     seen = evidence.arrays["response"][window.shown]
-    scale = scale_used(evidence)
+    scale = choose_scale(evidence)
     time = evidence.arrays["time"]
-    there = _there(seen)
+    there = _select_drawn(seen)
     axes.plot(
         time[window.shown][there], scale.factor * seen[there], color=style.RECORDED, linewidth=3, label="recording"
     )
-    for name, colour, words in _forecasts(evidence):
-        at, values = _broken(time, evidence.arrays[name], window)
+    for name, colour, words in _list_forecasts(evidence):
+        at, values = _insert_gaps(time, evidence.arrays[name], window)
         axes.plot(at, scale.factor * values, color=colour, label=words)
-    others = [scale.factor * evidence.arrays[name][window.shown] for name, _, _ in _forecasts(evidence)]
-    axes.set_ylim(style.framed(scale.factor * seen, others, 0.5))
-    _finish(axes, evidence, window, with_unit(evidence.result.response.quantity, scale.unit))
+    others = [scale.factor * evidence.arrays[name][window.shown] for name, _, _ in _list_forecasts(evidence)]
+    axes.set_ylim(style.limits_around(scale.factor * seen, others, 0.5))
+    _format_axes(axes, evidence, window, with_unit(evidence.result.response.quantity, scale.unit))
 
 
 def draw_error(axes: Axes, evidence: Evidence, window: Window) -> None:
     """Draw prediction minus recording for a few periods."""
     time, seen = evidence.arrays["time"], evidence.arrays["response"]
-    errors = {name: evidence.arrays[name] - seen for name, _, _ in _forecasts(evidence)}
+    errors = {name: evidence.arrays[name] - seen for name, _, _ in _list_forecasts(evidence)}
     most = 1.5 * float(np.nanmax(seen) - np.nanmin(seen))
     shown = np.clip(np.concatenate([error[window.shown] for error in errors.values()]), -most, most)
     scale = style.scale_of(shown, evidence.response_unit)
     axes.axhline(0, color=style.RECORDED, linewidth=0.8)
-    for name, colour, _ in _forecasts(evidence):
-        at, values = _broken(time, errors[name], window)
-        there = _there(values)
+    for name, colour, _ in _list_forecasts(evidence):
+        at, values = _insert_gaps(time, errors[name], window)
+        there = _select_drawn(values)
         axes.plot(at[there], scale.factor * values[there], color=colour)
     axes.set_ylim(style.span_of(scale.factor * shown, 0.08))
-    _finish(axes, evidence, window, with_unit("error", scale.unit))
+    _format_axes(axes, evidence, window, with_unit("error", scale.unit))
 
 
-def _there(values: Array) -> NDArray[np.bool_]:
-    """Return what to draw of values (n,): all, with gaps at NaN, or finite ones alone of a sensor read more rarely."""
+def _select_drawn(values: Array) -> NDArray[np.bool_]:
+    """Return which values (n,) to draw: all, with gaps at NaN, or only the finite ones of a slower sensor."""
     finite = np.isfinite(values)
     return finite if np.mean(finite) < 0.6 else np.ones_like(finite)
 
 
-def _forecasts(evidence: Evidence) -> list[tuple[str, str, str]]:
-    known = [(f"forecast_{who.key}", who.colour, who.named("prediction")) for who in versions(evidence)]
+def _list_forecasts(evidence: Evidence) -> list[tuple[str, str, str]]:
+    known = [
+        (f"forecast_{version.key}", version.colour, version.make_label("prediction"))
+        for version in list_versions(evidence)
+    ]
     return [entry for entry in known if evidence.has(entry[0])]
 
 
-def _broken(time: Array, values: Array, window: Window) -> tuple[Array, Array]:
+def _insert_gaps(time: Array, values: Array, window: Window) -> tuple[Array, Array]:
     """Return the curve in the window with a gap at each restart, where the prediction jumps."""
     gaps = np.searchsorted(window.shown, np.intersect1d(window.restarts, window.shown))
     at, curve = time[window.shown], values[window.shown]
     return np.insert(at, gaps, at[gaps]), np.insert(curve, gaps, np.nan)
 
 
-def _finish(axes: Axes, evidence: Evidence, window: Window, name: str) -> None:
+def _format_axes(axes: Axes, evidence: Evidence, window: Window, name: str) -> None:
     time = evidence.arrays["time"]
     at = time[np.intersect1d(window.restarts, window.shown)]
     foot = axes.get_xaxis_transform()
@@ -187,6 +191,6 @@ def _finish(axes: Axes, evidence: Evidence, window: Window, name: str) -> None:
     axes.set_ylabel(name)
 
 
-def scale_used(evidence: Evidence) -> Scale:
+def choose_scale(evidence: Evidence) -> Scale:
     """Return the scale in which the response is shown."""
     return style.scale_of(evidence.arrays["response"], evidence.response_unit)

@@ -1,4 +1,4 @@
-"""Figure: when the models disagree with a recording, as a strip over time or hits; a table of recordings by level."""
+"""Figure of the disagreement of the models over time or hits, as a colour strip, and a table of recordings."""
 
 from __future__ import annotations
 
@@ -9,49 +9,51 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
-from lostmotion.diagnosis.report.cast import Version, versions
 from lostmotion.diagnosis.report.evidence import Evidence
+from lostmotion.diagnosis.report.versions import Version, list_versions
 from lostmotion.report import style
 from lostmotion.report.pages import Grid
 from lostmotion.report.words import DASH, figures, with_unit
 from lostmotion.results import Array, percent
 from lostmotion.results.mismatch import DisagreementOverTime
 
-SPAN = 3.0
-"""Colours reach over a factor of three at least: less is no disagreement worth a colour."""
-TWICE = 2.2
-"""The axis holds a half and twice what is expected at least, so that both have a mark."""
-LEVEL = 0.05
-LEAST = 1e-3
+COLOUR_RANGE = 3.0
+"""Smallest range of the colour scale, as a factor."""
+AXIS_RANGE = 2.2
+"""Smallest range of the axis, as a factor, so that half and twice the expected value have tick marks."""
+SMALLEST_RATIO = 1e-3
 
 
 def draw(evidence: Evidence) -> Figure | None:
-    """Return a strip for each model over a step plot of both, or None where nothing was told over time."""
-    told = evidence.result.where.over_time
-    if told is None or len(told.edges) < 3:
+    """Return a strip for each model over a step plot of both, or None without a comparison over time."""
+    found = evidence.result.where.over_time
+    if found is None or len(found.edges) < 3:
         return None
-    rows = {who: np.maximum(who.of(told.before, told.after), LEAST) for who in versions(evidence)}
-    scale = style.scale_of(np.array(told.edges), "s")
-    edges = scale.factor * np.array(told.edges)
-    figure = style.blank(0.45 * len(rows) + 2.6)
+    rows = {
+        version: np.maximum(version.select(found.before, found.after), SMALLEST_RATIO)
+        for version in list_versions(evidence)
+    }
+    scale = style.scale_of(np.array(found.edges), "s")
+    edges = scale.factor * np.array(found.edges)
+    figure = style.make_figure(0.45 * len(rows) + 2.6)
     panels = figure.subplots(len(rows) + 1, 1, sharex=True, height_ratios=[*(0.32,) * len(rows), 1.6])
     _draw_strips(panels[:-1], edges, rows)
     below = panels[-1]
     _draw_steps(below, edges, rows)
-    _mark(below, told, scale.factor)
+    _mark_expected(below, found, scale.factor)
     below.set_xlabel(with_unit("time", scale.unit))
     style.legend_above(figure, below)
     return figure
 
 
 def _draw_strips(panels: Sequence[Axes], edges: Array, rows: Mapping[Version, Array]) -> None:
-    """Draw a row of colours for each model, with one bar that says what they mean."""
+    """Draw a row of colours for each model, with one colour bar."""
     values = np.concatenate(list(rows.values()))
-    most = max(SPAN, float(np.nanmax(values)), 1.0 / float(np.nanmin(values)))
-    for axes, (who, row) in zip(panels, rows.items(), strict=True):
+    most = max(COLOUR_RANGE, float(np.nanmax(values)), 1.0 / float(np.nanmin(values)))
+    for axes, (version, row) in zip(panels, rows.items(), strict=True):
         colours = LogNorm(1.0 / most, most)
         shown = axes.pcolormesh(edges, [0.0, 1.0], row[None], cmap="RdBu_r", norm=colours)
-        axes.set_yticks([0.5], [who.word or "model"])
+        axes.set_yticks([0.5], [version.word or "model"])
         axes.tick_params(length=0)
         axes.grid(visible=False)
         axes.spines[:].set_visible(False)
@@ -61,46 +63,49 @@ def _draw_strips(panels: Sequence[Axes], edges: Array, rows: Mapping[Version, Ar
 
 def _draw_steps(axes: Axes, edges: Array, rows: Mapping[Version, Array]) -> None:
     """Draw the disagreement of each model over time, as steps."""
-    for who, row in rows.items():
-        axes.stairs(row, edges, baseline=None, color=who.colour, linewidth=1.6, label=who.named("disagreement"))
+    for version, row in rows.items():
+        axes.stairs(
+            row, edges, baseline=None, color=version.colour, linewidth=1.6, label=version.make_label("disagreement")
+        )
     values = np.concatenate(list(rows.values()))
     low, high = float(np.nanmin(values)), float(np.nanmax(values))
     axes.set_yscale("log")
-    axes.set_ylim(min(1.0 / TWICE, 0.85 * low), max(TWICE, 1.18 * high))
+    axes.set_ylim(min(1.0 / AXIS_RANGE, 0.85 * low), max(AXIS_RANGE, 1.18 * high))
     style.log_ticks(axes.yaxis)
     axes.set_ylabel("one-step error variance\nover expected")
     axes.set_xlim(edges[0], edges[-1])
 
 
-def _mark(axes: Axes, told: DisagreementOverTime, factor: float) -> None:
-    """Draw what is expected, and shade the window that stands out beyond chance."""
-    axes.axhline(told.expected, color=style.RECORDED, linewidth=0.8, label="expected")
-    if told.worst.beyond_chance:
-        axes.axvspan(factor * told.worst.begin, factor * told.worst.end, color=style.SHADE, zorder=0)
+def _mark_expected(axes: Axes, found: DisagreementOverTime, factor: float) -> None:
+    """Draw the expected value, and shade the window with a significant disagreement."""
+    axes.axhline(found.expected, color=style.RECORDED, linewidth=0.8, label="expected")
+    if found.worst.beyond_chance:
+        axes.axvspan(factor * found.worst.begin, factor * found.worst.end, color=style.SHADE, zorder=0)
 
 
 def caption(evidence: Evidence) -> str:
-    """Return what to see in the figure; empty where nothing was told over time."""
-    told, recordings = evidence.result.where.over_time, evidence.result.where.by_recording
-    if told is None:
+    """Return the caption of the figure; empty without a comparison over time."""
+    found, recordings = evidence.result.where.over_time, evidence.result.where.by_recording
+    if found is None:
         return ""
-    window = "hit, up to the next one" if told.windows == "hits" else "window"
-    said = told.says or "No stretch stands out beyond chance."
-    shaded = " It is shaded." if told.worst.beyond_chance else ""
+    window = "hit, up to the next one" if found.windows == "hits" else "window"
+    worst = found.says or "No section has a significant disagreement."
+    shaded = " It is shaded." if found.worst.beyond_chance else ""
+    level = evidence.settings.locate.level
     return (
-        f"{said}{shaded} For each {window}: the mean squared one-step prediction error over the variance that the model"
-        " states for it, 1 where the model holds. Chance is what remains when blocks of errors change places; it is"
-        f" {percent(LEVEL)} over all windows together. {recordings.says if recordings else ''}"
+        f"{worst}{shaded} For each {window}: the mean squared one-step prediction error over the variance that the"
+        " model predicts for it, 1 for a correct model. Significance is tested by permutations of blocks of errors,"
+        f" at {level:.0%} over all windows together. {recordings.says if recordings else ''}"
     ).rstrip()
 
 
-def table(evidence: Evidence) -> Grid | None:
-    """Return one row for each recording: its level, and the disagreement before and after; None where there is one."""
-    told = evidence.result.where.by_recording
-    if told is None:
+def make_table(evidence: Evidence) -> Grid | None:
+    """Return one row for each recording: its level, and the disagreement before and after; None with one recording."""
+    found = evidence.result.where.by_recording
+    if found is None:
         return None
     return Grid(
-        ["Recording", f"{told.level_of.capitalize()} level (rms)", "Part", "Before", "After", "p"],
+        ["Recording", f"{found.level_of.capitalize()} level (rms)", "Part", "Before", "After", "p"],
         [
             [
                 row.name,
@@ -110,6 +115,6 @@ def table(evidence: Evidence) -> Grid | None:
                 figures(row.after),
                 DASH if row.p_after is None else figures(row.p_after, 2),
             ]
-            for row in told.rows
+            for row in found.rows
         ],
     )

@@ -1,4 +1,4 @@
-"""What this package offers to lostmotion: names only, so that a list of all plugins imports none of them."""
+"""The plugins of this package, by name only, so that a list of all plugins imports none of them."""
 
 from lostmotion.hookspecs import hookimpl
 

@@ -11,20 +11,23 @@ from lostmotion.quantities import STIFFNESS, TIME
 
 @dataclass(frozen=True)
 class MaxwellElement(Term):
-    """A spring and a dashpot in series, such as a rubber bush or a belt that creeps: its force fades at rest.
+    """A spring and a dashpot in series, such as a rubber bush or a belt that creeps: its force decays at rest.
 
-    The state is the force in the element. The element does nothing where its stiffness is 0, whatever the time. It
-    needs the step, so that an element that relaxes faster than one step does not turn the integration unstable.
+    The state is the force in the element. The element has no effect where its stiffness is 0, whatever the relaxation
+    time. It needs the step, so that an element that relaxes faster than one step does not make the integration
+    unstable.
     """
 
     at: str = "ground"
     name: ClassVar[str] = "maxwell_element"
-    physics: ClassVar[str] = "A creeping spring of {stiffness}, which relaxes in {relaxation}, holds against the motion"
+    physics: ClassVar[str] = (
+        "A creeping spring of {stiffness} with a relaxation time of {relaxation} opposes the motion"
+    )
     formula: ClassVar[str] = "-f,  f' = stiffness * v - f / relaxation"
     paper: ClassVar[str] = "Maxwell, Philosophical Transactions of the Royal Society 157 (1867) 49-88"
     params = (
         Param("stiffness", "stiffness against fast motion", STIFFNESS, low=0.0, null=0.0),
-        Param("relaxation", "time in which the force fades", TIME, low=0.0, scale="log"),
+        Param("relaxation", "relaxation time of the force", TIME, low=0.0, scale="log"),
     )
     states = ("element_force",)
     needs = ("step",)

@@ -1,49 +1,37 @@
-"""The thresholds on which conclusions depend: significance, naming, held-out comparison, convergence of chains.
-
-Each has a reason and, where one exists, a source. They are passed as arguments, are recorded in the provenance of each
-result, and can be changed: `lostmotion diagnose CASE.toml --set select.decisive=4`, or
-`lostmotion.diagnose(case, settings={"select.decisive": 4.0})`. `lostmotion settings` lists them. Numerical details,
-such as the step of a finite difference, are constants of the module that uses them.
-"""
+"""The thresholds of a diagnosis: locating, selecting, comparing, learning and reporting what a model leaves out."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
-from dataclasses import asdict, dataclass, field, fields, replace
-from typing import NamedTuple
+from dataclasses import dataclass
 
-from lostmotion.errors import CaseError, nearest
-from lostmotion.thresholds import ChainSettings as ChainSettings
-from lostmotion.thresholds import LevelSettings as LevelSettings
-from lostmotion.thresholds import MotionSettings as MotionSettings
-from lostmotion.thresholds import number as _number
+from lostmotion.settings.threshold import threshold
 
 
 @dataclass(frozen=True)
 class LocateSettings:
     """Locating the missing force."""
 
-    significant: float = _number(
+    significant: float = threshold(
         8.0, "A random force beyond the usual noise of the drive counts when it gains this much in log-likelihood."
     )
-    structured: float = _number(
+    structured: float = threshold(
         0.1, "A covariate counts as structure when it explains more than this share of the missing force.", most=1.0
     )
-    level: float = _number(
+    level: float = threshold(
         0.05,
         "The probability of a false positive over all covariates together.",
         "Vovk, Wang, Annals of Statistics 49 (2021) 1736-1754",
         most=1.0,
     )
-    told: float = _number(
+    told: float = threshold(
         0.05, "A covariate that explains less than this share of the variance is not reported.", most=1.0
     )
-    tied: float = _number(
+    tied: float = threshold(
         3.0,
         "Covariates whose log likelihood ratios differ by less than this (a factor of twenty) are reported together.",
     )
-    signed: float = _number(
+    signed: float = threshold(
         0.97,
         (
             "The sign of the velocity is reported in place of the velocity when it explains at least this share of "
@@ -51,7 +39,24 @@ class LocateSettings:
         ),
         most=1.0,
     )
-    quantisation: float = _number(
+    visible: float = threshold(
+        0.01,
+        (
+            "A figure shows the share that a significant covariate explains from this share on: a force on another "
+            "body changes the likelihood, but hardly the force on the first body."
+        ),
+        most=1.0,
+    )
+    parity: float = threshold(
+        0.8,
+        (
+            "A missing force is called odd or even in a covariate when that part has more than this share of the mean "
+            "square of both."
+        ),
+        least=0.5,
+        most=1.0,
+    )
+    quantisation: float = threshold(
         0.05,
         "Quantisation of the stored values counts when its variance exceeds this share of the noise variance.",
         most=1.0,
@@ -62,41 +67,62 @@ class LocateSettings:
 class SelectSettings:
     """Selecting terms."""
 
-    decisive: float = _number(
+    decisive: float = threshold(
         math.log(20.0),
         "A term is selected when its log odds exceed this value (odds of twenty).",
         "Kass, Raftery, J. Am. Stat. Assoc. 90 (1995) 773-795",
     )
-    promising: float = _number(
+    promising: float = threshold(
         3.0, "A term is fitted when its score test predicts at least this gain in log-likelihood."
     )
-    most_terms: float = _number(5.0, "The greatest number of terms that are selected.", least=1.0)
-    further: float = _number(1.5, "The log prior penalty of each further parameter of a term.")
-    onset: float = _number(
+    most_terms: float = threshold(5.0, "The greatest number of terms that are selected.", least=1.0)
+    further: float = threshold(1.5, "The log prior penalty of each further parameter of a term.")
+    onset: float = threshold(
         math.log(100.0), "The log prior penalty of a term that begins during the recording: one in a hundred."
     )
-    certain: float = _number(
+    certain: float = threshold(
         3.0,
         "An amplitude counts when it is at least this many robust standard deviations from its null.",
         "White, Econometrica 50 (1982) 1-25",
     )
-    memory: float = _number(
+    memory: float = threshold(
         2.0,
         "From this ratio of robust to usual standard deviations on, the residuals count as correlated in time.",
         least=1.0,
     )
-    share: float = _number(
+    share: float = threshold(
         0.2, "Where residuals are correlated in time, a term has to reduce the random force by this share.", most=1.0
     )
-    outshone: float = _number(
+    outshone: float = threshold(
         0.1,
         "Terms of which each gains less than this share of the gain that one learned curve predicts only imitate it.",
         most=1.0,
     )
-    commoner: float = _number(
+    commoner: float = threshold(
         6.0, "A more common law is reported in place of a found one whose log evidence is higher by no more than this."
     )
-    noise_memory: float = _number(
+    far: float = threshold(
+        8.0,
+        "A value of an amplitude beyond the reach of a score test is tried when it gains this much in log-likelihood.",
+    )
+    late: float = threshold(
+        3.0, "A term is tried as one that begins later when this predicts so much more gain, in addition to its price."
+    )
+    onset_first: float = threshold(
+        0.04, "An onset before this share of a recording is not considered: the term acts from the beginning.", most=1.0
+    )
+    onset_last: float = threshold(0.9, "An onset after this share of a recording is not considered.", most=1.0)
+    shape_steady: float = threshold(
+        3.0,
+        "A shape of a law is tested when its correlation with the gradient is this many standard errors from zero.",
+    )
+    shape_gain: float = threshold(
+        8.0, "A shape that a scan finds is tried when its score test predicts this gain in log-likelihood."
+    )
+    noise_memory_tried: float = threshold(
+        4.0, "AR(1) noise of a sensor is tried when a random force gains this much in log-likelihood."
+    )
+    noise_memory: float = threshold(
         8.0,
         (
             "Noise of a sensor is modelled as AR(1) when this raises the log-likelihood by at least this much: for "
@@ -109,33 +135,33 @@ class SelectSettings:
 class RivalSettings:
     """Usual imperfections of real machines, with which each candidate term is compared."""
 
-    known: float = _number(
+    known: float = threshold(
         0.01,
         "The relative standard deviation of a known value: drawings and data sheets are not more accurate.",
         most=1.0,
     )
-    scale: float = _number(0.01, "The relative standard deviation of the gain of a sensor and of a drive.", most=1.0)
-    bent: float = _number(
+    scale: float = threshold(0.01, "The relative standard deviation of the gain of a sensor and of a drive.", most=1.0)
+    bent: float = threshold(
         0.005,
         "The standard deviation of the quadratic and of the cubic error of a sensor, relative to its range.",
         most=1.0,
     )
-    late: float = _number(
+    late: float = threshold(
         0.5,
         "The standard deviation of the delay between channels, in samples: acquisition systems filter and multiplex.",
     )
-    much: float = _number(
+    much: float = threshold(
         20.0,
         (
             "A smooth force that predicts at least this gain in log evidence is fitted before a term is named, and a "
             "prediction counts for no more than this."
         ),
     )
-    absurd: float = _number(
+    absurd: float = threshold(
         100.0,
         "A predicted gain above this of which a fit realises nothing shows that the local expansion is not valid.",
     )
-    lasting: float = _number(
+    lasting: float = threshold(
         4.0,
         "From this excess of the scatter of scores on, their correlation is long and only predicted gains count.",
         least=1.0,
@@ -146,18 +172,37 @@ class RivalSettings:
 class UnknownSettings:
     """Learning an unexplained force as a curve, and describing it."""
 
-    hope: float = _number(
+    hope: float = threshold(
         0.3, "Curves are tried that predict at least this share of the gain of the best set of terms.", most=1.0
     )
-    kept: float = _number(
+    kept: float = threshold(
         0.2, "A curve that changes the size of a named law by more than this share belongs to that law.", most=1.0
     )
-    alike: float = _number(0.8, "A curve resembles a law that explains at least this share of its variance.", most=1.0)
-    alike_two: float = _number(
+    alike: float = threshold(
+        0.8, "A curve resembles a law that explains at least this share of its variance.", most=1.0
+    )
+    alike_two: float = threshold(
         0.9, "A curve resembles two laws that together explain at least this share of its variance.", most=1.0
     )
-    formula: float = _number(
+    formula: float = threshold(
         0.8, "A formula is proposed when it explains at least this share of the variance of a curve.", most=1.0
+    )
+    formula_gain: float = threshold(
+        6.0,
+        "A formula gets a further piece when Akaike's criterion improves by at least this much.",
+        "Akaike, IEEE Trans. Automatic Control 19 (1974) 716-723",
+    )
+    formula_full: float = threshold(
+        0.98, "A formula gets no further piece when it explains this share of the variance of a curve.", most=1.0
+    )
+    formula_pieces: float = threshold(3.0, "The greatest number of pieces of a formula.", least=1.0)
+    most_curves: float = threshold(2.0, "The greatest number of learned curves in a diagnosis.", least=1.0)
+    usual: float = threshold(
+        3.0,
+        (
+            "Curves have to reduce the random force where that is more than this many times the usual noise of the "
+            "drive."
+        ),
     )
 
 
@@ -165,34 +210,41 @@ class UnknownSettings:
 class HeldOutSettings:
     """Comparing models on held-out data."""
 
-    share: float = _number(
+    share: float = threshold(
         0.3, "The share of a recording, or of the recordings, that is held out.", least=0.05, most=0.7
     )
-    rise: float = _number(0.01, "An error of free runs that rises by a smaller share than this counts as unchanged.")
-    missing: float = _number(
+    alive: float = threshold(
+        4.0, "A motion has decayed when its standard deviation is less than this many times the noise of the sensor."
+    )
+    valid: float = threshold(
+        0.4,
+        "A free prediction is valid until its error exceeds this share of the standard deviation of the response.",
+    )
+    rise: float = threshold(0.01, "An error of free runs that rises by a smaller share than this counts as unchanged.")
+    missing: float = threshold(
         1.02,
         "A missing force that rises by more than this factor on held-out data is not explained by the found terms.",
         least=1.0,
     )
-    fall: float = _number(
+    fall: float = threshold(
         0.01,
         (
             "A log score that falls by more than this per sample is evidence against a model, unless the error of its"
             " free runs is much smaller."
         ),
     )
-    less: float = _number(0.5, "The error of free runs is much smaller when it falls below this share.", most=1.0)
-    chance: float = _number(
+    less: float = threshold(0.5, "The error of free runs is much smaller when it falls below this share.", most=1.0)
+    chance: float = threshold(
         0.05,
         "The significance level for calling a model better: Student's paired test over ten parts of held-out data.",
         most=1.0,
     )
-    explains: float = _number(
+    explains: float = threshold(
         0.5,
         "A set of terms is compared on held-out data when its gain in the fit is this share of that of the chosen set.",
         most=1.0,
     )
-    behind: float = _number(
+    behind: float = threshold(
         10.0,
         (
             "A term is not compared on held-out data when a smooth force exceeds it by more than these log odds in "
@@ -205,64 +257,64 @@ class HeldOutSettings:
 class NameSettings:
     """Reporting a finding as named, likely or open."""
 
-    sure: float = _number(
+    sure: float = threshold(
         0.95,
         "A named finding has a probability above this; a finding with a doubt is reported with at most this.",
         most=1.0,
     )
-    simplest: float = _number(
+    simplest: float = threshold(
         0.5,
         "A term that explains the data better than any learned curve, but no better than a generic smooth force, has"
         " its probability among the terms times this: the smooth force may be real.",
         most=1.0,
     )
-    rival: float = _number(
+    rival: float = threshold(
         0.05, "A set of terms with a larger share of the posterior is reported as a rival.", most=1.0
     )
-    worth: float = _number(0.01, "A term that was not found is listed when its probability is above this.", most=1.0)
-    related: float = _number(
+    worth: float = threshold(0.01, "A term that was not found is listed when its probability is above this.", most=1.0)
+    related: float = threshold(
         math.log(20.0),
         (
             "A term that resembles a found one is reported when its log evidence, without the penalty of its"
             " parameters, is within this distance."
         ),
     )
-    moved: float = _number(
+    moved: float = threshold(
         5.0, "An amplitude that moves by this many standard deviations when a further term is added was not identified."
     )
-    moved_share: float = _number(
+    moved_share: float = threshold(
         0.2, "The amplitude must also move by this share of itself (see `name.moved`).", most=1.0
     )
-    beside: float = _number(
+    beside: float = threshold(
         3.0,
         "Where a curve was learned too, a finding is named when its gain in log evidence is this many times that of the"
         " curve: with less it may be a part of the unexplained force.",
         "`lostmotion prove --world imperfect --seed 900`: names below this ratio were wrong as often as right",
     )
-    remains: float = _number(
+    remains: float = threshold(
         0.5,
         "A finding is at most likely where the remaining random force exceeds this share of the missing force.",
         most=1.0,
     )
-    late: float = _number(
+    late: float = threshold(
         0.05,
         "A delay of more than this share of a natural period is unusual: acquisition systems are faster.",
         most=1.0,
     )
-    early: float = _number(
+    early: float = threshold(
         0.04,
         "A change that is complete within this share of the recording is at most likely: a known value that is wrong"
         " from the beginning looks the same.",
         most=1.0,
     )
-    error: float = _number(
+    error: float = threshold(
         0.3,
         "A model is rejected when the error of free runs exceeds this share of the response (see `name.error_noise`).",
     )
-    error_noise: float = _number(
+    error_noise: float = threshold(
         5.0, "The error of free runs must also exceed this many times the noise (see `name.error`)."
     )
-    white: float = _number(
+    white: float = threshold(
         0.01,
         "A p-value of whiteness below this is reported as a finding, and below five times this as a doubt.",
         most=1.0,
@@ -273,77 +325,38 @@ class NameSettings:
 class SharedSettings:
     """Comparing a parameter between several recordings."""
 
-    level: float = _number(0.01, "The significance level for calling parameters different.", most=1.0)
-    alike: float = _number(
+    level: float = threshold(0.01, "The significance level for calling parameters different.", most=1.0)
+    alike: float = threshold(
         0.01, "Values that differ by less than this share count as equal in engineering terms.", most=1.0
     )
-
-
-class Setting(NamedTuple):
-    """One threshold: its key `stage.name`, value and default, the reason for it, its source and its range."""
-
-    key: str
-    value: float
-    default: float
-    why: str
-    source: str
-    least: float
-    most: float
-
-
-@dataclass(frozen=True)
-class Settings:
-    """All thresholds, by stage; frozen. `Settings().changed({"select.decisive": 4.0})` returns changed ones."""
-
-    locate: LocateSettings = field(default_factory=LocateSettings)
-    select: SelectSettings = field(default_factory=SelectSettings)
-    rival: RivalSettings = field(default_factory=RivalSettings)
-    unknown: UnknownSettings = field(default_factory=UnknownSettings)
-    heldout: HeldOutSettings = field(default_factory=HeldOutSettings)
-    name: NameSettings = field(default_factory=NameSettings)
-    shared: SharedSettings = field(default_factory=SharedSettings)
-    chain: ChainSettings = field(default_factory=ChainSettings)
-    levels: LevelSettings = field(default_factory=LevelSettings)
-    motion: MotionSettings = field(default_factory=MotionSettings)
-
-    def changed(self, values: Mapping[str, float | str]) -> Settings:
-        """Return the settings with some values changed, by `stage.name`; unknown keys or values raise `CaseError`."""
-        made, known = self, {setting.key: setting for setting in self}
-        for key, value in values.items():
-            if key not in known:
-                raise CaseError(f"there is no setting {key!r}{nearest(key, known)}: `lostmotion settings` lists them")
-            stage, _, name = key.partition(".")
-            made = replace(made, **{stage: replace(getattr(made, stage), **{name: _check_value(known[key], value)})})
-        return made
-
-    def __iter__(self) -> Iterator[Setting]:
-        """Yield every setting."""
-        for stage in fields(self):
-            own = getattr(self, stage.name)
-            for f in fields(own):
-                yield Setting(f"{stage.name}.{f.name}", getattr(own, f.name), **f.metadata)
-
-    def as_dict(self) -> dict[str, dict[str, float]]:
-        """Return all values as nested mappings, `{stage: {name: value}}`, for the provenance of a result."""
-        return asdict(self)
-
-
-DEFAULT = Settings()
-"""The default settings."""
-
-
-def _check_value(setting: Setting, value: object) -> float:
-    """Return a value for a setting as a number; raise `CaseError` where it is no number in the allowed range."""
-    try:
-        number = float(value)  # type: ignore[arg-type]
-    except (TypeError, ValueError):
-        number = math.nan
-    if not setting.least <= number <= setting.most or not math.isfinite(number):
-        wanted = f"a number from {setting.least:g} to {setting.most:g}"
-        raise CaseError(f"the setting {setting.key} is {value!r}: wanted {wanted}")
-    return number
-
-
-def read(pairs: Mapping[str, float | str] | Settings | None) -> Settings:
-    """Return settings from the argument of a caller: settings, a mapping of changes, or None."""
-    return pairs if isinstance(pairs, Settings) else DEFAULT.changed(pairs or {})
+    most_own: float = threshold(
+        3.0, "The greatest number of parameters that get a value for each recording: beyond it the model does not hold."
+    )
+    instead: float = threshold(
+        3.0,
+        "Another parameter is named as an alternative explanation when its log-likelihood is lower by less than this.",
+    )
+    fits: float = threshold(
+        0.05,
+        (
+            "A power of the level describes the values, and all recordings but one agree, when the p-value of the "
+            "residuals exceeds this."
+        ),
+        most=1.0,
+    )
+    exponent: float = threshold(
+        3.0, "The exponent of a power of the level is at least this many standard errors from zero."
+    )
+    steepest: float = threshold(
+        4.0, "The largest exponent of a power of the level: a steeper one describes a difference of another kind."
+    )
+    vague: float = threshold(
+        0.05,
+        "The relative error of the rms as a measure of the level: values may deviate from a power by this share.",
+        most=1.0,
+    )
+    spread: float = threshold(
+        1.1,
+        "Levels of the drive within this factor count as one level; the levels of the response are used then.",
+        least=1.0,
+    )

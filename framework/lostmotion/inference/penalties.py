@@ -8,12 +8,12 @@ from lostmotion.contracts import Term
 from lostmotion.settings import DEFAULT, Settings
 
 
-def related(one: Term, other: Term) -> bool:
+def are_related(one: Term, other: Term) -> bool:
     """Return whether two terms tell the same story at the same place."""
     return one.at == other.at and (other.name in one.resembles or one.name in other.resembles)
 
 
-def price_of(term: Term, many: int, settings: Settings = DEFAULT) -> float:
+def compute_penalty(term: Term, many: int, settings: Settings = DEFAULT) -> float:
     """Return the log price of a term by the prior: one of `many`, a factor e, its further parameters and choices.
 
     What an engineer looks for last costs more (`Term.unlikely`).

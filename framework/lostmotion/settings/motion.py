@@ -1,152 +1,104 @@
-"""Thresholds for chains, levels and motions, and the function that declares a threshold as a field.
-
-The other stages are in `settings.py`, which holds all of them.
-"""
+"""The thresholds of an analysis: classifying a recorded motion."""
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import dataclass
 
-
-def number(value: float, why: str, source: str = "", least: float = 0.0, most: float = math.inf) -> Any:
-    """Return a dataclass field with its default, its reason, its source and its allowed range."""
-    metadata = {"default": value, "why": why, "source": source, "least": least, "most": most}
-    return field(default=value, metadata=metadata)
-
-
-@dataclass(frozen=True)
-class ChainSettings:
-    """Convergence of a Markov chain."""
-
-    long: float = number(
-        50.0,
-        "The least length of a chain in autocorrelation times: from shorter chains that time cannot be estimated.",
-        "Foreman-Mackey et al., PASP 125 (2013) 306",
-    )
-    steady: float = number(
-        0.02,
-        "The longest autocorrelation time has converged when it grows by less than this share between checks.",
-        most=1.0,
-    )
-    agreed: float = number(
-        1.01, "The largest accepted R-hat.", "Vehtari et al., Bayesian Analysis 16 (2021) 667-718", least=1.0
-    )
-
-
-@dataclass(frozen=True)
-class LevelSettings:
-    """Which motions count as chaotic when parameters are identified from exponents and dimensions."""
-
-    chaotic: float = number(
-        2.0, "A motion is chaotic when its exponent exceeds zero by more than this many standard errors."
-    )
-    weak: float = number(
-        0.5,
-        "Chaos is weak when the exponent is below this, in nat per drive period: a recording may show nothing of it.",
-        "`benchmarks/levels.py errors`: 6 of 10 recordings of weak chaos were classified correctly",
-    )
-    harmonic: float = number(
-        0.1,
-        "A drive is harmonic when this share of its standard deviation, or less, is not a sine of one frequency: its"
-        " noise and small harmonics.",
-        most=1.0,
-    )
+from lostmotion.settings.threshold import threshold
 
 
 @dataclass(frozen=True)
 class MotionSettings:
     """Classifying a recorded motion as periodic, quasiperiodic, chaotic or noise."""
 
-    level: float = number(
+    level: float = threshold(
         0.05, "The significance level of each surrogate test.", "Theiler et al., Physica D 58 (1992) 77-94", most=1.0
     )
-    efolds: float = number(
+    efolds: float = threshold(
         0.8,
         (
             "Growth over fewer e-foldings is no evidence: noise with a long memory shows up to 0.65 "
             "(`benchmarks/verdicts.py`)."
         ),
     )
-    turns: float = number(
+    turns: float = threshold(
         1.0, "Growth over fewer cycles of the motion is no evidence: distances rise and fall within a cycle."
     )
-    flat: float = number(
+    flat: float = threshold(
         1.5, "A dimension whose interval ends below this belongs to a closed curve: a chaotic flow has more than 2."
     )
-    still: float = number(0.05, "An entropy of fewer e-foldings per cycle cannot be distinguished from zero.")
-    left: float = number(
+    still: float = threshold(0.05, "An entropy of fewer e-foldings per cycle cannot be distinguished from zero.")
+    left: float = threshold(
         0.5,
         "The greatest share of the variance that does not repeat in a motion called periodic with fluctuations.",
         most=1.0,
     )
-    uneven: float = number(
+    uneven: float = threshold(
         2.0,
         "From this ratio of the standard deviations of its two halves on, a recording is not stationary.",
         least=1.0,
     )
-    measured: float = number(
+    measured: float = threshold(
         2.0, "How many of exponent, dimension and entropy must indicate chaos.", least=1.0, most=3.0
     )
-    slack: float = number(
+    slack: float = threshold(
         1.4, "A motion returns when it misses itself by at most this many times its noise, plus `floor`.", least=1.0
     )
-    floor: float = number(
+    floor: float = threshold(
         0.01, "The allowed miss of a returning motion beside its noise, as a share of its deviation.", most=1.0
     )
-    tones_floor: float = number(
+    tones_floor: float = threshold(
         0.02, "The allowed rest of a motion of two frequencies, beside `motion.slack` times its noise.", most=1.0
     )
-    loudest: float = number(
+    loudest: float = threshold(
         0.2, "A measured noise level above this share of the standard deviation is not accepted as noise.", most=1.0
     )
-    drift: float = number(
+    drift: float = threshold(
         1.15,
         "A motion does not return when twice as many periods miss by more than this factor, plus `motion.drift_floor`:"
         " two frequencies nearly return, and miss by twice as much after twice as many periods.",
         least=1.0,
     )
-    drift_floor: float = number(
+    drift_floor: float = threshold(
         0.002, "The allowed rise of the miss beside `motion.drift`, as a share of the standard deviation.", most=1.0
     )
-    resolution: float = number(
+    resolution: float = threshold(
         0.25,
         "Frequencies closer than this share of a line of the spectrum cannot be distinguished.",
         least=0.01,
         most=1.0,
     )
-    quiet: float = number(
+    quiet: float = threshold(
         0.003, "Noise below this share of the standard deviation is not reduced: no method here sees it.", most=1.0
     )
-    loud: float = number(
+    loud: float = threshold(
         0.3,
         "Noise above this share of the standard deviation is not reduced: it cannot be separated from the motion.",
         most=1.0,
     )
-    together: float = number(
+    together: float = threshold(
         0.7,
         "Surrogates keep k cycles together when the motion misses itself after k periods by less than this share of"
         " the miss after one period.",
         most=1.0,
     )
-    fewest_values: float = number(
+    fewest_values: float = threshold(
         16.0, "With fewer different values in a recording, neighbouring states cannot be distinguished.", least=2.0
     )
-    fewest_samples: float = number(
+    fewest_samples: float = threshold(
         1000.0,
         "With fewer samples, the rank among surrogates and the slopes depend on single stretches of the orbit.",
         least=1.0,
     )
-    fewest_periods: float = number(
+    fewest_periods: float = threshold(
         20.0,
         "With fewer periods, neither a return nor a second frequency can be recognised, and a surrogate test that is"
         " passed is silent.",
         least=1.0,
     )
-    enough_periods: float = number(
+    enough_periods: float = threshold(
         100.0, "With fewer periods, a missing exponent or dimension is no evidence about the motion.", least=1.0
     )
-    note_periods: float = number(
+    note_periods: float = threshold(
         50.0, "With fewer periods, a note says that exponents and dimensions need a longer recording."
     )

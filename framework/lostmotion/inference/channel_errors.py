@@ -13,12 +13,12 @@ from lostmotion.likelihood.observation import Observation
 from lostmotion.settings import RivalSettings
 
 Change = Callable[[Observation, float], Observation]
-SMALL = 1e-4
+STEP = 1e-4
 """Derivatives are taken over so much of each."""
 
 
 @dataclass(frozen=True)
-class Gauge:
+class ChannelError:
     """What a flaw of a channel does to errors and variances (readings,), and the usual `width` of it.
 
     It is put on the recording in place of the model: `change` returns a recording with so much of it, and `stretch` is
@@ -28,22 +28,22 @@ class Gauge:
     errors: Array
     variances: Array
     width: float
-    stretch: float
+    log_jacobian: float
     change: Change
 
 
-def gauges_of(fit: Fit) -> list[Gauge]:
+def list_channel_errors(fit: Fit) -> list[ChannelError]:
     """Return the flaws of channels: scale, square and cube of each sensor, scale and time of each drive."""
     problem, here = fit.problem, fit.problem.innovations(fit.theta)
     found = []
-    for change, width, stretch in _flaws(problem.observations, problem.settings.rival):
-        seen = problem.on(tuple(change(o, SMALL) for o in problem.observations)).innovations(fit.theta)
-        slopes = (seen.errors - here.errors) / SMALL, (seen.variances - here.variances) / SMALL
-        found.append(Gauge(*slopes, width, stretch, change))
+    for change, width, log_jacobian in _list_changes(problem.observations, problem.settings.rival):
+        seen = problem.on(tuple(change(o, STEP) for o in problem.observations)).innovations(fit.theta)
+        slopes = (seen.errors - here.errors) / STEP, (seen.variances - here.variances) / STEP
+        found.append(ChannelError(*slopes, width, log_jacobian, change))
     return found
 
 
-def _flaws(observations: tuple[Observation, ...], usual: RivalSettings) -> Iterator[tuple[Change, float, float]]:
+def _list_changes(observations: tuple[Observation, ...], usual: RivalSettings) -> Iterator[tuple[Change, float, float]]:
     """Yield each flaw as a change of a recording, with its usual width and what it adds to the log density."""
     first = observations[0]
     for sensor in range(len(first.sensors)):
@@ -54,15 +54,15 @@ def _flaws(observations: tuple[Observation, ...], usual: RivalSettings) -> Itera
             continue
         z = (shown[np.isfinite(shown)] - middle) / amplitude
         for power, width in ((1, usual.scale), (2, usual.bent), (3, usual.bent)):
-            stretch = float(np.sum(power * z ** (power - 1)))
-            yield _bent(sensor, power, (middle, amplitude)), width, stretch
+            log_jacobian = float(np.sum(power * z ** (power - 1)))
+            yield _distort_sensor(sensor, power, (middle, amplitude)), width, log_jacobian
     for column in range(first.inputs.shape[1]):
         if any(np.any(o.inputs[:, column]) for o in observations):
-            yield _scaled(column), usual.scale, 0.0
-            yield _moved(column), usual.late, 0.0
+            yield _scale_drive(column), usual.scale, 0.0
+            yield _shift_drive(column), usual.late, 0.0
 
 
-def _bent(sensor: int, power: int, scale: tuple[float, float]) -> Change:
+def _distort_sensor(sensor: int, power: int, scale: tuple[float, float]) -> Change:
     middle, amplitude = scale
 
     def change(o: Observation, size: float) -> Observation:
@@ -75,7 +75,7 @@ def _bent(sensor: int, power: int, scale: tuple[float, float]) -> Change:
     return change
 
 
-def _scaled(column: int) -> Change:
+def _scale_drive(column: int) -> Change:
     def change(o: Observation, size: float) -> Observation:
         inputs = o.inputs.copy()
         inputs[:, column] *= 1.0 + size
@@ -84,7 +84,7 @@ def _scaled(column: int) -> Change:
     return change
 
 
-def _moved(column: int) -> Change:
+def _shift_drive(column: int) -> Change:
     def change(o: Observation, size: float) -> Observation:
         inputs = o.inputs.copy()
         inputs[:, column] += size * np.gradient(o.inputs[:, column])

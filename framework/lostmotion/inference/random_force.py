@@ -14,12 +14,12 @@ QUIET = 2.0 * math.log(3.0)
 """A random force this far above the usual one, in log intensity, is reason to look for more."""
 
 
-def quiet(fit: Fit) -> bool:
+def has_usual_random_force(fit: Fit) -> bool:
     """Return whether no random force beyond three times the usual noise of the drive is left."""
     return all(at <= f.mean + QUIET for f, at in zip(fit.problem.free, fit.theta, strict=True) if f.parameter == RANDOM)
 
 
-def significant_random_force(fit: Fit) -> float:
+def compute_random_force_gain(fit: Fit) -> float:
     """Return the log-likelihood that a random force beyond three times the usual noise of the drive adds.
 
     Where each recording has a random force of its own, all are held below that together.
