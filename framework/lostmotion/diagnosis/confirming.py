@@ -53,8 +53,8 @@ def find_unconfirmed(outcome: Outcome, observations: Sequence[Observation]) -> d
             told[key] = (
                 "The model is not right in other ways too, and free runs over held-out data are better with it in"
                 f" {int(np.sum(errors < without))} of {len(errors)} parts only (they err by"
-                f" {_compute_rms(errors):.2%} of the"
-                f" response with it and by {_compute_rms(without):.2%} without it), which is within chance."
+                f" {percent(_compute_rms(errors), 3)} of the"
+                f" response with it and by {percent(_compute_rms(without), 3)} without it), which is within chance."
             )
     return told
 

@@ -138,7 +138,7 @@ def _describe_worst(worst: Mapping[str, WorstWindow], hits: bool, count: int) ->
 
 
 def _describe_place(worst: WorstWindow, hits: bool, count: int) -> str:
-    ratio = f"{worst.ratio:.2g} times the variance expected, {chance(worst.p)} over {count}"
+    ratio = f"{rounded(worst.ratio)} times the variance expected, {chance(worst.p)} over {count}"
     if hits:
         return f"after hit {worst.window + 1}, at {rounded(worst.begin, 4)} s ({ratio} hits)"
     return f"between {rounded(worst.begin, 3)} and {rounded(worst.end, 3)} s ({ratio} windows)"

@@ -154,9 +154,9 @@ def _make_quantised_entry(d: SearchResult, key: str) -> Mechanism:
     channel = next((s.channel for s in d.shown.sensors if s.place == term.at), d.shown.channel)
     unit = unit_of(channel, d.after.problem.system.model.motion)
     own = {s.param.name: Interval(v, v - 1.96 * sd, v + 1.96 * sd, unit) for s, v, sd in rows}
-    sentence = term.physics.format(**{name: f"{i.median:.3g} {i.unit}" for name, i in own.items()}) + _name_sensor(
-        d, term
-    )
+    sentence = term.physics.format(
+        **{name: f"{rounded(i.median, 3)} {i.unit}" for name, i in own.items()}
+    ) + _name_sensor(d, term)
     return Mechanism(
         mechanism=term.name,
         at=term.at,

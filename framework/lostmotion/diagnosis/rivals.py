@@ -18,6 +18,7 @@ from lostmotion.inference.term_sets import TermSet
 from lostmotion.likelihood.system import key_of
 from lostmotion.quantities import unit_of
 from lostmotion.report.words import sentence, to_words
+from lostmotion.results import rounded
 from lostmotion.results.diagnosis import Confusion, DecidingExcitation
 
 MOST = 2
@@ -123,7 +124,7 @@ def _describe_rival(d: SearchResult, term: Term, p: float) -> str:
         return f"This recording gives {_name_term(term)} a probability of {p:.2f}."
     return (
         f"This recording does not rule out {_name_term(term)}: only the price of its further parameters brings it to a"
-        f" probability of {p:.2g}."
+        f" probability of {rounded(p)}."
     )
 
 
@@ -144,11 +145,11 @@ def _describe_proposal(d: SearchResult, term: Term, p: float, proposal: Proposal
     )
     whose = ""
     if proposal.counted == (1,):
-        whose = f" if it is {_name_term(term)} (if it is not, by {max(proposal.ways[0], 0.0):.2g})"
+        whose = f" if it is {_name_term(term)} (if it is not, by {rounded(max(proposal.ways[0], 0.0))})"
     if proposal.counted == (0,):
-        whose = f" if it is not {_name_term(term)} (if it is, by {max(proposal.ways[1], 0.0):.2g})"
+        whose = f" if it is not {_name_term(term)} (if it is, by {rounded(max(proposal.ways[1], 0.0))})"
     return (
-        f"{opening} {_describe_experiment(d, proposal)}: this should separate them by {gain:.2g} in log-likelihood"
+        f"{opening} {_describe_experiment(d, proposal)}: this should separate them by {rounded(gain)} in log-likelihood"
         f"{whose}, {against}."
     )
 
@@ -162,4 +163,4 @@ def _describe_experiment(d: SearchResult, proposal: Proposal) -> str:
     shape = f"at {low} Hz" if low == high else f"and make it a {e.waveform} from {low} to {high} Hz"
     if e.waveform == "two tones":
         shape = f"and make it two tones, of {low} and {high} Hz"
-    return f"{verb} {e.level:.3g} {_find_drive_unit(d)} {shape}"
+    return f"{verb} {rounded(e.level, 3)} {_find_drive_unit(d)} {shape}"

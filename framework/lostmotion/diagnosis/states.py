@@ -15,6 +15,7 @@ from lostmotion.inference.natural import find_term
 from lostmotion.inference.penalties import are_related
 from lostmotion.quantities import TIME
 from lostmotion.report.words import to_words
+from lostmotion.results import percent, rounded
 from lostmotion.results.diagnosis import Mechanism, OpenTerm
 from lostmotion.settings import DEFAULT, NameSettings
 
@@ -104,7 +105,7 @@ def _warn_of_heldout_decision(d: SearchResult, key: str) -> Iterator[str]:
     if chosen in d.selection.heldout_gains and key in d.selection.tied:
         yield (
             "On the data that were fitted a small smooth force without a name explains about as much; held-out data"
-            f" decide, by {d.selection.heldout_gains[chosen]:.2g} in log score."
+            f" decide, by {rounded(d.selection.heldout_gains[chosen])} in log score."
         )
 
 
@@ -113,8 +114,8 @@ def _warn_of_rest(d: SearchResult, key: str) -> Iterator[str]:
     limits = d.settings.name
     if d.learned and compute_gain(d, key) < limits.beside * d.learned.gain:
         yield (
-            f"It wins {compute_gain(d, key):.3g} in log evidence, and what has no name beside it wins"
-            f" {d.learned.gain:.3g}:"
+            f"It wins {rounded(compute_gain(d, key), 3)} in log evidence, and what has no name beside it wins"
+            f" {rounded(d.learned.gain, 3)}:"
             " it may be a part of that."
         )
     elif d.unexplained and d.left:
@@ -152,9 +153,11 @@ def warn_of_moved_amplitudes(d: SearchResult, key: str) -> Iterator[str]:
         old, new = without.fit.values[f.key], chosen.values[f.key]
         if abs(new - old) > max(limits.moved * sds[f.key], limits.moved_share * abs(old)):
             yield (
-                f"{_name_term(d, owner)} has a {name} of {old:.3g} {f.unit} without {to_words(key.partition('@')[0])}"
+                f"{_name_term(d, owner)} has a {name} of {rounded(old, 3)} {f.unit} without"
+                f" {to_words(key.partition('@')[0])}"
                 " and of"
-                f" {new:.3g} {f.unit} with it: a level that moves so far was not known, or the further term is wrong."
+                f" {rounded(new, 3)} {f.unit} with it: a level that moves so far was not known, or"
+                " the further term is wrong."
             )
 
 

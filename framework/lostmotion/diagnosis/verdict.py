@@ -27,7 +27,7 @@ from lostmotion.inference.penalties import compute_penalty
 from lostmotion.likelihood.system import key_of
 from lostmotion.quantities import unit_of
 from lostmotion.report.words import chance, span, to_words
-from lostmotion.results import rounded
+from lostmotion.results import percent, rounded
 from lostmotion.results.diagnosis import (
     Both,
     BothTrue,
@@ -292,8 +292,9 @@ def summarise(outcome: Outcome, found: Sequence[Mechanism], rest: Sequence[OpenT
     if not found:
         return (
             "Nothing is missing that this recording can show.",
-            f"The nominal model predicts held-out data over {time} to {outcome.before.nrmse:.1%} of the response; the"
-            f" noise alone is {floor:.1%}.",
+            f"The nominal model predicts held-out data over {time} to {percent(outcome.before.nrmse)}"
+            " of the response; the"
+            f" noise alone is {percent(floor)}.",
             *note_large_noise(outcome),
         )
     left = [f"Open: {row.says}" for row in rest[:MOST_OPEN]]

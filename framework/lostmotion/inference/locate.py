@@ -159,7 +159,7 @@ def _describe_share(
 
 
 def _format_share(name: str, found: Mapping[str, Share]) -> str:
-    return f"{name} ({found[name].value:.0%})"
+    return f"{name} ({percent(found[name].value)})"
 
 
 def _prefer_sign(name: str, found: Mapping[str, Share], as_much: float) -> str:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from lostmotion.errors import DataError
 from lostmotion.recording.spec import Hold
+from lostmotion.results import percent
 from lostmotion.settings import DEFAULT
 
 Array = NDArray[np.float64]
@@ -139,7 +140,7 @@ def _refuse_lost(missing: NDArray[np.bool_], what: str, source: str) -> None:
     raise DataError(
         f"{source}: {what}: {_format_count(missing)}, the first at sample {int(np.argmax(missing))}, "
         f"{longest_run(missing)} in a row; all are wanted, since the model is driven by them; "
-        f"up to {BRIDGE} in a row, and fewer than {BRIDGED:.0%} of all, are interpolated: fill them, "
+        f"up to {BRIDGE} in a row, and fewer than {percent(BRIDGED)} of all, are interpolated: fill them, "
         "or cut them out with t_start and t_end"
     )
 

@@ -94,6 +94,13 @@ def typeset(text: str) -> str:
     return raised.replace(" +- ", " ± ").replace(" %", "\N{NO-BREAK SPACE}%")
 
 
+def split_headline(says: Sequence[str], longest: int = 160) -> list[str]:
+    """Return the parts of an answer, the first of which is the headline: of a long one its first sentence alone."""
+    first, *rest = says
+    head, stop, tail = first.partition(". ") if len(first) > longest else (first, "", "")
+    return [f"{head}.", tail, *rest] if stop else [first, *rest]
+
+
 def to_words(name: str) -> str:
     """Return a name such as `coulomb_friction` as words: `Coulomb friction`."""
     return (
