@@ -16,4 +16,4 @@ def _framed(_figure, name):
 @pytest.fixture
 def unsaved(monkeypatch):
     """Figures of pages are made and not saved: seconds for each page, where a test reads the words only."""
-    monkeypatch.setattr("lostmotion.report.style.embedded", _framed)
+    monkeypatch.setattr("lostmotion.report.style.embed_figure", _framed)

@@ -15,7 +15,7 @@ from click.testing import CliRunner
 
 from lostmotion.campaigns import batch
 from lostmotion.campaigns.campaign import Campaign
-from lostmotion.campaigns.table import lines_of, row_of
+from lostmotion.campaigns.table import format_summary, make_row
 from lostmotion.cli import main
 from lostmotion.errors import CaseError, DataError, PlaceError
 from lostmotion.preparation.prepare import case_of
@@ -121,7 +121,7 @@ def test_broken_ones_are_set_aside_and_the_rest_is_done(tmp_path, calls):
     assert done.exit_code == 1
     assert [rows[name]["status"] for name in "abcde"] == ["diagnosed", *["set aside"] * 3, "diagnosed"]
     assert "lostmotion: b is set aside: the recording is broken: mend it\n" in done.stderr
-    assert "c is set aside: it broke down (KeyError: 'x')" in done.stderr
+    assert "c is set aside: it failed (KeyError: 'x')" in done.stderr
     assert "d is set aside: there is not enough memory" in done.stderr
     assert done.stdout.splitlines()[:2] == ["2 of 5 cases diagnosed, 3 set aside", "  2  coulomb_friction@ground"]
     assert {p.name for p in (tmp_path / "out").iterdir()} == {"a", "e", "summary.csv", ".campaign"}
@@ -160,7 +160,7 @@ def test_a_diagnosis_of_something_else_is_made_again(tmp_path, calls, what):
         (out / "b" / "diagnosis.json").write_text("{", encoding="utf-8")
     brought = (str(plugin),) if what == "plugin" else ()
     settings = DEFAULT.changed({"select.decisive": 4.0} if what == "settings" else {})
-    again = batch.Batch(batch.named(paths), out, brought, int(what == "seed"), settings)
+    again = batch.Batch(batch.name_cases(paths), out, brought, int(what == "seed"), settings)
     batch.run_batch(again, jobs=1)
     assert calls[2:] == (["a", "b"] if what in ("seed", "plugin", "settings") else ["b"])
 
@@ -183,21 +183,21 @@ def test_a_case_that_broke_since_loses_its_old_diagnosis_and_nothing_else(tmp_pa
     ],
 )
 def test_names_that_clash_get_folders_in_front(paths, names):
-    assert [name for name, _ in batch.named(list(map(Path, paths)))] == names
+    assert [name for name, _ in batch.name_cases(list(map(Path, paths)))] == names
 
 
 def test_names_that_cannot_be_told_apart_are_refused():
     with pytest.raises(CaseError, match=r"a\.toml and another case would share the folder"):
-        batch.named([Path("/m/a.toml"), Path("/m/A.toml")])
+        batch.name_cases([Path("/m/a.toml"), Path("/m/A.toml")])
 
 
 def test_a_row_tells_what_moved_most_and_an_adequate_case_has_little_to_tell():
-    row = row_of("a", answer(found=[FRICTION, entry("random_force", probability=0.8)], parameters=PARAMETERS))
+    row = make_row("a", answer(found=[FRICTION, entry("random_force", probability=0.8)], parameters=PARAMETERS))
     assert (row.move.moved, row.move.moved_by) == ("c", pytest.approx(-0.2))
     assert (row.mechanisms, row.probability) == ("coulomb_friction@ground + random_force", 0.8)
-    plain = row_of("b", answer(verdict="adequate"))
+    plain = make_row("b", answer(verdict="adequate"))
     assert (plain.probability, plain.share_of_drive, plain.move) == (None, None, None)
-    assert lines_of([row, plain, plain]) == [
+    assert format_summary([row, plain, plain]) == [
         "3 of 3 cases diagnosed", "  2  adequate", "  1  coulomb_friction@ground + random_force",
     ]  # fmt: skip
 

@@ -130,10 +130,10 @@ def test_what_is_none_of_ours_is_left_alone(tmp_path):
     (tmp_path / "trials").mkdir()
     (tmp_path / "trials" / "mine.txt").write_text("dear")
     for fresh in (False, True):
-        with pytest.raises(DataError, match="no campaign of ours"):
+        with pytest.raises(DataError, match="not a campaign"):
             campaign().run(tmp_path, 1, fresh=fresh)
     (tmp_path / "campaign.json").write_text("{}")
-    with pytest.raises(DataError, match="no campaign of ours"):
+    with pytest.raises(DataError, match="not a campaign"):
         campaign().run(tmp_path, 1, fresh=True)
     assert (tmp_path / "trials" / "mine.txt").read_text() == "dear"
 
@@ -168,7 +168,7 @@ def test_processes_are_renewed_so_that_memory_does_not_grow(tmp_path, monkeypatc
 
 
 def test_without_a_word_for_the_lost_a_killed_process_ends_the_campaign(tmp_path):
-    with pytest.raises(DataError, match="killed, perhaps for want of memory"):
+    with pytest.raises(DataError, match="killed, perhaps for lack of memory"):
         Campaign(deadly, Fate, 7, {}).run(tmp_path, 2)
 
 

@@ -12,7 +12,7 @@ import report_fixture as fixture
 from lostmotion.diagnosis.report.page import render
 from lostmotion.diagnosis.verdict import find_angle_unit
 from lostmotion.recording.spec import Channel, RecordingSpec
-from lostmotion.report.words import angles_in, readable
+from lostmotion.report.words import angles_in, choose_scale
 from lostmotion.results import Interval
 
 SI = {"position": "rad", "velocity": "rad/s", "force": "N m", "time": "s"}
@@ -24,12 +24,12 @@ def words_of(page):
 
 
 def test_angles_are_degrees_within_the_context():
-    assert readable(0.01, "rad") == (1e3, "mrad")
+    assert choose_scale(0.01, "rad") == (1e3, "mrad")
     with angles_in("deg"):
-        assert readable(0.01, "rad") == (180.0 / math.pi, "deg")
-        assert readable(0.01, "m") == (1e3, "mm")
-        assert readable(5.0, "N m/rad").unit == "N m/rad"
-    assert readable(1.0, "rad") == (1.0, "rad")
+        assert choose_scale(0.01, "rad") == (180.0 / math.pi, "deg")
+        assert choose_scale(0.01, "m") == (1e3, "mm")
+        assert choose_scale(5.0, "N m/rad").unit == "N m/rad"
+    assert choose_scale(1.0, "rad") == (1.0, "rad")
 
 
 def test_an_interval_turns_into_degrees_and_others_stay():

@@ -20,7 +20,7 @@ from lostmotion.likelihood.motion import compute_derivatives
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.prepare import Prepared
-from lostmotion.preparation.vetting import Guests, raising, usable_terms
+from lostmotion.preparation.vetting import MethodWatch, find_raising_terms, usable_terms
 from lostmotion.registry import Registry
 from lostmotion.results import Embedding
 
@@ -59,7 +59,7 @@ def test_terms_are_set_aside_one_by_one_and_the_good_one_stays():
     for (cls, why), said in zip(sorted(third_party.TERMS, key=lambda pair: pair[0].name), aside, strict=True):
         assert f"term '{cls.name}' of guests" in said
         assert why in said
-        assert f"`lostmotion plugins check {cls.name}` tells all" in said
+        assert f"`lostmotion plugins check {cls.name}` lists all rules" in said
 
 
 def test_a_package_that_does_not_import_is_among_what_was_set_aside(tmp_path, monkeypatch):
@@ -78,7 +78,7 @@ def test_a_package_that_does_not_import_is_among_what_was_set_aside(tmp_path, mo
 def test_a_method_is_set_aside_and_its_samples_are_as_they_were(known, cls, why):
     x = np.sin(0.3 * np.arange(1200.0)) + 0.1 * np.random.default_rng(0).normal(size=1200)
     series = Series(x.copy(), 0.05, Embedding(8, 3, 10))
-    watch, request, base = Guests(known), analyse.AnalysisRequest(draws=19), BasePeriod(None, "none")
+    watch, request, base = MethodWatch(known), analyse.AnalysisRequest(draws=19), BasePeriod(None, "none")
     if issubclass(cls, third_party.Crest):
         found = analyse._SeriesMeasurer(series, watch, request, base, print)(cls.name, "others")
         assert (found.status, found.says) == ("failed", watch.said[0])
@@ -94,14 +94,14 @@ def test_a_method_is_set_aside_and_its_samples_are_as_they_were(known, cls, why)
     (said,) = watch.said
     assert why in said
     assert f"of guests {why.split('(')[0].split(',')[0] if why.startswith('raised') else ''}".strip() in said
-    assert f"`lostmotion plugins check {cls.name}` tells what to mend" in said
+    assert f"`lostmotion plugins check {cls.name}` shows the errors" in said
     assert np.array_equal(series.x, x)
 
 
 @pytest.mark.slow
 def test_good_methods_are_used(known):
     x = np.sin(0.3 * np.arange(1200.0)) + 0.1 * np.random.default_rng(0).normal(size=1200)
-    watch, base = Guests(known), BasePeriod(None, "none")
+    watch, base = MethodWatch(known), BasePeriod(None, "none")
     series = analyse._embed_series(x, watch, "guest_pair", 0.05, base)
     assert (series.embedding.lag, series.embedding.dim) == (8, 3)
     request = analyse.AnalysisRequest(denoiser="guest_mean", surrogates=("guest_shuffle",), draws=19)
@@ -140,7 +140,7 @@ def test_a_broken_model_is_one_sentence_and_status_2(known, tmp_path, method):
         "guests",
     )
     done = run("simulate", f"guest_bad_{method}", "--set", "m=1,c=1,k=1", *MOVED, tmp_path / "x.csv", status=2)
-    assert f"model 'guest_bad_{method}' of guests cannot be used, for it breaks the rule {method}_" in done.stderr
+    assert f"model 'guest_bad_{method}' of guests cannot be used, because it breaks the rule {method}_" in done.stderr
     assert one_sentence(done.stderr)
 
 
@@ -163,8 +163,8 @@ def test_the_term_that_raises_along_the_recording_is_found():
         third_party.spoiled(third_party.Drag, "guest_late", force=staticmethod(late))(),
     )
     observation = Observation.of("run", np.sin(np.arange(200) * 0.1), np.zeros((200, 1)), 0.01, "position")
-    assert raising([guest, at_fault], [observation]) == {"guest_late"}
-    assert raising([guest, at_fault], [observation.part(0, 40)]) == set()
+    assert find_raising_terms([guest, at_fault], [observation]) == {"guest_late"}
+    assert find_raising_terms([guest, at_fault], [observation.part(0, 40)]) == set()
 
 
 def test_what_a_term_raises_while_it_runs_becomes_a_sentence():

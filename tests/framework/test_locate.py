@@ -80,7 +80,7 @@ def test_the_sentence_names_the_sign_and_leaves_out_what_noise_would_show():
     _, said = located(lambda x, v: -3.0 * np.sign(v), np.random.default_rng(4))
     assert said.startswith("a function of sign of velocity, which explains ")
     _, said = located(lambda x, v: 0.0 * x, np.random.default_rng(5))
-    assert said.startswith("no structure over position, velocity, phase or time")
+    assert said.startswith("no significant structure over position, velocity, phase or time")
 
 
 def test_history_counts_only_beyond_position_and_velocity():

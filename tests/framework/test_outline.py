@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from lostmotion.errors import CaseError, DataError
-from lostmotion.preparation.beginning import begun, scales_of
+from lostmotion.preparation.beginning import scales_of, write_first_case
 from lostmotion.recording.outline import GivenRoles, outline_table
 from lostmotion.registry import Registry
 
@@ -94,7 +94,7 @@ def test_the_line_through_the_spectra_finds_mass_damping_and_stiffness(tmp_path)
 def test_the_case_can_be_read_and_its_priors_hold_the_truth(tmp_path, factor):
     force, x = recorded()
     table(tmp_path, "t,F,x", T, force / factor, x)
-    draft = begun(
+    draft = write_first_case(
         tmp_path / "run.csv",
         tmp_path / "case.toml",
         GivenRoles(units={"F": "N"}),
@@ -114,38 +114,40 @@ def test_the_case_can_be_read_and_its_priors_hold_the_truth(tmp_path, factor):
 def test_without_a_force_the_inertia_has_to_be_known(tmp_path):
     _, x = recorded()
     table(tmp_path, "t,base [rad],q [rad]", T, x, 2.0 * x)
-    draft = begun(tmp_path / "run.csv", tmp_path / "case.toml", GivenRoles(), Registry.discover())
+    draft = write_first_case(tmp_path / "run.csv", tmp_path / "case.toml", GivenRoles(), Registry.discover())
     case = tomllib.loads(draft.text)
     assert case["model"]["name"] == "robot_joint"
     assert case["model"]["known"] == {"m": 1.0, "mgl": 0.0}
-    assert "only ratios to it can be told" in draft.text
+    assert "only ratios to it can be determined" in draft.text
 
 
 def test_a_model_without_the_channel_is_refused(tmp_path):
     force, x = recorded()
     table(tmp_path, "t,base [m],q [m]", T, force, x)
     with pytest.raises(CaseError, match="lin_backlash has no input 'base_position'"):
-        begun(tmp_path / "run.csv", tmp_path / "case.toml", GivenRoles(), Registry.discover(), "lin_backlash")
+        write_first_case(
+            tmp_path / "run.csv", tmp_path / "case.toml", GivenRoles(), Registry.discover(), "lin_backlash"
+        )
 
 
 def test_volts_keep_their_unit_in_a_remark(tmp_path):
     force, x = recorded()
     table(tmp_path, "t [s],drive [V],x [m]", T, force, x)
-    draft = begun(tmp_path / "run.csv", tmp_path / "case.toml", GivenRoles(), Registry.discover())
-    assert "the file says V, which may need a factor: N and force are guesses" in draft.text
+    draft = write_first_case(tmp_path / "run.csv", tmp_path / "case.toml", GivenRoles(), Registry.discover())
+    assert "the unit in the file is V, which may need a factor: N and force are guesses" in draft.text
     assert any("drive [V] (V, taken for N)" in line for line in draft.found)
 
 
 def test_a_short_drive_that_repeats_is_said_to_repeat(tmp_path):
     force = 5.0 * np.cos(2.0 * np.pi * 2.07 * T)
     path = table(tmp_path, "t,F,x\ns,N,mm", T, force, np.roll(force, 9))
-    found = begun(path, tmp_path / "case.toml", GivenRoles(), Registry.discover()).found
+    found = write_first_case(path, tmp_path / "case.toml", GivenRoles(), Registry.discover()).found
     assert "the drive repeats every 0.4831 s" in found
 
 
 def test_a_column_without_a_unit_is_shown_with_what_it_is_taken_for(tmp_path):
     force, x = recorded()
-    found = begun(
+    found = write_first_case(
         table(tmp_path, "t,F,qm", T, force, x), tmp_path / "case.toml", GivenRoles(), Registry.discover()
     ).found
     assert any("qm (no unit, taken for m): position" in line and "-> response" in line for line in found)

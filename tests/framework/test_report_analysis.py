@@ -19,7 +19,7 @@ from lostmotion.analysis.report.tables import make_estimate_row, name_verdict, s
 from lostmotion.analysis.report.view import read_analysis
 from lostmotion.codec import to_plain
 from lostmotion.errors import DataError
-from lostmotion.report.words import power_of_ten, shortened
+from lostmotion.report.words import power_of_ten, shorten
 from lostmotion.results.analysis import DrivePeriod, Measure, Sign
 
 ALL = [section.name for section in SECTIONS]
@@ -244,8 +244,8 @@ def test_line_has_the_slope_of_the_exponent_in_any_unit(whole, unit, value):
 
 def test_ticks_and_cut_words():
     assert [power_of_ten(v) for v in (1.0, 1e-5, 2e-5, 10.0, 1e6)] == ["1", "10⁻⁵", "2·10⁻⁵", "10¹", "10⁶"]
-    assert shortened("a  b\nc", 10) == "a b c"
-    assert shortened("abcdefgh", 4) == "abc…"
+    assert shorten("a  b\nc", 10) == "a b c"
+    assert shorten("abcdefgh", 4) == "abc…"
 
 
 @pytest.mark.parametrize("kind", list(made.KINDS))

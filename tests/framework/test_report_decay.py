@@ -24,7 +24,7 @@ def curve(bend=0.0, scatter=0.0):
 
 
 def test_recording_and_models_are_drawn_with_units():
-    with style.applied():
+    with style.use_style():
         figure = decay.draw_cycles(
             [curve(-50.0, 0.01)], [curve()], [curve(-50.0)], quantity="position amplitude", unit="m"
         )
@@ -39,7 +39,7 @@ def test_recording_and_models_are_drawn_with_units():
 
 
 def test_one_model_is_no_model_before():
-    with style.applied():
+    with style.use_style():
         figure = decay.draw_cycles([curve(), curve(1.0)], [curve()], unit="m/s^2")
     assert [line.get_label() for line in figure.axes[0].lines if not line.get_label().startswith("_")] == [
         "recording",
@@ -50,7 +50,7 @@ def test_one_model_is_no_model_before():
 def test_wild_cycles_and_models_do_not_set_the_scale():
     tame = curve(-50.0, 0.01)
     wild = replace(tame, frequency=(*tame.frequency[:-1], 100.0))
-    with style.applied():
+    with style.use_style():
         figure = decay.draw_cycles([wild], [curve(1e5)], unit="m")
     assert figure.axes[1].get_ylim()[1] < 25.0
 

@@ -45,7 +45,7 @@ def data():
 def test_each_sensor_has_its_panels_and_its_row(data, tmp_path):
     home = made.write(tmp_path, facts(), two_sensors(data))
     evidence = read_evidence(home)
-    with style.applied():
+    with style.use_style():
         figure = sensors.draw(evidence)
     assert [axes.get_title(loc="left") for axes in figure.axes] == ["motor <b>", "", "load", ""]
     assert [axes.get_ylabel().rpartition(" (")[0] for axes in figure.axes] == [
@@ -77,7 +77,7 @@ def test_one_model_has_one_column_of_errors(data, tmp_path):
 @pytest.mark.usefixtures("unsaved")
 def test_a_sensor_that_is_read_more_rarely_is_drawn_as_a_line(data, tmp_path):
     evidence = read_evidence(made.write(tmp_path, facts(), two_sensors(data, every=4)))
-    with style.applied():
+    with style.use_style():
         figure = sensors.draw(evidence)
     recorded = figure.axes[2].lines[0].get_ydata()
     assert recorded.size > 20

@@ -10,15 +10,15 @@ from lostmotion.report.words import (
     DASH,
     Scale,
     chance,
+    choose_scale,
     figures,
+    format_quantity,
+    format_unit,
     interval,
-    measured,
     percent,
-    pretty,
     probability,
-    readable,
     span,
-    spoken,
+    to_words,
     typeset,
 )
 from lostmotion.results import Interval
@@ -76,13 +76,13 @@ def test_a_median_stands_alone_where_its_interval_is_withheld():
     ],
 )
 def test_prefixes_stand_only_where_they_help(largest, unit, scale):
-    assert readable(largest, unit) == scale
+    assert choose_scale(largest, unit) == scale
 
 
 def test_names_units_and_shares():
-    assert spoken("bouc_wen_hysteresis") == "Bouc–Wen hysteresis"
-    assert pretty("kg m^2") == "kg m²"
-    assert measured(3.0, "1") == "3"
+    assert to_words("bouc_wen_hysteresis") == "Bouc–Wen hysteresis"
+    assert format_unit("kg m^2") == "kg m²"
+    assert format_quantity(3.0, "1") == "3"
     assert percent(0.012) == "1.2 %"
 
 

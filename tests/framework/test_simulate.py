@@ -113,7 +113,7 @@ def test_a_stiff_machine_takes_more_steps():
 
 def test_motion_that_explodes_is_a_sentence():
     explosive = plan(values={"m": 1.0, "c": 0.0, "k": 0.0}, terms=["cubic_stiffness:coefficient=-1e9"], duration=5.0)
-    with pytest.raises(CaseError, match="left all bounds after"):
+    with pytest.raises(CaseError, match="diverged after"):
         simulate(explosive)
 
 
@@ -173,7 +173,10 @@ WRONG = {
     "noise": ((*LIN, "--noise", "-1"), "the noise is -1: wanted a share"),
     "stiff": (("lin_backlash", "--set", "m=1,c=8,k0=4e16,x0=0.005"), "is too stiff: 2e+08 rad/s ask for"),
     "huge": ((*LIN, "--drive", "step:size=1e300"), "the drive reaches 1e+300: check its unit"),
-    "fast": ((*LIN, "--drive", "noise:rms=1,bandwidth=300"), "reaches 300 Hz, of which 500 samples per second show"),
+    "fast": (
+        (*LIN, "--drive", "noise:rms=1,bandwidth=300"),
+        "reaches 300 Hz, which 500 samples per second cannot show",
+    ),
     "endless": ((*LIN, "--drive", "noise:rms=1,bandwidth=1e200"), "drive noise up to 1e+200 Hz for 2 s is too long"),
     "lines": ((*LIN, "--drive", "multisine:rms=1,low=1,high=2,lines=1e9"), "wanted a whole number up to 10000"),
 }
@@ -198,7 +201,7 @@ def test_mistakes_are_sentences(name, tmp_path):
         ("harmonic:omega=1", "lacks amplitude: write harmonic:amplitude=..."),
         ("harmonic:amplitude=big,omega=1", "amplitude of drive harmonic is 'big'"),
         ("harmonic:amplitude=1,omega=1,harmonics=a/b", "harmonics of drive harmonic is 'a'"),
-        ("multisine:rms=1,low=5,high=1", "low must lie below high"),
+        ("multisine:rms=1,low=5,high=1", "low must be below high"),
         ("multisine:rms=1,low=1,high=5,lines=2.5", "wanted a whole number"),
         ("step:size=1,rise=0", "rise of drive step is 0: wanted more than zero"),
     ],

@@ -40,7 +40,7 @@ def evidence(facts=None, **where):
 
 @pytest.mark.parametrize("facts", [made.mismatch(), made.adequate()], ids=["mismatch", "adequate"])
 def test_there_is_a_row_of_colours_for_each_model_over_one_step_plot(facts):
-    with style.applied():
+    with style.use_style():
         figure = strip.draw(evidence(facts, over_time=TOLD))
     models = 2 if facts["found"] else 1
     assert len(figure.axes) == models + 2

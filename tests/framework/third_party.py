@@ -157,7 +157,7 @@ TERMS = [
     (spoiled(Drag, "guest_nan", force=staticmethod(no_number)), "nan"),
     (spoiled(Drag, "guest_pushes", force=staticmethod(pushes)), "force is 1.0"),
     (spoiled(Drag, "guest_null", params=(Param("size", "drag", DAMPING),)), "no parameter has a null"),
-    (spoiled(Drag, "guest_method", force=Drag.force), "is no static method"),
+    (spoiled(Drag, "guest_method", force=Drag.force), "is not a static method"),
 ]
 
 

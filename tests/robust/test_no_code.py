@@ -13,7 +13,7 @@ from lostmotion.cli import main
 from lostmotion.errors import DataError
 from lostmotion.maps.map import Map
 from lostmotion.recording import read_columns
-from lostmotion.report.pages import template
+from lostmotion.report.pages import load_template
 
 ROOT = Path(__file__).parents[2]
 SOURCES = sorted([*(ROOT / "framework").rglob("*.py"), *(ROOT / "plugins" / "lostmotion_plugins").rglob("*.py")])
@@ -90,7 +90,7 @@ def test_a_module_beside_a_recording_is_not_taken_for_one_of_pythons(
 @pytest.mark.parametrize("path", PAGES, ids=lambda path: path.parent.parent.name)
 def test_every_page_escapes_what_it_is_given(path: Path) -> None:
     top = "framework" if path.is_relative_to(ROOT / "framework") else "plugins"
-    page = template(path.name, ".".join(path.parent.relative_to(ROOT / top).parts))
+    page = load_template(path.name, ".".join(path.parent.relative_to(ROOT / top).parts))
     assert page.environment.autoescape is True
     text = path.read_text(encoding="utf-8")
     assert "|safe" not in text.replace(" ", "")

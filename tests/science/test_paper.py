@@ -13,8 +13,8 @@ from lostmotion.flow import flow_of
 from lostmotion.registry import default
 from lostmotion_trials.paper import experiment, noisy, portraits, sweeps
 from lostmotion_trials.paper.cases import CASES, PRINTED
-from lostmotion_trials.paper.joint import LEVELS, PAPER, SUSPECT, motions
-from lostmotion_trials.paper.lab import Lab, period_of
+from lostmotion_trials.paper.joint import LEVELS, PAPER, SUSPECT, follow_joint
+from lostmotion_trials.paper.lab import Lab, find_return_period
 
 
 @pytest.fixture(scope="module")
@@ -48,7 +48,7 @@ def test_case_2_is_not_chaotic_as_printed(lab):
 
 
 def test_case_2_is_chaotic_at_230_newton(lab):
-    found = portraits.motions(lab, replace(CASES[2], amplitude=230.0))
+    found = portraits.follow_motions(lab, replace(CASES[2], amplitude=230.0))
     assert found.bits[found.chaotic].mean() == pytest.approx(4.2, abs=0.4)
 
 
@@ -60,7 +60,7 @@ def test_case_3_has_a_chaotic_and_a_periodic_attractor(lab):
 
 
 def test_case_3_at_1_57_hertz_to_the_last_digit_lies_at_the_edge_of_a_window(lab):
-    found = portraits.motions(Lab(default()), replace(CASES[3], omega=PRINTED))
+    found = portraits.follow_motions(Lab(default()), replace(CASES[3], omega=PRINTED))
     assert found.bits[found.chaotic].mean() == pytest.approx(0.4, abs=0.05)
 
 
@@ -93,7 +93,7 @@ def test_noise_reduction_leaves_less_than_half_of_the_noise(lab):
 
 def test_the_joint_is_chaotic_at_the_middle_levels_only(lab):
     for level, paper in zip(LEVELS, PAPER, strict=True):
-        found = motions(lab, level)
+        found = follow_joint(lab, level)
         assert found.chaotic.all() == (level in SUSPECT), level
         if math.isfinite(paper):
             assert found.bits.mean() == pytest.approx(paper, abs=0.6)
@@ -107,8 +107,8 @@ def test_chaos_of_the_joint_is_seen_by_its_encoder(lab):
 @pytest.mark.parametrize("period", [1, 3, 7, 24])
 def test_a_period_is_found_and_chaos_has_none(period):
     place = np.sin(2.0 * math.pi * np.arange(200) / period + 0.3)
-    assert period_of(np.column_stack([place, 2.0 * place])) == period
-    assert period_of(np.random.default_rng(0).standard_normal((200, 2))) == 0
+    assert find_return_period(np.column_stack([place, 2.0 * place])) == period
+    assert find_return_period(np.random.default_rng(0).standard_normal((200, 2))) == 0
 
 
 def test_the_joint_is_solved_exactly():

@@ -9,7 +9,7 @@ from PIL import Image
 
 from lostmotion.cli import main
 from lostmotion_trials.paper.page import DRAWINGS
-from lostmotion_trials.paper.run import ITEMS, chosen
+from lostmotion_trials.paper.run import ITEMS, choose_names
 
 VERDICTS = {"reproduced", "reproduced in part", "not reproduced", "beyond the paper"}
 
@@ -91,5 +91,5 @@ def test_an_unknown_name_is_refused_with_its_neighbour(tmp_path):
 def test_all_figures_of_the_paper_can_be_asked_for():
     wanted = {f"fig{k}" for k in range(3, 24)} | {"table1", "table2"}
     assert wanted | {"bifurcation", "basins", "section", "map"} == set(ITEMS)
-    assert chosen(()) == chosen(("all", "fig3")) == list(ITEMS)
+    assert choose_names(()) == choose_names(("all", "fig3")) == list(ITEMS)
     assert set(DRAWINGS) == {name for name in ITEMS if not name.startswith("table")}

@@ -34,7 +34,7 @@ from lostmotion.defaults import (
     SURROGATE_OF_CYCLES,
 )
 from lostmotion.errors import DataError
-from lostmotion.preparation.vetting import Guests
+from lostmotion.preparation.vetting import MethodWatch
 from lostmotion.provenance import origin_of
 from lostmotion.rates import exponent_in
 from lostmotion.registry import Registry
@@ -138,7 +138,7 @@ def analyse(
 ) -> AnalysedChannel:
     """Return the results of all stages: delay, dimension, noise, exponent, correlation dimension, surrogate tests."""
     base = find_base_period(checked(source.x), source, request.period)
-    third_party = Guests(registry)
+    third_party = MethodWatch(registry)
     say("delay and dimension")
     raw = _embed_series(source.x, third_party, request.embedder, source.dt, base)
     say("noise")
@@ -172,7 +172,7 @@ def analyse(
     )
 
 
-def _embed_series(x: Array, third_party: Guests, name: str, dt: float, base: BasePeriod) -> Series:
+def _embed_series(x: Array, third_party: MethodWatch, name: str, dt: float, base: BasePeriod) -> Series:
     """Return the embedded series; the default embedder replaces one that fails."""
 
     def work(name: str) -> Series:
@@ -186,7 +186,7 @@ class _SeriesMeasurer:
     """Estimates of quantifiers by name on one series, exponents in the requested unit."""
 
     series: Series
-    third_party: Guests
+    third_party: MethodWatch
     request: AnalysisRequest
     base: BasePeriod
     say: ProgressCallback
@@ -220,7 +220,7 @@ def _make_quantifier(registry: Registry, name: str) -> Quantifier[Series]:
     return quantifier
 
 
-def _reduce_noise(raw: Series, third_party: Guests, request: AnalysisRequest) -> tuple[Denoised, str]:
+def _reduce_noise(raw: Series, third_party: MethodWatch, request: AnalysisRequest) -> tuple[Denoised, str]:
     """Return the series with reduced noise, and the name of the method; the series is unchanged if that fails."""
     registry = third_party.registry
     meter, rng = _make_quantifier(registry, METER), request.make_rng("denoise")
@@ -244,7 +244,7 @@ def _convert_unit(estimate: Estimate, request: AnalysisRequest, base: BasePeriod
 
 
 def _run_tests(
-    raw: Series, third_party: Guests, request: AnalysisRequest, say: ProgressCallback
+    raw: Series, third_party: MethodWatch, request: AnalysisRequest, say: ProgressCallback
 ) -> tuple[SurrogateTest, ...]:
     """Return the surrogate tests of the raw series, since noise reduction makes any series look deterministic."""
     names = request.surrogates or ((SURROGATE, SURROGATE_OF_CYCLES) if raw.period else (SURROGATE,))

@@ -1,1 +1,1 @@
-"""Many cases or trials in one go, over the cores of this machine, each kept as it ends."""
+"""Many cases or trials in one run on the cores of this machine; each result is stored when it is complete."""

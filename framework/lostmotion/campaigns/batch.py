@@ -1,7 +1,7 @@
-"""Many cases in one go: each is diagnosed by a process of its own core, what cannot be used is set aside.
+"""Diagnosis of many cases: each one in a process on one core; cases that cannot be used are set aside.
 
-A case whose diagnosis stands there, made of the same files, seed and versions, is not made again; so a batch that was
-killed goes on, and one in which a recording was repaired or a case added does what is new.
+An existing diagnosis from the same files, seed and versions is not repeated. So an interrupted batch is continued, and
+only new or changed cases are diagnosed when it is run again.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from lostmotion.campaigns.campaign import Campaign, Say
-from lostmotion.campaigns.table import SUMMARY, BatchRow, row_aside, row_of, save_rows
+from lostmotion.campaigns.table import SUMMARY, BatchRow, make_aside_row, make_row, save_rows
 from lostmotion.diagnosis.run import run_diagnosis
 from lostmotion.errors import CaseError, DataError, LostMotionError, PlaceError, PluginWarning
 from lostmotion.preparation.prepare import case_of
@@ -25,14 +25,14 @@ from lostmotion.settings import DEFAULT, Settings
 from lostmotion.storage import folder_for, load_result, writing
 
 FILES = ("report.html", "diagnosis.json", "arrays.nc")
-"""What a diagnosis writes. The report is written last and removed first: where it stands, the others are whole."""
+"""The files of a diagnosis. The report is written last and removed first: where it exists, the others are complete."""
 KEPT = ".campaign"
-"""The folder of the campaign within that of the batch."""
+"""The folder of the campaign in the folder of the batch."""
 
 
 @dataclass(frozen=True)
 class Batch:
-    """One who diagnoses: `cases` by the names of their folders in `out`, plugin files, and the seed of each case."""
+    """A batch of diagnoses: `cases` by the names of their folders in `out`, plugin files, and the seed of each case."""
 
     cases: tuple[tuple[str, Path], ...]
     out: Path
@@ -41,38 +41,38 @@ class Batch:
     settings: Settings = DEFAULT
 
     def __call__(self, number: int) -> BatchRow:
-        """Return the row of a case, once its diagnosis stands in its folder; one that cannot be used has none."""
+        """Return the row of a case after its diagnosis is in its folder; a case that is set aside has no diagnosis."""
         name, path = self.cases[number]
         place = self.out / name
         try:
-            with _notes_only():
-                self._settle(path, place)
-            return row_of(name, _read(place))
+            with _silence_plugin_warnings():
+                self._ensure_diagnosis(path, place)
+            return make_row(name, _load_diagnosis(place))
         except PlaceError:
             raise
         except LostMotionError as err:
-            said = str(err)
+            reason = str(err)
         except MemoryError:
-            said = "there is not enough memory for it: cut the recording, or use fewer --jobs"
-        except Exception as err:  # one case of a thousand may not end the others
-            said = f"it broke down ({type(err).__name__}: {err}): diagnose it by itself to see where"
-        _clear(place)
-        return row_aside(name, said)
+            reason = "there is not enough memory for it: cut the recording, or use fewer --jobs"
+        except Exception as err:  # an error of one case must not end the others
+            reason = f"it failed ({type(err).__name__}: {err}): diagnose it separately to see where"
+        _remove_results(place)
+        return make_aside_row(name, reason)
 
     def lost(self, number: int) -> BatchRow:
-        """Return the row of a case whose process was killed from outside, twice: the second time it ran by itself."""
+        """Return the row of a case whose process was killed from outside twice, the second time when it ran alone."""
         name, _ = self.cases[number]
-        _clear(self.out / name)
-        return row_aside(name, "the system killed its process, for want of memory perhaps: cut the recording")
+        _remove_results(self.out / name)
+        return make_aside_row(name, "the system killed its process, perhaps for lack of memory: cut the recording")
 
-    def _settle(self, path: Path, place: Path) -> None:
-        """See to it that the diagnosis of a case stands in its folder."""
-        if not self._stands(path, place):
-            _clear(place)
+    def _ensure_diagnosis(self, path: Path, place: Path) -> None:
+        """Make the diagnosis of a case in its folder, unless it exists there."""
+        if not self._is_current(path, place):
+            _remove_results(place)
             run_diagnosis(path, place, self._registry(), seed=self.seed, jobs=1, settings=self.settings)
 
-    def _stands(self, path: Path, place: Path) -> bool:
-        """Return whether a diagnosis is there and was made of what would be used now."""
+    def _is_current(self, path: Path, place: Path) -> bool:
+        """Return whether a diagnosis exists that was made from the present inputs, versions and settings."""
         if not all((place / name).is_file() for name in FILES):
             return False
         registry = self._registry()
@@ -80,24 +80,24 @@ class Batch:
         files = {spec.label: digest(case.folder / spec.file) for spec in case.recordings}
         wanted = origin_of("diagnose", {}, self.seed, {**registry.origins(), "case": case.digest, **files})
         try:
-            made = _read(place).provenance
+            made = _load_diagnosis(place).provenance
         except DataError:
             return False
         thresholds = made.settings.get("thresholds")
         return replace(made, settings={}) == wanted and thresholds == self.settings.as_dict()
 
     def _registry(self) -> Registry:
-        """Return a registry for one case, which may bring plugins that the next one does not know."""
+        """Return a registry for one case, so that its plugins are not available to other cases."""
         return Registry.discover(self.plugins)
 
 
-def _read(place: Path) -> Diagnosis:
-    """Return the diagnosis that stands in a folder; `DataError` where no whole one is there."""
+def _load_diagnosis(place: Path) -> Diagnosis:
+    """Return the diagnosis in a folder; raise `DataError` where there is no complete one."""
     return load_result(Diagnosis, place / "diagnosis.json", "run the same command again")
 
 
 def run_batch(batch: Batch, *, jobs: int, say: Say = lambda _done, _of: None) -> list[BatchRow]:
-    """Return a row for each case after writing its diagnosis into the folder of its name, and all rows as a table."""
+    """Return a row for each case after writing its diagnosis into its folder, and all rows as a table."""
     identity = provenance("diagnose many", {"thresholds": batch.settings.as_dict()}, batch.seed, {})
     campaign = Campaign(batch, BatchRow, len(batch.cases), identity, apart=True, lost=batch.lost)
     rows = campaign.run(folder_for(batch.out) / KEPT, jobs, say, fresh=True)
@@ -105,32 +105,34 @@ def run_batch(batch: Batch, *, jobs: int, say: Say = lambda _done, _of: None) ->
     return rows
 
 
-def named(paths: Sequence[Path]) -> tuple[tuple[str, Path], ...]:
-    """Return each case file once, under the stem of its name; stems that clash get the names of folders in front."""
+def name_cases(paths: Sequence[Path]) -> tuple[tuple[str, Path], ...]:
+    """Return each case file once, named by its stem; equal stems are prefixed with the names of folders."""
     cases = list(dict.fromkeys(path.absolute() for path in paths))
     parts = [[*path.parts[1:-1], path.stem] for path in cases]
     depths = [1] * len(cases)
-    while clash := [k for k in _clashing(parts, depths) if depths[k] < len(parts[k])]:
+    while clash := [k for k in _find_clashes(parts, depths) if depths[k] < len(parts[k])]:
         for k in clash:
             depths[k] += 1
-    for k in _clashing(parts, depths):
-        raise CaseError(f"{cases[k].name} and another case would share the folder {_name(parts[k], depths[k])}: rename")
-    return tuple((_name(p, depth), path) for p, depth, path in zip(parts, depths, cases, strict=True))
+    for k in _find_clashes(parts, depths):
+        raise CaseError(
+            f"{cases[k].name} and another case would share the folder {_join_name(parts[k], depths[k])}: rename"
+        )
+    return tuple((_join_name(p, depth), path) for p, depth, path in zip(parts, depths, cases, strict=True))
 
 
-def _clashing(parts: Sequence[Sequence[str]], depths: Sequence[int]) -> list[int]:
-    """Return the numbers of the cases whose names are not theirs alone; some disks know no capitals."""
-    names = [_name(p, depth).casefold() for p, depth in zip(parts, depths, strict=True)]
+def _find_clashes(parts: Sequence[Sequence[str]], depths: Sequence[int]) -> list[int]:
+    """Return the numbers of the cases with equal names; upper case is ignored, as on some disks."""
+    names = [_join_name(p, depth).casefold() for p, depth in zip(parts, depths, strict=True)]
     times = Counter([*names, KEPT, SUMMARY])
     return [k for k, name in enumerate(names) if times[name] > 1]
 
 
-def _name(parts: Sequence[str], depth: int) -> str:
+def _join_name(parts: Sequence[str], depth: int) -> str:
     return "-".join(parts[-depth:])
 
 
-def _clear(place: Path) -> None:
-    """Remove what a diagnosis writes, and its folder if nothing else lies there."""
+def _remove_results(place: Path) -> None:
+    """Remove the files of a diagnosis, and its folder if it is empty then."""
     with writing(place):
         for name in FILES:
             (place / name).unlink(missing_ok=True)
@@ -139,8 +141,8 @@ def _clear(place: Path) -> None:
 
 
 @contextmanager
-def _notes_only() -> Iterator[None]:
-    """Leave what is wrong with a plugin to the notes of each diagnosis: a thousand warnings say no more than one."""
+def _silence_plugin_warnings() -> Iterator[None]:
+    """Suppress warnings about plugins, which the notes of each diagnosis contain, to avoid many repetitions."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", PluginWarning)
         yield

@@ -1,6 +1,6 @@
-"""Many independent trials over the cores of this machine, each kept as it ends: a campaign that is killed goes on.
+"""Many independent trials on the cores of this machine; each result is stored, so that a killed campaign continues.
 
-A trial knows its number and nothing of the others, so neither their order nor the number of processes changes a byte.
+A trial depends only on its number, so neither the order nor the number of processes changes a byte of the results.
 """
 
 from __future__ import annotations
@@ -28,25 +28,25 @@ from lostmotion.storage import folder_for, held, load_json, save_json, writing
 
 SCHEMA = "lostmotion.campaign/1"
 PLAN = "campaign.json"
-"""What a folder of a campaign is known by: how its trials are made."""
+"""The file that identifies the folder of a campaign: it describes how its trials are made."""
 TRIALS = "trials"
 RENEWED = 100
-"""Trials that a process makes: a kernel it compiles holds 35 MiB for good, and one from the cache next to nothing."""
+"""The number of trials per process: each compiled kernel keeps 35 MiB of memory, one from the cache hardly any."""
 
 T = TypeVar("T")
 Trial = Callable[[int], T]
-"""Makes the outcome of one trial, a frozen dataclass that the codec writes, from its number; it can be pickled."""
+"""A picklable function from the number of a trial to its outcome, a frozen dataclass that the codec can write."""
 Say = Callable[[int, int], None]
-"""Told how many trials are done, and how many there are."""
+"""A function that is called with the number of completed trials and the number of all trials."""
 
 
 @dataclass(frozen=True)
 class Campaign(Generic[T]):
-    """Trials 0 to `count` - 1 and what makes them: `identity`, plain as JSON knows it, without the number of trials.
+    """Trials 0 to `count` - 1, made by `trial`; `identity` describes them in plain JSON values, without their number.
 
-    `kind` is the class of an outcome, as which it is read from its file. With `apart` no trial is made in this process,
-    even if a single one is left. A trial whose process is killed, by a system that runs out of memory for instance, has
-    the outcome `lost`; without that it ends the campaign.
+    `kind` is the class of an outcome, used to read it from its file. With `apart`, trials never run in this process,
+    even if only one is left. A trial whose process is killed, for instance for lack of memory, has the outcome `lost`;
+    without that function it ends the campaign.
     """
 
     trial: Trial[T]
@@ -57,26 +57,26 @@ class Campaign(Generic[T]):
     lost: Trial[T] | None = None
 
     def run(self, folder: Path, jobs: int, say: Say = lambda _done, _of: None, *, fresh: bool = False) -> list[T]:
-        """Return the outcome of every trial in order; those that `folder` already holds are not made again.
+        """Return the outcome of every trial in order; outcomes that exist in `folder` are not computed again.
 
-        Raises `DataError` when the folder holds a campaign of another identity, unless a `fresh` one is wanted.
+        `DataError` is raised when the folder contains a campaign of another identity, unless `fresh` is true.
         """
         with held(folder_for(folder)):
             self._claim(folder, fresh)
-            missing = [k for k in range(self.count) if not self._stands(folder, k)]
+            missing = [k for k in range(self.count) if not self._is_stored(folder, k)]
             say(self.count - len(missing), self.count)
-            with closing(self._made(folder, missing, jobs)) as numbers:
+            with closing(self._make_missing(folder, missing, jobs)) as numbers:
                 for done, _ in enumerate(numbers, start=self.count - len(missing) + 1):
                     say(done, self.count)
         return [self._outcome(folder, k) for k in range(self.count)]
 
     def _outcome(self, folder: Path, number: int) -> T:
-        """Return the outcome of a trial that is kept."""
-        path = _file(folder, number)
+        """Return the stored outcome of a trial."""
+        path = _file_of(folder, number)
         return from_plain(self.kind, load_json(path, "run the same command again"), str(path))
 
-    def _stands(self, folder: Path, number: int) -> bool:
-        """Return whether the outcome of a trial is kept; one that cannot be read is made again."""
+    def _is_stored(self, folder: Path, number: int) -> bool:
+        """Return whether the outcome of a trial is stored and can be read."""
         try:
             self._outcome(folder, number)
         except DataError:
@@ -84,11 +84,11 @@ class Campaign(Generic[T]):
         return True
 
     def _claim(self, folder: Path, fresh: bool) -> None:
-        """Make the folder this campaign's, or refuse one that is another's."""
+        """Prepare the folder for this campaign; raise `DataError` if it belongs to another one."""
         plan, trials = folder / PLAN, folder / TRIALS
-        found = _plan(plan)
+        found = _read_plan(plan)
         if found is None and (plan.exists() or trials.exists()):
-            raise DataError(f"{folder} holds {trials.name} and is no campaign of ours: choose another place")
+            raise DataError(f"{folder} holds {trials.name} and is not a campaign: choose another place")
         if found and fresh:
             shutil.rmtree(trials, ignore_errors=True)
         wanted = {"schema": SCHEMA, **self.identity}
@@ -100,16 +100,18 @@ class Campaign(Generic[T]):
         for spare in trials.glob(".*"):
             spare.unlink()
 
-    def _made(self, folder: Path, missing: list[int], jobs: int) -> Generator[int, None, None]:
-        """Yield the number of each trial that was made and kept."""
-        make = partial(_kept, self.trial, folder)
+    def _make_missing(self, folder: Path, missing: list[int], jobs: int) -> Generator[int, None, None]:
+        """Yield the number of each trial after it was made and stored."""
+        make = partial(_run_and_store, self.trial, folder)
         if not missing or (not self.apart and (jobs == 1 or len(missing) < 2)):
             return (make(k) for k in missing)
-        return _spread(make, missing, min(jobs, len(missing)), self.lost and partial(_kept, self.lost, folder))
+        return _run_parallel(
+            make, missing, min(jobs, len(missing)), self.lost and partial(_run_and_store, self.lost, folder)
+        )
 
 
-def _plan(path: Path) -> Mapping[str, object] | None:
-    """Return what made the campaign of a folder, or None where there is none of ours."""
+def _read_plan(path: Path) -> Mapping[str, object] | None:
+    """Return the description of the campaign in a folder, or None where there is no campaign."""
     try:
         found = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError, RecursionError):
@@ -117,47 +119,47 @@ def _plan(path: Path) -> Mapping[str, object] | None:
     return found if isinstance(found, dict) and found.get("schema") == SCHEMA else None
 
 
-def _file(folder: Path, number: int) -> Path:
+def _file_of(folder: Path, number: int) -> Path:
     return folder / TRIALS / f"{number:05d}.json"
 
 
-def _kept(trial: Trial[T], folder: Path, number: int) -> int:
-    """Return the number of a trial, once its outcome is on the disk."""
-    save_json(_file(folder, number), to_plain(trial(number)))
+def _run_and_store(trial: Trial[T], folder: Path, number: int) -> int:
+    """Return the number of a trial after its outcome was stored."""
+    save_json(_file_of(folder, number), to_plain(trial(number)))
     return number
 
 
-def _spread(
+def _run_parallel(
     make: Callable[[int], int], numbers: list[int], jobs: int, lose: Callable[[int], int] | None
 ) -> Generator[int, None, None]:
-    """Yield each number as it is made; what was under way when a process was killed is tried again, one at a time.
+    """Yield each number when its trial is complete; trials that ran when a process was killed are repeated one by one.
 
-    Processes give way to fresh ones after a while, so that memory does not grow with all that they have compiled.
+    Processes are replaced after some trials, so that memory does not grow with the compiled kernels.
     """
     while numbers:
         waiting, numbers = numbers[: RENEWED * jobs][::-1], numbers[RENEWED * jobs :]
-        suspects = yield from _together(make, waiting, jobs)
+        suspects = yield from _run_pool(make, waiting, jobs)
         numbers = waiting[::-1] + numbers
         if suspects and lose is None:
             raise DataError(
-                "a process of the campaign was killed, perhaps for want of memory: run the same command again, with"
-                " fewer --jobs; what is done is kept"
+                "a process of the campaign was killed, perhaps for lack of memory: run the same command again, with"
+                " fewer --jobs; completed trials are kept"
             )
         for number in suspects:
-            if (yield from _together(make, [number], 1)) and lose:
+            if (yield from _run_pool(make, [number], 1)) and lose:
                 yield lose(number)
 
 
-def _together(make: Callable[[int], int], waiting: list[int], jobs: int) -> Generator[int, None, list[int]]:
-    """Yield the numbers that are `waiting`, last first, as they are made; return those on which a process was killed.
+def _run_pool(make: Callable[[int], int], waiting: list[int], jobs: int) -> Generator[int, None, list[int]]:
+    """Yield the numbers in `waiting`, last first, when they are complete; return those on which a process was killed.
 
-    The processes end at once when this one is interrupted, closed or killed.
+    The processes end at once when this process is interrupted, closed or killed.
     """
     spawn = multiprocessing.get_context("spawn")
-    ear, mouth = spawn.Pipe(duplex=False)
+    receiver, sender = spawn.Pipe(duplex=False)
     before = {name: os.environ.get(name) for name in ALONE}
-    os.environ.update(ALONE)  # as many processes as cores: threads of their own would only wait for one another
-    pool = ProcessPoolExecutor(jobs, mp_context=spawn, initializer=_listen, initargs=(ear,))
+    os.environ.update(ALONE)  # one process per core: further threads would only wait for each other
+    pool = ProcessPoolExecutor(jobs, mp_context=spawn, initializer=_follow_parent, initargs=(receiver,))
     running: dict[Future[int], int] = {}
     try:
         while waiting or running:
@@ -175,28 +177,28 @@ def _together(make: Callable[[int], int], waiting: list[int], jobs: int) -> Gene
         return []
     finally:
         if running or waiting:
-            mouth.close()
+            sender.close()
         pool.shutdown(cancel_futures=True)
-        mouth.close()
-        ear.close()
-        _restore(before)
+        sender.close()
+        receiver.close()
+        _restore_environment(before)
 
 
-def _restore(before: Mapping[str, str | None]) -> None:
-    """Set each of these variables of the environment to what it was, or to nothing."""
+def _restore_environment(before: Mapping[str, str | None]) -> None:
+    """Restore variables of the environment to their former values, or remove them."""
     for name, value in before.items():
         os.environ.pop(name, None)
         if value is not None:
             os.environ[name] = value
 
 
-def _listen(ear: Connection) -> None:
-    """Leave Ctrl-C to the parent, and end with it: its end of the pipe closes however it ends."""
+def _follow_parent(receiver: Connection) -> None:
+    """Ignore Ctrl-C in a worker, and end the worker when the parent process ends and its end of the pipe closes."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
     def hear() -> None:
         try:
-            ear.recv_bytes()
+            receiver.recv_bytes()
         except (EOFError, OSError):
             os._exit(1)
 

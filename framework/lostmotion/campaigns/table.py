@@ -1,4 +1,4 @@
-"""What a batch says of its cases: one row for each, by which a thousand machines can be sorted, and a few lines."""
+"""The summary of a batch: one row for each case, by which many machines can be sorted, and a few lines."""
 
 from __future__ import annotations
 
@@ -23,67 +23,71 @@ COLUMNS = (
 
 @dataclass(frozen=True, kw_only=True)
 class BatchRow:
-    """What became of a case; of one that was set aside there are name, status and sentence only."""
+    """The result of one case; a case that was set aside has only name, status and sentence."""
 
     case: str = described("name of the case, and of its folder")
     status: str = described(f"{DIAGNOSED} or {ASIDE}")
     verdict: str | None = described("adequate or mismatch", default=None)
-    mechanisms: str | None = described("what was found, with places; empty where nothing was", default=None)
-    probability: float | None = described("least probability of what was found", default=None)
-    share_of_drive: float | None = described("largest force of what was found over that of the drive", default=None)
-    unexplained_share: float | None = described("rms of the force that is left over that of the drive", default=None)
+    mechanisms: str | None = described(
+        "the mechanisms that were found, with places; empty where there are none", default=None
+    )
+    probability: float | None = described("smallest probability of the found mechanisms", default=None)
+    share_of_drive: float | None = described("largest force of a found mechanism over that of the drive", default=None)
+    unexplained_share: float | None = described(
+        "rms of the remaining missing force over that of the drive", default=None
+    )
     heldout_before: float | None = described("held-out error of the nominal model over the response", default=None)
-    heldout_after: float | None = described("the same of the model with what was found", default=None)
+    heldout_after: float | None = described("the same error of the model with the found mechanisms", default=None)
     noise_floor: float | None = described("the noise over the response", default=None)
     move: Move | None = described("the parameter that moved most, if one did", flat=True, default=None)
-    says: str = described("the answer in sentences, or why there is none")
+    says: str = described("the answer in sentences, or the reason why there is none")
 
 
 @dataclass(frozen=True)
 class Move:
-    """The parameter that moved most from the nominal model to the one with what was found."""
+    """The parameter that changed most from the nominal model to the one with the found mechanisms."""
 
     moved: str = described("its name")
     moved_before: float = described("its median in the nominal model, in SI units")
-    moved_after: float = described("its median with what was found, in SI units")
-    moved_by: float = described("the change over the first of both")
+    moved_after: float = described("its median with the found mechanisms, in SI units")
+    moved_by: float = described("the change over the first median")
 
 
-def row_of(name: str, diagnosis: Diagnosis) -> BatchRow:
+def make_row(name: str, diagnosis: Diagnosis) -> BatchRow:
     """Return the row of a case from its diagnosis."""
     found, fit = diagnosis.found, diagnosis.fit
     return BatchRow(
         case=name,
         status=DIAGNOSED,
         verdict=diagnosis.verdict,
-        mechanisms=" + ".join(map(_mechanism, found)),
-        probability=min(_known(one.probability for one in found), default=None),
-        share_of_drive=max(_known(one.share_of_drive for one in found), default=None),
+        mechanisms=" + ".join(map(_format_mechanism, found)),
+        probability=min(_drop_missing(one.probability for one in found), default=None),
+        share_of_drive=max(_drop_missing(one.share_of_drive for one in found), default=None),
         unexplained_share=diagnosis.unexplained.share_of_drive,
         heldout_before=fit.before.nrmse,
         heldout_after=fit.after.nrmse,
         noise_floor=fit.noise_floor_nrmse,
-        move=_moved(diagnosis.parameters),
+        move=_find_move(diagnosis.parameters),
         says=" ".join(diagnosis.says),
     )
 
 
-def row_aside(name: str, said: str) -> BatchRow:
-    """Return the row of a case that could not be used, with the sentence that says why."""
+def make_aside_row(name: str, said: str) -> BatchRow:
+    """Return the row of a case that could not be used, with the reason in a sentence."""
     return BatchRow(case=name, status=ASIDE, says=" ".join(said.split()))
 
 
 def save_rows(path: Path, rows: Sequence[BatchRow]) -> None:
-    """Write one line for each case as CSV; what a case does not have stays empty."""
+    """Write one line for each case as CSV; missing values are empty cells."""
     with whole(path) as spare, spare.open("w", encoding="utf-8", newline="") as stream:
         writer = csv.writer(stream, lineterminator="\n")
         writer.writerow(COLUMNS)
         plain = map(to_plain, rows)
-        writer.writerows([_cell(row.get(column)) for column in COLUMNS] for row in plain)
+        writer.writerows([_format_cell(row.get(column)) for column in COLUMNS] for row in plain)
 
 
-def lines_of(rows: Sequence[BatchRow]) -> list[str]:
-    """Return how many cases were diagnosed, and how often each answer was given, the most frequent one first."""
+def format_summary(rows: Sequence[BatchRow]) -> list[str]:
+    """Return lines with the number of diagnosed cases and the frequency of each answer, the most frequent one first."""
     answers = Counter(row.mechanisms or str(row.verdict) for row in rows if row.status == DIAGNOSED)
     aside = len(rows) - answers.total()
     head = f"{answers.total()} of {len(rows)} cases diagnosed" + (f", {aside} set aside" if aside else "")
@@ -92,16 +96,16 @@ def lines_of(rows: Sequence[BatchRow]) -> list[str]:
     return [head, *(f"  {count:>{width}}  {answer}" for answer, count in ordered)]
 
 
-def _mechanism(entry: Mechanism) -> str:
+def _format_mechanism(entry: Mechanism) -> str:
     return f"{entry.mechanism}@{entry.at}" if entry.at else entry.mechanism
 
 
-def _known(values: Iterable[float | None]) -> list[float]:
+def _drop_missing(values: Iterable[float | None]) -> list[float]:
     return [value for value in values if value is not None and not math.isnan(value)]
 
 
-def _moved(parameters: ParameterSets) -> Move | None:
-    """Return the parameter that moved most from before to after, as a share of what it was; None if none moved."""
+def _find_move(parameters: ParameterSets) -> Move | None:
+    """Return the parameter with the largest relative change from before to after; None if none changed."""
     before, after = ({name: one.median for name, one in of.items()} for of in (parameters.before, parameters.after))
     both = [name for name in before if before[name] and after.get(name) not in (None, before[name])]
     shares = {name: after[name] / before[name] - 1.0 for name in both}
@@ -111,7 +115,7 @@ def _moved(parameters: ParameterSets) -> Move | None:
     return Move(name, before[name], after[name], shares[name])
 
 
-def _cell(value: object) -> object:
+def _format_cell(value: object) -> object:
     if isinstance(value, float):
         return f"{value:.6g}"
     return "" if value is None else value

@@ -55,7 +55,7 @@ def command(ctx: click.Context, /, cases: tuple[Path, ...], out: Path, model: st
 
 def _prepare_case(ctx: click.Context, case: Path, out: Path, model: str) -> Path:
     """Return the path of the case; for a recording, a case is written into the folder of the results first."""
-    from lostmotion.preparation.beginning import begun
+    from lostmotion.preparation.beginning import write_first_case
     from lostmotion.recording import ENDINGS
     from lostmotion.recording.outline import GivenRoles
 
@@ -64,7 +64,9 @@ def _prepare_case(ctx: click.Context, case: Path, out: Path, model: str) -> Path
             raise click.UsageError(f"--model needs a recording: {case.name} is a case and has its own [model]")
         return case
     out.mkdir(parents=True, exist_ok=True)
-    draft = begun(case, out / "case.toml", GivenRoles(None, None, None, None, {}), registry_of(ctx), model, {})
+    draft = write_first_case(
+        case, out / "case.toml", GivenRoles(None, None, None, None, {}), registry_of(ctx), model, {}
+    )
     for line in (*draft.found, *(f"please check: {note}" for note in draft.notes)):
         click.echo(flatten_text(line), err=True)
     return out / "case.toml"
@@ -85,17 +87,17 @@ def _diagnose_one(
 def _diagnose_many(
     ctx: click.Context, cases: tuple[Path, ...], out: Path, *, quiet: bool, seed: int, jobs: int, settings: Settings
 ) -> None:
-    from lostmotion.campaigns.batch import Batch, named, run_batch
-    from lostmotion.campaigns.table import ASIDE, SUMMARY, lines_of
+    from lostmotion.campaigns.batch import Batch, name_cases, run_batch
+    from lostmotion.campaigns.table import ASIDE, SUMMARY, format_summary
 
     plugins = tuple(str(Path(file).absolute()) for file in ctx.find_root().params.get("plugin") or ())
-    batch = Batch(named(cases), out.absolute(), plugins, seed, settings)
+    batch = Batch(name_cases(cases), out.absolute(), plugins, seed, settings)
     with show_count("diagnose", len(batch.cases), "cases", quiet=quiet) as say:
         rows = run_batch(batch, jobs=jobs, say=say)
     aside = [row for row in rows if row.status == ASIDE]
     for row in aside:
         click.echo(f"lostmotion: {flatten_text(row.case)} is set aside: {flatten_text(row.says)}", err=True)
-    for line in (*lines_of(rows), str(out / SUMMARY)):
+    for line in (*format_summary(rows), str(out / SUMMARY)):
         click.echo(line)
     if aside:
         ctx.exit(2 if len(aside) == len(rows) else 1)

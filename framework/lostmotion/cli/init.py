@@ -47,7 +47,7 @@ def command(
     Exit status 0 when the case can be used; 2 when a role cannot be determined or the recording cannot be used. The
     message then names the option that helps.
     """
-    from lostmotion.preparation.beginning import begun
+    from lostmotion.preparation.beginning import write_first_case
     from lostmotion.recording.outline import GivenRoles
 
     if out.exists() and not force:
@@ -56,7 +56,7 @@ def command(
         roles["time"], roles["rate"], roles["drive"], roles["response"], dict(_split_pairs(units, "--unit"))
     )
     gains = {name: _parse_number(name, value) for name, value in _split_pairs(factors, "--factor")}
-    draft = begun(recording, out, wishes, registry_of(ctx), model, gains)
+    draft = write_first_case(recording, out, wishes, registry_of(ctx), model, gains)
     for line in draft.found:
         click.echo(flatten_text(line))
     for note in draft.notes:

@@ -102,7 +102,7 @@ def command(
 
 def _parse_numbers(texts: tuple[str, ...], option: str) -> dict[str, float]:
     """Return the values of an option NAME=VALUE that may be repeated; commas separate several in one text."""
-    from lostmotion.simulation.drives import number, pairs
+    from lostmotion.simulation.drives import parse_number, parse_pairs
 
-    found = pairs(",".join(texts), option)
-    return {name: number(value, f"{name} of {option}") for name, value in found.items()}
+    found = parse_pairs(",".join(texts), option)
+    return {name: parse_number(value, f"{name} of {option}") for name, value in found.items()}

@@ -17,7 +17,7 @@ from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import observe_states, simulate_run
 from lostmotion.quantities import quantity_of, unit_of
 from lostmotion.recording.warnings import is_impulsive
-from lostmotion.report.words import readable, spoken
+from lostmotion.report.words import choose_scale, to_words
 from lostmotion.results import percent
 from lostmotion.results.behaviour import DecayCycles, Decays
 from lostmotion.signals.decay import Decay, decay_of
@@ -157,7 +157,7 @@ def _describe_decay(d: SearchResult, measured: Measured, models: dict[str, list[
     """Return a sentence on the decay with the largest range of amplitudes, and on the errors of the models."""
     widest = max(range(len(measured)), key=lambda i: float(np.ptp(np.log(measured[i][1].amplitude))))
     stretch, decay = measured[widest]
-    scale = readable(float(decay.amplitude.max()), unit)
+    scale = choose_scale(float(decay.amplitude.max()), unit)
     opening = ""
     if len(measured) > 1:
         begun = (d.shown.begin + stretch.start) * d.shown.dt
@@ -173,7 +173,7 @@ def _name_model(d: SearchResult, version: str) -> str:
         return "the model"
     if version == "before":
         return "the nominal model"
-    terms = [spoken(find_term(d.after.problem, key)[0].name) for key in d.named]
+    terms = [to_words(find_term(d.after.problem, key)[0].name) for key in d.named]
     terms += ["the learned curve"] if d.learned else []
     return f"the model with {' and '.join([', '.join(terms[:-1]), terms[-1]] if len(terms) > 1 else terms)}"
 

@@ -17,7 +17,7 @@ from lostmotion.inference.penalties import are_related
 from lostmotion.inference.term_sets import TermSet
 from lostmotion.likelihood.system import key_of
 from lostmotion.quantities import unit_of
-from lostmotion.report.words import sentence, spoken
+from lostmotion.report.words import sentence, to_words
 from lostmotion.results.diagnosis import Confusion, DecidingExcitation
 
 MOST_RIVALS = 2
@@ -128,7 +128,7 @@ def _describe_rival(d: SearchResult, term: Term, p: float) -> str:
 
 
 def _name_term(term: Term) -> str:
-    return spoken(term.name)
+    return to_words(term.name)
 
 
 def _describe_proposal(d: SearchResult, term: Term, p: float, proposal: Proposal) -> str:

@@ -57,7 +57,13 @@ from lostmotion.errors import ContractError
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.system import System, key_of
 from lostmotion.preparation.prepare import Prepared, prepare
-from lostmotion.preparation.vetting import blamed, note_set_aside, raising, theirs, within_numbers
+from lostmotion.preparation.vetting import (
+    catch_divergence,
+    find_raising_terms,
+    name_suspects,
+    note_set_aside,
+    third_party_keys,
+)
 from lostmotion.provenance import origin_of
 from lostmotion.quantities import quantity_of
 from lostmotion.recording import Recording
@@ -116,7 +122,7 @@ def run_diagnosis(
     return output.result
 
 
-@within_numbers()
+@catch_divergence()
 def diagnose_prepared(
     prepared: Prepared,
     registry: Registry,
@@ -160,15 +166,15 @@ def _run_search(
     try:
         return work(prepared.case, prepared.observations, system, rng=rng), prepared, rng
     except ContractError as err:
-        third_party = theirs(registry, prepared.terms)
+        third_party = third_party_keys(registry, prepared.terms)
         culprits = {err.plugin} & set(third_party)
         if not err.plugin:
             suspects = [term for term in prepared.terms if key_of(term) in third_party]
-            culprits = raising(suspects, prepared.observations) or set(third_party)
+            culprits = find_raising_terms(suspects, prepared.observations) or set(third_party)
         if not culprits:
             raise
         kept = tuple(term for term in prepared.terms if key_of(term) not in culprits)
-        note = note_set_aside(blamed(registry, culprits, err))
+        note = note_set_aside(name_suspects(registry, culprits, err))
         fewer = replace(prepared, terms=kept, aside=(*prepared.aside, note))
         return _run_search(fewer, registry, seed, work)
 

@@ -11,7 +11,7 @@ from lostmotion.inference.natural import find_term
 from lostmotion.inference.sharing import ComparedParameter, SharedValues, compare_recordings
 from lostmotion.likelihood.problem import Problem
 from lostmotion.quantities import unit_of
-from lostmotion.report.words import chance, figures, sentence, spoken
+from lostmotion.report.words import chance, figures, sentence, to_words
 from lostmotion.results import Interval
 from lostmotion.results.diagnosis import Mechanism
 from lostmotion.results.sharing import (
@@ -140,7 +140,7 @@ def name_parameter(key: str, problem: Problem) -> str:
         return key
     law = find_term(problem, term)[0]
     place = f" at the place {law.at!r}" if "@" in term else ""
-    return f"{spoken(own)} of {spoken(law.name)}{place}"
+    return f"{to_words(own)} of {to_words(law.name)}{place}"
 
 
 def describe_parameter(one: ComparedParameter, names: Mapping[str, str], sharing: SharedValues) -> str:

@@ -14,7 +14,7 @@ from lostmotion.diagnosis.search import SearchResult
 from lostmotion.inference.natural import find_term
 from lostmotion.inference.penalties import are_related
 from lostmotion.quantities import TIME
-from lostmotion.report.words import spoken
+from lostmotion.report.words import to_words
 from lostmotion.results.diagnosis import Mechanism, OpenTerm
 from lostmotion.settings import DEFAULT, NameSettings
 
@@ -89,7 +89,9 @@ def _warn_of_equal_terms(d: SearchResult, key: str) -> Iterator[str]:
         if near and not any(
             _are_indistinguishable(own, t) or are_related(own, t) for t in (find_term(problem, k)[0] for k in fresh)
         ):
-            names = " and ".join([_name_term(d, fresh[0]), *(spoken(find_term(problem, k)[0].name) for k in fresh[1:])])
+            names = " and ".join(
+                [_name_term(d, fresh[0]), *(to_words(find_term(problem, k)[0].name) for k in fresh[1:])]
+            )
             yield (
                 f"{names} {'explain' if fresh[1:] else 'explains'} the fitted data as well: only the prior odds of the"
                 " terms, or the comparison with a smooth force, decide against this alternative."
@@ -133,7 +135,7 @@ def _list_alternatives(d: SearchResult, key: str) -> list[str]:
     found = d.selection.chosen.problem.active
     sets = [terms for terms, p in d.selection.probabilities().items() if key not in terms and p > d.settings.name.rival]
     names = dict.fromkeys(k for terms in sets for k in sorted(terms - found))
-    return [spoken(find_term(d.before.problem, k)[0].name) for k in names]
+    return [to_words(find_term(d.before.problem, k)[0].name) for k in names]
 
 
 def warn_of_moved_amplitudes(d: SearchResult, key: str) -> Iterator[str]:
@@ -150,15 +152,15 @@ def warn_of_moved_amplitudes(d: SearchResult, key: str) -> Iterator[str]:
         old, new = without.fit.values[f.key], chosen.values[f.key]
         if abs(new - old) > max(limits.moved * sds[f.key], limits.moved_share * abs(old)):
             yield (
-                f"The {name} of {spoken(owner.partition('@')[0])} is {old:.3g} {f.unit} without"
-                f" {spoken(key.partition('@')[0])} and {new:.3g} {f.unit} with it: either it was not identified, or the"
-                " further term is wrong."
+                f"The {name} of {to_words(owner.partition('@')[0])} is {old:.3g} {f.unit} without"
+                f" {to_words(key.partition('@')[0])} and {new:.3g} {f.unit} with it: either it was not identified, or"
+                " the further term is wrong."
             )
 
 
 def _name_term(d: SearchResult, key: str) -> str:
     """Return the name of a term in words, capitalised."""
-    name = spoken(find_term(d.before.problem, key)[0].name)
+    name = to_words(find_term(d.before.problem, key)[0].name)
     return name[:1].upper() + name[1:]
 
 

@@ -24,7 +24,7 @@ from lostmotion.inference.shares import SURROGATES
 from lostmotion.inference.surfaces import OverHistory, Surface
 from lostmotion.inference.unexplained import UnknownForce
 from lostmotion.quantities import LENGTH, NUMBER, SPEED, TIME, Dimension
-from lostmotion.report.words import spoken
+from lostmotion.report.words import to_words
 from lostmotion.results import Interval
 from lostmotion.results.diagnosis import LearnedCurve, LookAlike, Mechanism, ProposedFormula
 from lostmotion.results.mismatch import ForceDependence
@@ -85,7 +85,7 @@ def _explain_missing_name(d: SearchResult, unknown: UnknownForce) -> str:
         return "that no term of the library explains"
     term, _ = find_term(d.before.problem, max(as_good, key=selection.gain))
     place = f" at {term.at}" if len(d.before.problem.system.model.interfaces) > 1 else ""
-    name = spoken(term.name) + place
+    name = to_words(term.name) + place
     return f"that cannot be named: {name} explains it, but a generic smooth force explains as much"
 
 
@@ -103,7 +103,7 @@ def _compare_with_library(d: SearchResult) -> tuple[tuple[LookAlike, ...], float
         return (), None, ""
     terms = [find_term(problem, key)[0] for key in found.keys]
     several = len(problem.system.model.interfaces) > 1
-    names = [spoken(term.name) + (f" at {term.at}" if several else "") for term in terms]
+    names = [to_words(term.name) + (f" at {term.at}" if several else "") for term in terms]
     alike = tuple(LookAlike(term.name, term.at) for term in terms)
     return alike, found.share, f", looks like {' and '.join(names)} ({found.share:.0%} of its variance)"
 

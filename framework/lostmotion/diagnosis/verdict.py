@@ -26,7 +26,7 @@ from lostmotion.inference.natural import find_term
 from lostmotion.inference.penalties import compute_penalty
 from lostmotion.likelihood.system import key_of
 from lostmotion.quantities import unit_of
-from lostmotion.report.words import chance, sentence, span, spoken
+from lostmotion.report.words import chance, sentence, span, to_words
 from lostmotion.results import rounded
 from lostmotion.results.diagnosis import (
     Both,
@@ -225,7 +225,7 @@ def list_confusions(d: SearchResult) -> list[Confusion]:
         p = 0.0 if d.learned else d.selection.inclusion(key)
         if key not in d.found and p > d.settings.name.worth:
             says = (
-                f"{sentence(spoken(term.name))} has a probability of {p:.2f} after this recording:"
+                f"{sentence(to_words(term.name))} has a probability of {p:.2f} after this recording:"
                 f" {name_other_recording(d)} would decide."
             )
             rows.append(Confusion(mechanism=term.name, at=term.at, probability=p, says=says))
@@ -255,11 +255,11 @@ def _list_indistinguishable(d: SearchResult, key: str) -> list[Confusion]:
     if len(d.shown.sensors) > 1:  # what delays one sensor delays no other
         return []
     says = (
-        f"No recording of this machine can distinguish {{}} from {spoken(term.name)}: measure the delay between the"
+        f"No recording of this machine can distinguish {{}} from {to_words(term.name)}: measure the delay between the"
         " channels directly."
     )
     p = d.selection.inclusion(key)
-    return [Confusion(mechanism=n, at="", probability=p, says=says.format(spoken(n))) for n in term.equals]
+    return [Confusion(mechanism=n, at="", probability=p, says=says.format(to_words(n))) for n in term.equals]
 
 
 def measure_unexplained(d: SearchResult, *, after: bool) -> UnexplainedForce:

@@ -26,7 +26,7 @@ from lostmotion.maps.map import Map
 from lostmotion.maps.numbers import NumberLaw, NumberPower, make_law
 from lostmotion.maps.run import Request, RunOptions, make_map, make_study
 from lostmotion.maps.sweep import ProgressCallback, Workers
-from lostmotion.preparation.vetting import sound
+from lostmotion.preparation.vetting import make_plugin
 from lostmotion.quantities import unit_of
 from lostmotion.registry import Registry
 from lostmotion.settings import DEFAULT, LevelSettings, Settings
@@ -137,7 +137,7 @@ def make_inversion(
 
 def make_level_numbers(case: CaseFile, levels: tuple[Level, ...], registry: Registry) -> LevelNumbers:
     """Return the dimensionless numbers at the levels of a case; raise `CaseError` where they cannot be computed."""
-    model: Model = sound(registry, "model", case.model)
+    model: Model = make_plugin(registry, "model", case.model)
     powers = {group.name: NumberPower.of(group, model) for group in model.groups}
     if lacking := [name for name in SWEPT_NUMBERS if name not in powers]:
         raise CaseError(f"{model.name} has no dimensionless number {lacking[0]}: the quantifier route cannot use it")

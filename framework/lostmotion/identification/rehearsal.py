@@ -16,7 +16,7 @@ from lostmotion.contracts import Array, Model
 from lostmotion.flow import Harmonic, flow_of
 from lostmotion.identification.reading import ReadLevel, Signals, read_level
 from lostmotion.maps.rig import measure_extent
-from lostmotion.preparation.vetting import sound
+from lostmotion.preparation.vetting import make_plugin
 from lostmotion.quantities import unit_of
 from lostmotion.registry import Registry
 
@@ -62,7 +62,7 @@ def simulate_levels(
 
     `truth` holds the true values of the estimated parameters, the damping ratio `zeta` included if it is free.
     """
-    model: Model = sound(registry, "model", case.model)
+    model: Model = make_plugin(registry, "model", case.model)
     values = convert_damping(model, {**case.known, **truth})
     found = []
     for (amplitude, omega), own in zip(drives, rng.spawn(len(drives)), strict=True):

@@ -27,8 +27,8 @@ from lostmotion.identification.trajectory import choose_terms, find_best_fits, m
 from lostmotion.inference.contacts import list_short_contacts
 from lostmotion.likelihood.space import FreeParameter
 from lostmotion.maps.inversion import Inversion, predict_levels
-from lostmotion.preparation.prepare import Prepared, case_of, prepared_of
-from lostmotion.preparation.vetting import within_numbers
+from lostmotion.preparation.prepare import Prepared, case_of, prepare_case
+from lostmotion.preparation.vetting import catch_divergence
 from lostmotion.provenance import origin_of
 from lostmotion.registry import Registry
 from lostmotion.results.background import Origin
@@ -80,7 +80,7 @@ class Route:
     make_result: Callable[[SampledPosterior], Identification]
 
 
-@within_numbers()
+@catch_divergence()
 def run_identification(
     path: Path, out: Path, registry: Registry, order: IdentificationRequest, watch: Watch = lambda _steps, _says: None
 ) -> Identified:
@@ -107,7 +107,7 @@ def identify_case(
     rng = np.random.default_rng(order.seed)
     asked = (order, rng, watch)
     if prepared or choose_route(case, order) == "trajectory":
-        way = _prepare_trajectory(prepared or prepared_of(case, registry, order.settings), out, registry, asked)
+        way = _prepare_trajectory(prepared or prepare_case(case, registry, order.settings), out, registry, asked)
     else:
         way = _prepare_quantifiers(case, out, registry, asked)
     if order.fresh:

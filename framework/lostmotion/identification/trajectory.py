@@ -25,7 +25,7 @@ from lostmotion.inference.setup import (
 )
 from lostmotion.likelihood.system import System, key_of
 from lostmotion.preparation.prepare import Prepared
-from lostmotion.preparation.vetting import sound
+from lostmotion.preparation.vetting import make_plugin
 from lostmotion.registry import Registry
 from lostmotion.settings import DEFAULT, Settings
 
@@ -63,7 +63,7 @@ def choose_terms(prepared: Prepared, asked: tuple[str, ...], registry: Registry)
     named = [key.rpartition(".")[0] for key in (*prepared.case.known, *prepared.case.estimate) if "." in key]
     keys = dict.fromkeys(text.removesuffix("@ground") for text in (*asked, *named))
     for key in keys:
-        sound(registry, "term", key.partition("@")[0])
+        make_plugin(registry, "term", key.partition("@")[0])
         if key not in offered:
             raise CaseError(
                 f"the term {key!r} has no place in {prepared.case.model}{nearest(key, offered)}:"

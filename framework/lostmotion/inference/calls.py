@@ -23,7 +23,8 @@ def require_finite(problem: Problem, key: str) -> None:
     term, _ = find_term(problem, key)
     if term.acts == "motion" and not all(_is_finite(term, observation) for observation in problem.observations):
         raise ContractError(
-            f"the force of {key} is not a finite number along the recorded motion: mend the term, or leave it out", key
+            f"the force of {key} is not a finite number along the recorded motion: correct the term, or leave it out",
+            key,
         )
 
 

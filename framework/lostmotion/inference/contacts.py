@@ -18,7 +18,7 @@ def list_short_contacts(fit: Fit) -> list[str]:
             if lasts < observation.dt:
                 notes.append(
                     f"{observation.name}: a bounce at the {place.name} lasts {lasts:.2g} s and samples are"
-                    f" {observation.dt:.2g} s apart. What happens between them is guessed, so intervals may be too"
+                    f" {observation.dt:.2g} s apart. The motion between them is not measured, so intervals may be too"
                     " narrow and findings wrong:"
                     f" sample at {2.0 / lasts:.2g} Hz or more."
                 )

@@ -126,7 +126,7 @@ def describe_location(
     known = list_likely(odds, level) if odds else [k for k in list_significant(found, level) if found[k].value >= least]
     if not known:
         asked = [name for name in ("position", "velocity", "phase", "time") if name in table]
-        return f"no structure over {', '.join(asked[:-1])} or {asked[-1]} beyond chance"
+        return f"no significant structure over {', '.join(asked[:-1])} or {asked[-1]}"
     tied = [k for k in known[1:] if odds and odds[known[0]].log - odds[k].log < limits.tied]
     name = known[0] if odds else _prefer_sign(known[0], found, limits.signed)
     bent = name in table and name.startswith(("position", "velocity"))
@@ -134,10 +134,10 @@ def describe_location(
     how = "a function of" if kind == "neither" else f"{kind} in"
     others = [k for k in known if k != name and k not in tied and found[k].value >= least]
     more = [_format_share(k, found) for k in others if odds or _are_unrelated(k, name)]
-    also = f"; with it go {join_names(more)}" if more else ""
-    open_ = f"; it cannot be told from a function of {join_names(tied)}" if tied else ""
+    also = f"; further significant covariates: {join_names(more)}" if more else ""
+    open_ = f"; it cannot be distinguished from a function of {join_names(tied)}" if tied else ""
     absent = [k for k in table if k not in known and k not in name]
-    nothing = f"; nothing beyond chance goes with {' or '.join(absent)}" if absent else ""
+    nothing = f"; no significant dependence on {' or '.join(absent)}" if absent else ""
     return f"{how} {name}, {_describe_share(name, found, odds, least)}{open_}{also}{nothing}"
 
 

@@ -38,7 +38,7 @@ def select_with_noise_memory(
     least = chosen.problem.settings.select.noise_memory_tried
     if not chosen.problem.active and compute_random_force_gain(chosen) < least:
         return course
-    say("measurement noise with a memory")
+    say("AR(1) measurement noise")
     coloured = fit_noise_memory(chosen)
     if coloured is None or not is_memory_supported(chosen, coloured):
         return course

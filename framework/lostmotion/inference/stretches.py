@@ -32,7 +32,7 @@ def search_stretches(
         return select_with_noise_memory(nominal, keys, say, shapes, promise)
     say(f"search on {short.samples} samples in {len(short.observations)} stretches")
     course = select_with_noise_memory(refit_start(maximise(short, nominal.theta)), keys, say, shapes, promise)
-    say("what was found, on all samples")
+    say("fit of the terms that were found, on all samples")
     whole = nominal.problem.observations
     fits = (course.nominal, course.chosen, *course.list_close_fits())
     bare, chosen, *rivals = (maximise(f.problem.on(whole), f.theta) for f in fits)

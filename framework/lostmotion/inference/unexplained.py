@@ -184,7 +184,7 @@ class CurveSearch:
             return None
         alone = bool(chosen.problem.active) and best.problem.active == frozenset(_list_curves(best.problem))
         if chosen.problem.samples > best.problem.samples:
-            self.say("learned curves on all of the recording")
+            self.say("fit of the learned curves on all samples")
             whole = best.problem.on(chosen.problem.observations)
             best = maximise(whole, best.theta, rounds=ROUNDS, tolerance=0.3)
         return UnknownForce(best, _list_curves(best.problem), gain, alone)

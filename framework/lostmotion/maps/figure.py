@@ -27,7 +27,7 @@ HALF_CHAOTIC = 0.499
 
 def save(dataset: xr.Dataset, path: Path) -> Path:
     """Draw the map into a PNG file and return its path."""
-    with style.applied():
+    with style.use_style():
         return style.save(draw(dataset), path)
 
 
@@ -36,7 +36,7 @@ def draw(dataset: xr.Dataset) -> Figure:
     names = [str(d) for d in dataset["chaotic_fraction"].dims]
     if len(names) != 2 or min(dataset.sizes[n] for n in names) < 2:
         raise DataError(f"a map over {', '.join(names)} cannot be drawn: two axes of two points or more are wanted")
-    figure = style.blank(5.6)
+    figure = style.make_figure(5.6)
     axes = figure.subplots()
     across, up = (_scale_axis(dataset, name) for name in names)
     exponent = _average_starts(dataset).T

@@ -16,7 +16,7 @@ from lostmotion.maps.rig import DRIVE, SweptMachine
 from lostmotion.maps.store import SUFFIXES, has_finished_map, load, make_dataset, save_netcdf, save_zarr
 from lostmotion.maps.sweep import ProgressCallback, Workers, sweep
 from lostmotion.registry import Registry
-from lostmotion.simulation.drives import Options, number, pairs
+from lostmotion.simulation.drives import Options, parse_number, parse_pairs
 from lostmotion.simulation.simulate import assembly_of
 from lostmotion.storage import folder_for
 
@@ -51,8 +51,8 @@ def make_study(request: Request, registry: Registry) -> Study:
     if len({*names}) < len(names):
         raise CaseError(f"the axes are {', '.join(names)}: name each once")
     assembly, fixed = assembly_of(registry, request.model, request.terms, request.motion)
-    for key, text in pairs(",".join(request.sets), "--set").items():
-        fixed[key] = number(text, f"{key} of --set")
+    for key, text in parse_pairs(",".join(request.sets), "--set").items():
+        fixed[key] = parse_number(text, f"{key} of --set")
     rig = SweptMachine(assembly, tuple(names), {**fixed, **_parse_drive(request.drive)}).validate()
     settings = {"periods": request.periods, "transient": request.transient}
     further = {}
@@ -78,7 +78,7 @@ def _parse_drive(text: str) -> dict[str, float]:
     kind, _, rest = text.partition(":")
     if not text:
         return {}
-    given = pairs(rest, f"drive {text!r}")
+    given = parse_pairs(rest, f"drive {text!r}")
     if kind != "harmonic" or (unknown := sorted({*given} - {*DRIVE, "frequency"})):
         wrong = kind if kind != "harmonic" else unknown[0]
         raise CaseError(f"a map has no drive with {wrong!r}: write harmonic:amplitude=..,omega=..,phase=..")

@@ -14,8 +14,8 @@ import numpy as np
 from lostmotion.case import WRITTEN, CaseFile, Experiment, Prior, SensorSpec, check_same_sensors, dump_case
 from lostmotion.contracts import Model
 from lostmotion.errors import CaseError, PluginError, nearest
-from lostmotion.preparation.prepare import Prepared, case_of, prepared_with
-from lostmotion.preparation.vetting import sound
+from lostmotion.preparation.prepare import Prepared, case_of, prepare_loaded
+from lostmotion.preparation.vetting import make_plugin
 from lostmotion.recording import Recording, load_recording
 from lostmotion.registry import Registry, default
 from lostmotion.settings import DEFAULT, Settings, read
@@ -99,7 +99,7 @@ class Case:
         known = registry or default()
         file = case_of(Path(path), known)
         loaded = tuple(load_recording(spec, file.folder, read(settings).recording) for spec in file.recordings)
-        made = sound(known, "model", file.model)
+        made = make_plugin(known, "model", file.model)
         made = made.turned(file.motion) if file.motion else made
         return cls(
             loaded, made, file.known, file.estimate, file.title, file.truth, file.sensor, file.experiment, file=file
@@ -159,7 +159,7 @@ class Case:
             registry.add(
                 type(made) if isinstance(made, Written) else made, WRITTEN if isinstance(made, Written) else None
             )
-        found = prepared_with(file, self._recordings, made, registry, settings)
+        found = prepare_loaded(file, self._recordings, made, registry, settings)
         return found if terms == "all" else replace(found, terms=_choose_terms(found, terms))
 
     def _make_case_file(self) -> CaseFile:

@@ -54,7 +54,7 @@ class DiagnosisPlots:
         """Return the recording with free runs over held-out data, before and after; with `ax`, draw into these axes."""
         if ax is None:
             return self._draw(prediction.draw)
-        with style.applied(self.evidence.result.units.angle):
+        with style.use_style(self.evidence.result.units.angle):
             prediction.draw_window(ax, self.evidence, prediction.choose_window(self.evidence))
             ax.legend()
         return ax.get_figure(root=True)  # type: ignore[return-value]
@@ -81,10 +81,10 @@ class DiagnosisPlots:
 
     def _draw(self, draw: Callable[[Evidence], Figure | None]) -> Figure:
         """Return a figure, or a figure with a short text where there is nothing to draw."""
-        with style.applied(self.evidence.result.units.angle):
+        with style.use_style(self.evidence.result.units.angle):
             made = draw(self.evidence)
             if made is None:
-                made = style.blank(1.0)
+                made = style.make_figure(1.0)
                 made.text(0.5, 0.5, "there is nothing to draw here", ha="center", va="center")
         return made
 
@@ -220,9 +220,9 @@ class DiagnosisResult:
 
     def _repr_html_(self) -> str:
         items = "".join(f"<li>{html.escape(one)}</li>" for one in self.says)
-        with style.applied(self.evidence.result.units.angle):
+        with style.use_style(self.evidence.result.units.angle):
             drawn = prediction.draw(self.evidence)
-            figure = style.embedded(drawn, "prediction") if drawn else ""
+            figure = style.embed_figure(drawn, "prediction") if drawn else ""
         title = html.escape(self.result.title)
         return f"<h4>{title}: {html.escape(self.verdict)}</h4><ul>{items}</ul>{figure}"
 

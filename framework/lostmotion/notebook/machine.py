@@ -19,7 +19,7 @@ from lostmotion.recording import Recording
 from lostmotion.recording.made import RecordingLayout, make_recording
 from lostmotion.registry import Registry
 from lostmotion.results.background import FittedMachine
-from lostmotion.simulation.simulate import Moved, set_in_motion
+from lostmotion.simulation.simulate import FreeMotion, run_free_motion
 from lostmotion.written import model_of
 
 Signal = ArrayLike | Callable[[Array], Array]
@@ -62,7 +62,7 @@ class FittedModel:
         signals, rate = _read_signals(inputs, rate)
         samples = _count_samples(signals, duration, rate)
         columns = _make_inputs(self.model, signals, rate)
-        moved = set_in_motion(self.assembly, self.values, columns, samples, rate, initial or {})
+        moved = run_free_motion(self.assembly, self.values, columns, samples, rate, initial or {})
         driven = {name: u for name, u in zip(self.model.inputs, moved.inputs.T, strict=True) if name in signals}
         names = {sensor.label: sensor.channel for sensor in self.sensors}
         units = {name: unit_of(name, self.model.motion) for name in (*driven, *names.values())}
@@ -73,7 +73,7 @@ class FittedModel:
         return make_recording({**driven, **shown}, layout)
 
     @staticmethod
-    def _simulate_sensor(moved: Moved, sensor: Sensor) -> Array:
+    def _simulate_sensor(moved: FreeMotion, sensor: Sensor) -> Array:
         """Return the readings of a sensor (samples,), with the effect of its terms."""
         seen = moved.channels[sensor.channel]
         for term, p in moved.system.at_sensor(moved.full, moved.system.everything, sensor.place):

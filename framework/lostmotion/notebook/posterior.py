@@ -37,12 +37,12 @@ class PosteriorPlots:
 
     def corner(self) -> Figure:
         """Return the corner plot of the parameters."""
-        with style.applied():
+        with style.use_style():
             return drawing.draw_corner(self.view)
 
     def trace(self) -> Figure:
         """Return the walkers over the steps, and the distribution of their ranks."""
-        with style.applied():
+        with style.use_style():
             return drawing.draw_trace(self.view)
 
 

@@ -1,1 +1,1 @@
-"""From what a user hands in to what is worked on: the case, its terms, and plugins that were held against the kit."""
+"""Preparation of the user's input for the stages: the case, its terms, and checks of third-party plugins."""

@@ -1,4 +1,4 @@
-"""A first case for a recording that nobody has prepared: which columns, which model, and wide priors from the data."""
+"""A first case for a new recording: roles of the columns, a model, and wide priors from the data."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from lostmotion.defaults import CARRIAGE, JOINT, OSCILLATOR, SLIDER
 from lostmotion.errors import CaseError
 from lostmotion.parts import Param
 from lostmotion.preparation.prepare import prepare
-from lostmotion.preparation.vetting import sound
+from lostmotion.preparation.vetting import make_plugin
 from lostmotion.quantities import LENGTH, si_factor
 from lostmotion.recording.checks import fill_lost
 from lostmotion.recording.outline import GivenRoles, Outline, OutlinedColumn, outline_table
@@ -29,20 +29,20 @@ from lostmotion.signals.repetition import period_found
 from lostmotion.written import Written, is_equation, model_of
 
 WIDE = 10.0
-"""A prior reaches this factor below and above what a straight line through the spectra says."""
+"""A prior extends by this factor below and above the value of a linear fit to the spectra."""
 WIDER = 300.0
-"""And this factor about a natural scale, where nothing else is known."""
+"""And by this factor about a natural scale, where no such value is known."""
 HEARD = 1e-3
-"""Lines of the drive count from this share of the strongest on."""
+"""Frequencies of the drive count from this share of the strongest one on."""
 SPRUNG = 0.02
-"""A spring is told from this share of the drive on."""
+"""A stiffness is used when its force is at least this share of the drive."""
 Waves = NDArray[np.complex128]
 POWERS = {"position": 0, "velocity": 1, "acceleration": 2}
 
 
 @dataclass(frozen=True)
 class Draft:
-    """A first case: the text of `case.toml`, what was found in sentences, and what looks wrong."""
+    """A first case: the text of `case.toml`, the findings in sentences, and warnings."""
 
     text: str
     found: tuple[str, ...]
@@ -51,9 +51,9 @@ class Draft:
 
 @dataclass(frozen=True)
 class RecordedScales:
-    """What a recording says of the size of things in SI units: a force (N, N m), a length (m, rad), a time (s).
+    """The natural scales of a recording in SI units: a force (N, N m), a length (m, rad), a time (s).
 
-    `straight` holds mass, damping and stiffness of the straight line through the spectra, as far as they are positive.
+    `straight` contains mass, damping and stiffness of a linear fit to the spectra, where they are positive.
     """
 
     force: float
@@ -62,7 +62,7 @@ class RecordedScales:
     straight: Mapping[str, float]
 
 
-def begun(
+def write_first_case(
     path: Path,
     out: Path,
     roles: GivenRoles,
@@ -70,42 +70,42 @@ def begun(
     model: str = "",
     factors: Mapping[str, float] | None = None,
 ) -> Draft:
-    """Return the draft of a case for the recording `path`, written to the file `out`, with what looks wrong in it.
+    """Return the draft of a case for the recording `path`, with warnings, after writing it to the file `out`.
 
-    `factors` multiply a column before its unit, for instance newtons per volt. Raises `DataError` where roles cannot be
-    told, `CaseError` where the model cannot take them.
+    `factors` multiply a column before its unit, for instance newtons per volt. `DataError` is raised where roles cannot
+    be found, `CaseError` where the model does not support them.
     """
     outline, gains = outline_table(path, roles), factors or {}
     scales = scales_of(outline, gains)
     machine = (
-        _machine(registry, model)
+        _make_written(registry, model)
         if is_equation(model)
-        else sound(registry, "model", model or _model_for(outline, scales))
+        else make_plugin(registry, "model", model or _choose_model(outline, scales))
     )
-    _check(outline, machine)
-    text = _text(outline, machine, scales, gains, Path(os.path.relpath(path, out.parent)).as_posix())
+    _check_model(outline, machine)
+    text = _format_case(outline, machine, scales, gains, Path(os.path.relpath(path, out.parent)).as_posix())
     out.write_text(text, encoding="utf-8")
-    return Draft(text, tuple(_found(outline, machine, gains)), tuple(prepare(out, registry).notes))
+    return Draft(text, tuple(_list_findings(outline, machine, gains)), tuple(prepare(out, registry).notes))
 
 
-def _machine(registry: Registry, equations: str) -> Model:
-    """Return a model that is written down, several equations with semicolons between them; the registry learns it."""
+def _make_written(registry: Registry, equations: str) -> Model:
+    """Return a model made from equations, separated by semicolons, after adding it to the registry."""
     cls: Any = model_of([text.strip() for text in equations.split(";") if text.strip()])
     registry.add(cls, WRITTEN)
     machine: Model = cls()
     return machine
 
 
-def _model_for(outline: Outline, scales: RecordedScales) -> str:
-    """Return the textbook model of what was recorded: a joint where the base moves, else an oscillator or a drive."""
+def _choose_model(outline: Outline, scales: RecordedScales) -> str:
+    """Return the name of a textbook model for the recording: a joint for a moved base, an oscillator or a drive."""
     drive = outline.drive
     if drive is not None and drive.kind == "position":
         return JOINT if drive.turns else SLIDER
     return OSCILLATOR if "k" in scales.straight or drive is None or drive.kind != "force" else CARRIAGE
 
 
-def _check(outline: Outline, machine: Model) -> None:
-    """Refuse a model that has not the input or the channel that were recorded."""
+def _check_model(outline: Outline, machine: Model) -> None:
+    """Raise `CaseError` for a model without the recorded input or channel."""
     wanted = input_of(outline)
     if wanted and wanted not in machine.inputs:
         raise CaseError(
@@ -119,23 +119,23 @@ def _check(outline: Outline, machine: Model) -> None:
 
 
 def input_of(outline: Outline) -> str:
-    """Return the input of a model that the drive is; an empty string where nothing drives the machine."""
+    """Return the input of a model for the drive; an empty string where nothing drives the machine."""
     if outline.drive is None:
         return ""
     return f"base_{outline.drive.kind}" if outline.base_driven else "force"
 
 
 def scales_of(outline: Outline, factors: Mapping[str, float]) -> RecordedScales:
-    """Return the natural sizes of a recording, and mass, damping and stiffness of the straight line through spectra."""
+    """Return the natural scales of a recording, with mass, damping and stiffness of a linear fit to the spectra."""
     drive = outline.drive
-    pushed = _filled(drive, factors) if drive is not None and drive.kind == "force" else None
-    return sizes_of(_filled(outline.response, factors), outline.response.kind, pushed, outline.dt)
+    pushed = _to_centred(drive, factors) if drive is not None and drive.kind == "force" else None
+    return sizes_of(_to_centred(outline.response, factors), outline.response.kind, pushed, outline.dt)
 
 
 def sizes_of(seen: Array, kind: str, pushed: Array | None, dt: float) -> RecordedScales:
-    """Return the natural sizes of a response (n,) of a kind, and of the force (n,) that drives it, both without mean.
+    """Return the natural scales of a response (n,) of a kind, and of its driving force (n,), both without mean.
 
-    They are in SI units, and sampled every `dt` s.
+    Both are in SI units and sampled every `dt` s.
     """
     spectrum, omega = _spectrum(seen, dt)
     power = POWERS.get(kind, 0)
@@ -146,27 +146,27 @@ def sizes_of(seen: Array, kind: str, pushed: Array | None, dt: float) -> Recorde
     length = float(np.std(seen)) / pace**power
     if pushed is None:
         return RecordedScales(length * pace**2, length, 1.0 / pace, {})
-    return RecordedScales(float(np.std(pushed)), length, 1.0 / pace, _straight(_spectrum(pushed, dt)[0], motion, omega))
+    return RecordedScales(float(np.std(pushed)), length, 1.0 / pace, _fit_line(_spectrum(pushed, dt)[0], motion, omega))
 
 
-def _filled(column: OutlinedColumn, factors: Mapping[str, float]) -> Array:
-    """Return a column (n,) in SI units without its mean; lost readings are bridged by straight lines."""
+def _to_centred(column: OutlinedColumn, factors: Mapping[str, float]) -> Array:
+    """Return a column (n,) in SI units without its mean; lost readings are interpolated linearly."""
     values = column.values * si_factor(column.stated_unit, column.kind)[0] * factors.get(column.name, 1.0)
     even = fill_lost(values)
     return np.asarray(even - even.mean())
 
 
 def _spectrum(values: Array, dt: float) -> tuple[Waves, Array]:
-    """Return the spectrum of a tapered series below 0.8 of the Nyquist frequency, without its mean; and omega."""
+    """Return the spectrum of a tapered series up to 0.8 of the Nyquist frequency, and omega (rad/s)."""
     omega = 2.0 * math.pi * np.fft.rfftfreq(values.size, dt)
     kept = slice(2, int(0.8 * omega.size))
     return np.fft.rfft(values * np.hanning(values.size))[kept], np.asarray(omega[kept], dtype=float)
 
 
-def _straight(force: Waves, motion: Waves, omega: Array) -> dict[str, float]:
-    """Return mass, damping and stiffness by least squares of F = (k + i c w - m w^2) X, those that are positive.
+def _fit_line(force: Waves, motion: Waves, omega: Array) -> dict[str, float]:
+    """Return mass, damping and stiffness from a least-squares fit of F = (k + i c w - m w^2) X, if positive.
 
-    Only lines that the drive has are counted. A stiffness is left out whose force is small beside the drive.
+    Only frequencies of the drive count. A stiffness is left out if its force is small compared with the drive.
     """
     heard = np.abs(force) > HEARD * np.abs(force).max()
     f, x, w = force[heard], motion[heard], omega[heard]
@@ -179,74 +179,76 @@ def _straight(force: Waves, motion: Waves, omega: Array) -> dict[str, float]:
     return {name: value for name, (value, share) in names.items() if value > 0.0 and (name != "k" or share > SPRUNG)}
 
 
-def _text(outline: Outline, machine: Model, scales: RecordedScales, factors: Mapping[str, float], file: str) -> str:
+def _format_case(
+    outline: Outline, machine: Model, scales: RecordedScales, factors: Mapping[str, float], file: str
+) -> str:
     head = (
-        "# A first case, made by `lostmotion init`. Check columns, units and signs; remarks say what was guessed.",
-        f"title = {_quoted(Path(outline.file).stem)}",
+        "# A first case, made by `lostmotion init`. Check columns, units and signs; remarks mark guesses.",
+        f"title = {_quote(Path(outline.file).stem)}",
         "",
         "[[recordings]]",
-        f"file = {_quoted(file)}",
-        *_channels(outline, factors),
+        f"file = {_quote(file)}",
+        *_format_channels(outline, factors),
         "",
         "[model]",
-        _named(machine),
+        _format_model(machine),
         "",
     )
-    return "\n".join([*head, *_parameters(outline, machine, scales)]) + "\n"
+    return "\n".join([*head, *_format_parameters(outline, machine, scales)]) + "\n"
 
 
-def _named(machine: Model) -> str:
-    """Return the line that says which model it is."""
+def _format_model(machine: Model) -> str:
+    """Return the line that names the model."""
     if isinstance(machine, Written):
-        return f"equations = [{', '.join(_quoted(text) for text in machine.equations)}]"
-    return f'name = "{machine.name}"  # `lostmotion plugins show {machine.name}` tells what it is'
+        return f"equations = [{', '.join(_quote(text) for text in machine.equations)}]"
+    return f'name = "{machine.name}"  # see `lostmotion plugins show {machine.name}`'
 
 
-def _quoted(text: str) -> str:
+def _quote(text: str) -> str:
     return json.dumps(text, ensure_ascii=False)
 
 
-def _channels(outline: Outline, factors: Mapping[str, float]) -> Iterator[str]:
-    """Yield the lines on time, inputs and sensors."""
+def _format_channels(outline: Outline, factors: Mapping[str, float]) -> Iterator[str]:
+    """Yield the lines for time, inputs and sensors."""
     drive, response = outline.drive, outline.response
     if outline.time is None:
         yield f"rate = {1.0 / outline.dt:.9g}  # Hz"
     elif outline.time_unit == "s":
-        yield f"time = {_quoted(outline.time)}"
+        yield f"time = {_quote(outline.time)}"
     else:
-        yield f"time = {{ column = {_quoted(outline.time)}, unit = {_quoted(outline.time_unit)} }}"
+        yield f"time = {{ column = {_quote(outline.time)}, unit = {_quote(outline.time_unit)} }}"
     if drive is None:
-        yield "inputs = []  # nothing drives the machine: the state in which it begins is estimated"
+        yield "inputs = []  # nothing drives the machine: its initial state is estimated"
     else:
-        yield f"inputs = [{_channel('input', input_of(outline), drive, factors)}]{_doubt(drive)}"
-    yield f"sensors = [{_channel('channel', response.kind, response, factors)}]{_doubt(response)}"
+        yield f"inputs = [{_format_channel('input', input_of(outline), drive, factors)}]{_format_doubt(drive)}"
+    yield f"sensors = [{_format_channel('channel', response.kind, response, factors)}]{_format_doubt(response)}"
     taken = (drive.name if drive else "", response.name)
     unused = [f"{c.name} ({c.unit or 'no unit'})" for c in outline.columns if c.name not in taken]
     if unused:
-        yield f"# not used: {', '.join(unused)}; further sensors go into the list above"
+        yield f"# not used: {', '.join(unused)}; further sensors belong into the list above"
 
 
-def _channel(key: str, name: str, column: OutlinedColumn, factors: Mapping[str, float]) -> str:
-    named = f", name = {_quoted(column.name)}" if key == "channel" and _plain(column.name) else ""
+def _format_channel(key: str, name: str, column: OutlinedColumn, factors: Mapping[str, float]) -> str:
+    named = f", name = {_quote(column.name)}" if key == "channel" and _can_be_name(column.name) else ""
     factor = f", factor = {factors[column.name]!r}" if column.name in factors else ""
-    told = _quoted(column.name), _quoted(column.stated_unit)
-    return f'{{ {key} = "{name}", column = {told[0]}, unit = {told[1]}{factor}{named} }}'
+    quoted = _quote(column.name), _quote(column.stated_unit)
+    return f'{{ {key} = "{name}", column = {quoted[0]}, unit = {quoted[1]}{factor}{named} }}'
 
 
-def _plain(name: str) -> bool:
-    """Return whether a column may give its name to a sensor."""
+def _can_be_name(name: str) -> bool:
+    """Return whether the name of a column can be that of a sensor."""
     return not set("[]:/@.") & set(name)
 
 
-def _doubt(column: OutlinedColumn) -> str:
+def _format_doubt(column: OutlinedColumn) -> str:
     if column.sure:
         return ""
-    why = f"the file says {column.unit}, which may need a factor" if column.unit else "the file gives no unit"
+    why = f"the unit in the file is {column.unit}, which may need a factor" if column.unit else "the file gives no unit"
     return f"  # {why}: {column.stated_unit} and {column.kind} are guesses"
 
 
-def _parameters(outline: Outline, machine: Model, scales: RecordedScales) -> Iterator[str]:
-    """Yield what is known and what is to be estimated; without a force the inertia has to be known."""
+def _format_parameters(outline: Outline, machine: Model, scales: RecordedScales) -> Iterator[str]:
+    """Yield the lines of known and estimated parameters; without a force the inertia has to be known."""
     motion = "rotation" if outline.response.turns else "translation"
     forced = "force" in (outline.response.kind, outline.drive.kind if outline.drive else "")
     known, ranges = guesses(machine, scales, forced=forced)
@@ -256,10 +258,10 @@ def _parameters(outline: Outline, machine: Model, scales: RecordedScales) -> Ite
         for name, (value, why) in known.items():
             yield f"{name} = {value}  # {params[name].dimension.unit(motion)}: {why}"
         yield ""
-    yield "[model.estimate]  # wide priors; what a data sheet says belongs into [model.known]"
+    yield "[model.estimate]  # wide priors; values of data sheets belong into [model.known]"
     for name, (low, high, why) in ranges.items():
         yield (
-            f'{name} = {{ low = {_figures(low)}, high = {_figures(high)}, scale = "log" }}'
+            f'{name} = {{ low = {_round(low)}, high = {_round(high)}, scale = "log" }}'
             f"  # {params[name].dimension.unit(motion)}: {params[name].meaning}, {why}"
         )
 
@@ -267,46 +269,48 @@ def _parameters(outline: Outline, machine: Model, scales: RecordedScales) -> Ite
 def guesses(
     machine: Model, scales: RecordedScales, *, forced: bool
 ) -> tuple[dict[str, tuple[float, str]], dict[str, tuple[float, float, str]]]:
-    """Return values of parameters that have to be known, and ranges of all others, each with the reason.
+    """Return values of parameters that have to be known, and ranges of all others, each with a reason.
 
-    Without a force only ratios to the inertia can be told. All parameters of equations are estimated, as positive.
+    Without a force only ratios to the inertia can be determined. All parameters of equations are estimated as positive.
     """
     inertia = machine.interfaces[0].inertia
-    told = isinstance(machine, Written)
+    is_written = isinstance(machine, Written)
     known = {
-        p.name: (1.0, "only ratios to it can be told: put the true one") if p.scale == "log" else (0.0, p.meaning)
+        p.name: (1.0, "only ratios to it can be determined: enter the true value")
+        if p.scale == "log"
+        else (0.0, p.meaning)
         for p in machine.params
-        if (p.name == inertia and not forced) or (p.scale != "log" and not told)
+        if (p.name == inertia and not forced) or (p.scale != "log" and not is_written)
     }
-    return known, {p.name: _range(p, scales, forced) for p in machine.params if p.name not in known}
+    return known, {p.name: _choose_range(p, scales, forced) for p in machine.params if p.name not in known}
 
 
-def _range(param: Param, scales: RecordedScales, forced: bool) -> tuple[float, float, str]:
+def _choose_range(param: Param, scales: RecordedScales, forced: bool) -> tuple[float, float, str]:
     if param.name in scales.straight:
         value = scales.straight[param.name]
-        return value / WIDE, value * WIDE, f"about {_figures(value)} by the spectra"
+        return value / WIDE, value * WIDE, f"about {_round(value)} from the spectra"
     if param.dimension == LENGTH:
-        return scales.length / 1e3, 3.0 * scales.length, "beside the size of the motion"
+        return scales.length / 1e3, 3.0 * scales.length, "from the size of the motion"
     force = scales.force if forced else scales.length / scales.time**2
     value = param.dimension.scale(force, scales.length, scales.time)
     return value / WIDER, value * WIDER, "from the sizes of drive and motion"
 
 
-def _figures(value: float) -> str:
+def _round(value: float) -> str:
     return f"{float(f'{value:.2g}'):g}"
 
 
-def _found(outline: Outline, machine: Model, factors: Mapping[str, float]) -> Iterator[str]:
-    """Yield what was found in the table, one sentence for each thing."""
+def _list_findings(outline: Outline, machine: Model, factors: Mapping[str, float]) -> Iterator[str]:
+    """Yield the findings in the table, one sentence each."""
     clock = f"time in the column {outline.time!r} ({outline.time_unit})" if outline.time else "no column of time"
     yield f"{outline.file}: {outline.samples} rows at {1.0 / outline.dt:.6g} Hz, {clock}"
     for column in outline.columns:
-        yield _described(column, outline)
+        yield _describe_column(column, outline)
     if outline.drive is not None:
-        period = _period(_filled(outline.drive, factors), outline.dt) if outline.drive.moves else None
+        period = _period(_to_centred(outline.drive, factors), outline.dt) if outline.drive.moves else None
         yield f"the drive repeats every {period:.4g} s" if period else "the drive does not repeat"
     else:
-        yield "nothing looks like a drive, so this is taken for a free decay: if there is one, give --drive COLUMN"
+        yield "no column looks like a drive, so a free decay is assumed: if there is a drive, give --drive COLUMN"
     yield f"model: {'; '.join(machine.equations) if isinstance(machine, Written) else machine.name}"
 
 
@@ -314,12 +318,12 @@ def _period(pushed: Array, dt: float) -> float | None:
     """Return the period (s) of a drive (n,), or None; one that is too short for its spectrum is laid over itself."""
     period = refined_period(pushed, dt)
     if period is None:
-        lag = period_found(pushed, _noise(pushed))
+        lag = period_found(pushed, _noise_level(pushed))
         period = None if lag is None else lag * dt
     return period
 
 
-def _described(column: OutlinedColumn, outline: Outline) -> str:
+def _describe_column(column: OutlinedColumn, outline: Outline) -> str:
     column = outline.response if column.name == outline.response.name else column
     roles = {outline.drive.name if outline.drive else "": "drive", outline.response.name: "response"}
     role = roles.get(column.name, "not used")
@@ -329,11 +333,11 @@ def _described(column: OutlinedColumn, outline: Outline) -> str:
         return f"  {column.name}: no reading at all"
     size = f"{seen.min():.4g} to {seen.max():.4g}"
     lost = f", {column.lost} readings lost" if column.lost else ""
-    noise = f", noise about {_noise(seen):.2g}" if role == "response" else ""
+    noise = f", noise about {_noise_level(seen):.2g}" if role == "response" else ""
     named = f"  {column.name} ({column.unit or 'no unit'}{taken})"
     return f"{named}: {column.kind or 'unknown'}, {size}{noise}{lost} -> {role}"
 
 
-def _noise(values: Array) -> float:
-    """Return the deviation of white noise (n,) by sixth differences, of which smooth motion has next to none."""
+def _noise_level(values: Array) -> float:
+    """Return the standard deviation of white noise from sixth differences, which are small for a smooth motion."""
     return float(np.std(np.diff(values, 6)) / math.sqrt(math.comb(12, 6))) if values.size > 20 else 0.0

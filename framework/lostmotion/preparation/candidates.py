@@ -1,4 +1,4 @@
-"""Which terms may act where in a machine, given what was recorded."""
+"""The candidate terms of a machine with their places, given the recordings."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from lostmotion.likelihood.observation import Observation
 def candidates_of(
     model: Model, terms: Sequence[type[Term]], observations: Sequence[Observation] = ()
 ) -> tuple[Term, ...]:
-    """Return each term at each place of the model where it can act, given what drives the recordings.
+    """Return each term at each place of the model where it can act, given the drives of the recordings.
 
-    Of terms that equal each other the first is enough.
+    Of terms that are equal to each other only the first is returned.
     """
     tried = [
         term(at=place.name)  # type: ignore[call-arg]
@@ -25,7 +25,7 @@ def candidates_of(
         term(at=at, **_channel_of(term, at, observations))  # type: ignore[call-arg]
         for term in terms
         if term.acts != "motion"
-        for at in _beside(term, observations)
+        for at in _places_beside(term, observations)
     ]
     driven = all(observation.harmonic.omega > 0.0 for observation in observations)
     tried = [term for term in tried if term.fits(model) and (driven or "omega" not in term.needs)]
@@ -35,14 +35,14 @@ def candidates_of(
 
 
 def _channel_of(term: type[Term], at: str, observations: Sequence[Observation]) -> dict[str, str]:
-    """Return the channel of the sensor at which a term acts that has such a field."""
+    """Return the field `channel` for a sensor term with states, else no field."""
     if not term.states or term.acts != "sensor" or not observations:
         return {}
     return {"channel": next(sensor.channel for sensor in observations[0].sensors if sensor.place == at)}
 
 
-def _beside(term: type[Term], observations: Sequence[Observation]) -> tuple[str, ...]:
-    """Return where a term of the drive or of a sensor may act: at each input that was recorded, or at each sensor."""
+def _places_beside(term: type[Term], observations: Sequence[Observation]) -> tuple[str, ...]:
+    """Return the places of a drive term or a sensor term: each recorded input, or each sensor."""
     if not observations:
         return (term.acts,)
     first = observations[0]

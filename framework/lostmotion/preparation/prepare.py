@@ -1,4 +1,4 @@
-"""From a case file to what the stages work on."""
+"""Preparation of a case for the stages: recordings, model and candidate terms."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from lostmotion.contracts import Model, Term
 from lostmotion.errors import CaseError, ContractError
 from lostmotion.likelihood.observation import Observation, make_observation
 from lostmotion.preparation.candidates import candidates_of
-from lostmotion.preparation.vetting import sound, usable_terms
+from lostmotion.preparation.vetting import make_plugin, usable_terms
 from lostmotion.quantities import ROTATES
 from lostmotion.recording import Recording, load_recording
 from lostmotion.recording.decimation import thin_recording
@@ -22,9 +22,9 @@ from lostmotion.written import model_of
 
 @dataclass(frozen=True)
 class Prepared:
-    """A case with its recordings, its model, and every term that could act in that model.
+    """A case with its recordings, its model, and every term that can act in that model.
 
-    `origins` are the digests or versions of what other people brought, `aside` sentences on what of it cannot be used.
+    `origins` are the digests or versions of third-party plugins, `aside` sentences on those that cannot be used.
     """
 
     case: CaseFile
@@ -37,19 +37,19 @@ class Prepared:
 
     @property
     def inputs(self) -> dict[str, str]:
-        """The digests of what went in, by file name."""
+        """The digests of all inputs, by file name."""
         return {**self.origins, "case": self.case.digest, **{r.name: r.digest for r in self.recordings}}
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What the recordings have to say of themselves, and what of the plugins cannot be used."""
+        """The warnings about recordings, and the notes on plugins that cannot be used."""
         several = len(self.recordings) > 1
         of_recordings = (f"{r.name}: {n}" if several else n for r in self.recordings for n in r.notes)
         return (*of_recordings, *self.aside)
 
 
 def case_of(path: Path, registry: Registry) -> CaseFile:
-    """Return the case at `path`; the plugin files it names and the model that it writes down join the registry."""
+    """Return the case at `path` after adding its plugin files and its written model to the registry."""
     case = load_case(path)
     for plugin in case.plugins:
         registry.add_file(case.folder / plugin)
@@ -61,24 +61,24 @@ def case_of(path: Path, registry: Registry) -> CaseFile:
 
 def prepare(path: Path, registry: Registry, settings: Settings = DEFAULT) -> Prepared:
     """Return the case at `path`, ready for the stages; raise an error for anything that cannot be valid."""
-    return prepared_of(case_of(path, registry), registry, settings)
+    return prepare_case(case_of(path, registry), registry, settings)
 
 
-def prepared_of(case: CaseFile, registry: Registry, settings: Settings = DEFAULT) -> Prepared:
-    """Return a case with its recordings, its model and its terms."""
+def prepare_case(case: CaseFile, registry: Registry, settings: Settings = DEFAULT) -> Prepared:
+    """Return a case with its recordings, its model and its terms, loaded from the files of the case."""
     if not case.recordings:
         raise CaseError("the case has no [[recordings]]: add one, with file, time or rate, excitation and response")
     check_same_sensors(tuple(spec.sensors for spec in case.recordings))
     recordings = tuple(load_recording(spec, case.folder, settings.recording) for spec in case.recordings)
-    return prepared_with(case, recordings, sound(registry, "model", case.model), registry, settings)
+    return prepare_loaded(case, recordings, make_plugin(registry, "model", case.model), registry, settings)
 
 
-def prepared_with(
+def prepare_loaded(
     case: CaseFile, loaded: Sequence[Recording], model: Model, registry: Registry, settings: Settings = DEFAULT
 ) -> Prepared:
-    """Return a case with recordings that were loaded and a model that was made, and with its terms."""
+    """Return a case with recordings that are loaded already, a given model, and its terms."""
     recordings = tuple(thin_recording(one, settings.recording) for one in loaded)
-    model = moving(model, case, recordings)
+    model = resolve_motion(model, case, recordings)
     observations = tuple(make_observation(r, model, held=r.hold == "step") for r in recordings)
     known, aside = usable_terms(registry)
     return Prepared(
@@ -86,10 +86,10 @@ def prepared_with(
     )
 
 
-def moving(model: Model, case: CaseFile, recordings: Sequence[Recording]) -> Model:
-    """Return the model in translation or in rotation, as the case says or as the units of the recordings show.
+def resolve_motion(model: Model, case: CaseFile, recordings: Sequence[Recording]) -> Model:
+    """Return the model in translation or in rotation, according to the case or to the units of the recordings.
 
-    Raises `CaseError` where units do not fit each other, or the model.
+    `CaseError` is raised where units do not fit each other or the model.
     """
     shown = {}
     for recording in recordings:
@@ -97,8 +97,8 @@ def moving(model: Model, case: CaseFile, recordings: Sequence[Recording]) -> Mod
             shown[ROTATES[str(array.attrs["units"])]] = f"{array.attrs['long_name']} in {array.attrs['units']}"
     if len(shown) > 1:
         raise CaseError(
-            f"the units mix translation and rotation ({' and '.join(shown.values())}): a torque goes with angles, a"
-            " force with lengths; correct a unit, or give factor"
+            f"the units mix translation and rotation ({' and '.join(shown.values())}): torques belong to angles,"
+            " forces to lengths; correct a unit, or give factor"
         )
     found = next(iter(shown))
     if case.motion and case.motion != found:

@@ -1,7 +1,7 @@
-"""Plugins of other people: held against their contract before they are relied upon, and set aside where they fail.
+"""Third-party plugins: checked against their contract before use, and set aside where they fail.
 
-Models and terms are compiled into one kernel, so a bad one would take all others down: they are tried beforehand, by
-the rules of the conformance kit. Methods are watched while they work. What comes with lostmotion has been tested.
+Models and terms are compiled into one kernel, in which a faulty one would affect all others. They are checked before
+use with the rules of the conformance kit. Methods are checked while they run. Built-in plugins have been tested.
 """
 
 from __future__ import annotations
@@ -24,12 +24,13 @@ from lostmotion.registry import Registry
 from lostmotion.testing import Finding, check
 
 T = TypeVar("T")
-LOOKS = 2000
+POINTS = 2000
+"""The number of points of a recording at which the force of a term is tried."""
 
 
 @contextmanager
-def within_numbers() -> Iterator[None]:
-    """Tell in one sentence that a computation left all numbers: as a decorator of what fits a model."""
+def catch_divergence() -> Iterator[None]:
+    """Turn a failure of linear algebra into a `DataError` with one sentence; a decorator of functions that fit."""
     try:
         yield
     except np.linalg.LinAlgError as err:
@@ -39,31 +40,31 @@ def within_numbers() -> Iterator[None]:
         ) from err
 
 
-def sound(registry: Registry, kind: str, name: str, **options: Any) -> Any:
-    """Return an instance of a plugin; raise `ContractError` where one of other people breaks its contract."""
+def make_plugin(registry: Registry, kind: str, name: str, **options: Any) -> Any:
+    """Return an instance of a plugin; raise `ContractError` where a third-party one breaks its contract."""
     entry, made = registry.entry(kind, name), registry.make(kind, name, **options)
     cls: Any = type(made)
-    if not entry.ours and (fault := _fault(cls)):
+    if not entry.ours and (fault := _find_fault(cls)):
         raise ContractError(
-            f"{entry.whose} cannot be used, for it breaks the rule {fault.rule} of its contract: {fault.sentence}"
-            f" `lostmotion plugins check {name}` tells all",
+            f"{entry.whose} cannot be used, because it breaks the rule {fault.rule} of its contract: {fault.sentence}"
+            f" `lostmotion plugins check {name}` lists all rules",
             name,
         )
     return made
 
 
 @lru_cache(maxsize=256)
-def _fault(cls: type[Any]) -> Finding | None:
-    """Return the first rule that a class breaks and that a host relies upon, or None."""
+def _find_fault(cls: type[Any]) -> Finding | None:
+    """Return the finding of the first broken rule on which the framework relies, or None."""
     return next((finding for finding in check(cls) if finding.fatal), None)
 
 
 def usable_terms(registry: Registry) -> tuple[list[type[Term]], tuple[str, ...]]:
-    """Return all terms that can be relied upon, and a sentence on each plugin that was set aside."""
+    """Return all usable terms, and a sentence on each plugin that was set aside."""
     terms, aside = [], [e.why for e in registry.entries() if e.why and e.kind in ("term", "package")]
     for name in registry.names("term"):
         try:
-            sound(registry, "term", name)
+            make_plugin(registry, "term", name)
             terms.append(registry.load("term", name))
         except LostMotionError as err:
             aside.append(str(err))
@@ -71,61 +72,61 @@ def usable_terms(registry: Registry) -> tuple[list[type[Term]], tuple[str, ...]]
 
 
 def note_set_aside(why: str) -> str:
-    """Return the sentence on a plugin that is set aside, having warned with it."""
+    """Return the sentence on a plugin that is set aside, after issuing it as a warning."""
     sentence = f"Set aside: {why.rstrip('.')}."
     warnings.warn(sentence, PluginWarning, stacklevel=3)
     return sentence
 
 
-def theirs(registry: Registry, terms: tuple[Term, ...]) -> tuple[str, ...]:
-    """Return the keys of those terms that other people brought."""
+def third_party_keys(registry: Registry, terms: tuple[Term, ...]) -> tuple[str, ...]:
+    """Return the keys of third-party terms."""
     return tuple(key_of(term) for term in terms if not registry.entry("term", term.name).ours)
 
 
-def raising(terms: Iterable[Term], observations: Sequence[Observation]) -> set[str]:
-    """Return the keys of those terms whose force raises somewhere along recorded motions."""
-    return {key_of(term) for term in terms if any(_raises(term, observation) for observation in observations)}
+def find_raising_terms(terms: Iterable[Term], observations: Sequence[Observation]) -> set[str]:
+    """Return the keys of terms whose force raises an error somewhere along recorded motions."""
+    return {key_of(term) for term in terms if any(_raises_error(term, observation) for observation in observations)}
 
 
-def _raises(term: Term, observation: Observation) -> bool:
-    """Return whether the force of a term, of size one, raises at one of many points of a recording."""
+def _raises_error(term: Term, observation: Observation) -> bool:
+    """Return whether the force of a term, of size one, raises an error at one of many points of a recording."""
     try:
-        for told in list_calls(term, observation, LOOKS):
-            term.force(*told)
+        for args in list_calls(term, observation, POINTS):
+            term.force(*args)
     except Exception:
         return True
     return False
 
 
-def blamed(registry: Registry, keys: Iterable[str], err: ContractError) -> str:
-    """Return the sentence that names the terms, by key, one of which broke down."""
+def name_suspects(registry: Registry, keys: Iterable[str], err: ContractError) -> str:
+    """Return the sentence that names the terms, by key, one of which failed."""
     names = sorted({key.partition("@")[0] for key in keys})
     whose = " or ".join(registry.entry("term", name).whose for name in names)
-    return f"{whose}: {err}; `lostmotion plugins check {' '.join(names)}` may tell what to mend"
+    return f"{whose}: {err}; `lostmotion plugins check {' '.join(names)}` may show the error"
 
 
 @dataclass
-class Guests:
-    """Watches the methods of other people at work; `said` grows by a sentence for each one that fails."""
+class MethodWatch:
+    """Checks third-party methods while they run; `said` contains a sentence for each one that failed."""
 
     registry: Registry
     said: list[str] = field(default_factory=list)
 
     def __call__(self, kind: str, name: str, x: Array, work: Callable[[], T]) -> T | None:
-        """Return what a method makes of the samples `x`, or None where it breaks its contract."""
+        """Return the result of a method for the samples `x`, or None where it breaks its contract."""
         entry = self.registry.entry(kind, name)
         if entry.ours:
             return work()
-        found, wrong = _watched(x, work)
+        found, wrong = _watch_call(x, work)
         if not wrong:
             return found
-        self.said.append(note_set_aside(f"{entry.whose} {wrong}: `lostmotion plugins check {name}` tells what to mend"))
+        self.said.append(note_set_aside(f"{entry.whose} {wrong}: `lostmotion plugins check {name}` shows the errors"))
         return None
 
 
-def _watched(x: Array, work: Callable[[], T]) -> tuple[T | None, str]:
-    """Return what `work` returns and an empty string, or None and what was wrong; `x` is as it was afterwards."""
-    held, state = x.copy(), np.random.get_state()  # noqa: NPY002 - it is watched, not used
+def _watch_call(x: Array, work: Callable[[], T]) -> tuple[T | None, str]:
+    """Return the result of `work` and an empty string, or None and what was wrong; a changed `x` is restored."""
+    held, state = x.copy(), np.random.get_state()  # noqa: NPY002 - only compared, not used
     found, wrong = None, ""
     try:
         found = work()
@@ -135,11 +136,11 @@ def _watched(x: Array, work: Callable[[], T]) -> tuple[T | None, str]:
     if not np.array_equal(x, held, equal_nan=True):
         x[:] = held
         wrong = wrong or "changed the samples that it was given"
-    if not _same(state, np.random.get_state()):  # noqa: NPY002
+    if not _same_state(state, np.random.get_state()):  # noqa: NPY002
         np.random.set_state(state)  # noqa: NPY002
         wrong = wrong or "drew from NumPy's global generator, so that the same seed would not give the same answer"
     return (None, wrong) if wrong else (found, "")
 
 
-def _same(one: Any, two: Any) -> bool:
+def _same_state(one: Any, two: Any) -> bool:
     return all(np.array_equal(a, b) for a, b in zip(one, two, strict=True))

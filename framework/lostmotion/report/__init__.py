@@ -1,1 +1,1 @@
-"""What all pages share: the frame and its style sheet, the look of figures, and numbers as a reader meets them."""
+"""The common parts of all pages: frame, style sheet, style of figures, and formatting of numbers."""

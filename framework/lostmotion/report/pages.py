@@ -1,4 +1,4 @@
-"""The one door to the page templates, and what a page is made of."""
+"""The page templates and the sections of a page. This is the only module that uses Jinja."""
 
 from __future__ import annotations
 
@@ -19,23 +19,23 @@ E = TypeVar("E")
 
 
 class Grid(NamedTuple):
-    """A table of a page: headings, and as many words in each row."""
+    """A table of a page: headings, and rows with as many cells."""
 
     head: list[str]
     rows: list[list[str]]
 
 
-def trimmed(head: list[str], rows: list[list[str]]) -> Grid:
-    """Return the table without rows and columns in which nothing but the name stands."""
+def trim_table(head: list[str], rows: list[list[str]]) -> Grid:
+    """Return the table without rows and columns that contain nothing besides the name."""
     rows = [row for row in rows if set(row[1:]) - {DASH, ""}]
     kept = [column for column in range(len(head)) if column == 0 or any(row[column] not in (DASH, "") for row in rows)]
     return Grid([head[k] for k in kept], [[row[k] for k in kept] for row in rows])
 
 
 class PageSection(NamedTuple, Generic[E]):
-    """A section of a page: its name there, its title, and functions that draw and say it.
+    """A section of a page: its name, its title, and functions that return its content.
 
-    `words` stand above the figure, `caption` below it, then the `table`, of which `look` is a class of the style sheet.
+    `words` are above the figure, `caption` is below it, then follows the `table` with the style class `look`.
     """
 
     name: str
@@ -48,7 +48,7 @@ class PageSection(NamedTuple, Generic[E]):
 
 
 class DrawnSection(NamedTuple):
-    """A section as the template takes it: markup is empty where there was nothing to draw."""
+    """A section in the form for the template; `markup` is empty where there is no figure."""
 
     name: str
     title: str
@@ -59,37 +59,37 @@ class DrawnSection(NamedTuple):
     look: str = "tight"
 
 
-def drawn(sections: Sequence[PageSection[E]], evidence: E) -> Iterator[DrawnSection]:
+def draw_sections(sections: Sequence[PageSection[E]], evidence: E) -> Iterator[DrawnSection]:
     """Yield the sections that have a figure, a table with rows, or words."""
     for one in sections:
         figure, table, words = one.draw(evidence), one.table(evidence), one.words(evidence)
         if figure is None and not (table and table.rows) and not words:
             continue
         title = one.title if isinstance(one.title, str) else one.title(evidence)
-        # The markup is drawn by matplotlib, which escapes the words it is given.
-        markup = style.embedded(figure, one.name) if figure else Markup()
+        # The markup comes from matplotlib, which escapes all text.
+        markup = style.embed_figure(figure, one.name) if figure else Markup()
         yield DrawnSection(one.name, title, markup, one.caption(evidence) if figure else "", table, words, one.look)
 
 
-def written(page: Path, render: Callable[[], str], source: str) -> Path:
-    """Return the path of a page once it is on the disk, whole; facts that no command wrote are refused.
+def write_page(page: Path, render: Callable[[], str], source: str) -> Path:
+    """Return the path of a page after writing it atomically; raise `DataError` for invalid result files.
 
-    `source` names the file of facts and the command that writes it.
+    `source` names the result file and the command that writes it, for the message.
     """
     try:
         text = render()
     except LostMotionError:
         raise
-    except Exception as err:  # a file that somebody changed can be wrong in every way there is
+    except Exception as err:  # an edited result file can cause many types of error
         said = f"{type(err).__name__}: {str(err).partition(chr(10))[0][:120]}"
         raise DataError(f"{page} cannot be drawn ({said}): {source}") from err
     return save_text(page, text)
 
 
-def template(name: str, package: str) -> Template:
-    """Return a page template that escapes every string and stumbles over every name it does not know.
+def load_template(name: str, package: str) -> Template:
+    """Return a page template that escapes every string and raises an error for an unknown name.
 
-    It lies in a `package`, and may include what all pages share, such as the frame and the style sheet.
+    It is in `package`, and may include common parts of all pages, such as the frame and the style sheet.
     """
     folders = dict.fromkeys((package, "lostmotion.report"))
     pages = Environment(

@@ -1,4 +1,4 @@
-"""One look for all figures: colours, type, grids, and how a figure gets into a page."""
+"""The common style of all figures: colours, fonts, grids; and the embedding of figures in pages."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 from PIL import Image
 
-from lostmotion.report.words import Scale, angles_in, figures, power_of_ten, readable
+from lostmotion.report.words import Scale, angles_in, choose_scale, figures, power_of_ten
 from lostmotion.results import Array
 from lostmotion.storage import save_bytes
 
-# Okabe and Ito: told apart by colour-blind readers, and in grey print by their lightness.
+# Okabe and Ito: colour-blind readers can distinguish these, and their lightness differs in grey print.
 RECORDED = "#1a1a1a"
 BEFORE = "#d55e00"
 AFTER = "#0072b2"
@@ -59,7 +59,7 @@ RC: dict[Any, Any] = {
     "lines.solid_joinstyle": "round",
     "path.simplify_threshold": 0.3,
     "figure.facecolor": "white",
-    # Names come from files: a dollar sign in one is no formula.
+    # Names come from files: a dollar sign in a name does not start a formula.
     "text.parse_math": False,
     "svg.fonttype": "path",
     "svg.hashsalt": "lostmotion",
@@ -67,10 +67,10 @@ RC: dict[Any, Any] = {
 
 
 @contextmanager
-def applied(angle: str = "rad") -> Iterator[None]:
-    """Return a context in which figures are drawn and saved in the house style, whatever the reader's own settings.
+def use_style(angle: str = "rad") -> Iterator[None]:
+    """Return a context in which figures are drawn and saved in the common style, independent of user settings.
 
-    Angles are shown in rad or deg, as `angle` says.
+    `angle` is the unit of angles, rad or deg.
     """
     with mpl.rc_context(), angles_in(angle):
         mpl.rcdefaults()
@@ -78,7 +78,7 @@ def applied(angle: str = "rad") -> Iterator[None]:
         yield
 
 
-def blank(height: float, width: float = WIDTH) -> Figure:
+def make_figure(height: float, width: float = WIDTH) -> Figure:
     """Return an empty figure of a height in inches, `width` inches wide."""
     return Figure(figsize=(width, height), layout=ConstrainedLayoutEngine(w_pad=0.08, h_pad=0.06))
 
@@ -86,18 +86,18 @@ def blank(height: float, width: float = WIDTH) -> Figure:
 def scale_of(values: Array, unit: str) -> Scale:
     """Return the scale in which the finite values are easy to read."""
     finite = np.abs(values[np.isfinite(values)])
-    return readable(float(finite.max()) if finite.size else 0.0, unit)
+    return choose_scale(float(finite.max()) if finite.size else 0.0, unit)
 
 
 def few_ticks(axes: Axes, across: int = 6, up: int = 5) -> None:
-    """Limit the ticks of both axes, and write them out in full instead of with an offset."""
+    """Limit the ticks of both axes, and format them without an offset."""
     axes.xaxis.set_major_locator(MaxNLocator(across))
     axes.yaxis.set_major_locator(MaxNLocator(up))
     axes.ticklabel_format(useOffset=False)
 
 
 def log_ticks(axis: Axis, most: int = 6) -> None:
-    """Mark the powers of ten of a logarithmic axis, or 1, 2, 5 where it spans less than two of them."""
+    """Set the ticks of a logarithmic axis to powers of ten, or to 1, 2, 5 where it spans less than two of them."""
     low, high = sorted(axis.get_view_interval())
     plain = low >= 5e-3 and high <= 2e3
     axis.set_major_locator(
@@ -117,8 +117,8 @@ def span_of(values: Array, margin: float) -> tuple[float, float]:
     return low - room, high + room
 
 
-def framed(main: Array, others: list[Array], most: float) -> tuple[float, float]:
-    """Return limits that hold all curves, unless one runs away: then at most `most` ranges beyond the main one."""
+def limits_around(main: Array, others: list[Array], most: float) -> tuple[float, float]:
+    """Return axis limits that contain all curves, but at most `most` ranges beyond the main one."""
     bound = span_of(main, most)
     everything = np.concatenate([main, *others]) if others else main
     low, high = span_of(everything, 0.06)
@@ -126,27 +126,27 @@ def framed(main: Array, others: list[Array], most: float) -> tuple[float, float]
 
 
 def legend_above(figure: Figure, axes: Axes) -> None:
-    """Put one legend over the whole figure, from the named curves of one panel."""
+    """Place one legend above the whole figure, from the labelled curves of one panel."""
     handles, names = axes.get_legend_handles_labels()
     if names:
         figure.legend(handles, names, loc="outside upper left", ncols=len(names))
 
 
-def embedded(figure: Figure, name: str) -> Markup:
-    """Return a figure as markup that stands by itself: inline SVG, or a PNG where the SVG would be too large.
+def embed_figure(figure: Figure, name: str) -> Markup:
+    """Return a figure as self-contained markup: inline SVG, or a PNG where the SVG would be too large.
 
-    Matplotlib escapes the words it draws, and `name` is one of ours.
+    Matplotlib escapes all text, and `name` is a constant of this program.
     """
-    if _dotted(figure):
-        return Markup(_image(figure, name))  # noqa: S704
+    if _has_many_dots(figure):
+        return Markup(_embed_png(figure, name))  # noqa: S704
     drawing = io.StringIO()
     figure.savefig(drawing, format="svg", metadata={"Date": None, "Creator": None})
     text = drawing.getvalue()
-    return Markup(_inline(text, name) if len(text) <= LARGEST_SVG else _image(figure, name))  # noqa: S704
+    return Markup(_embed_svg(text, name) if len(text) <= LARGEST_SVG else _embed_png(figure, name))  # noqa: S704
 
 
-def _dotted(figure: Figure) -> bool:
-    """Return whether a figure has so many dots, at some `DOT` letters each, that its SVG would be too large."""
+def _has_many_dots(figure: Figure) -> bool:
+    """Return whether a figure has so many dots, of about `DOT` characters each, that its SVG would be too large."""
     lines = [line for axes in figure.axes for line in axes.lines if line.get_linestyle() == "None"]
     return DOT * sum(len(np.atleast_1d(line.get_xdata())) for line in lines) > LARGEST_SVG
 
@@ -160,17 +160,17 @@ def save(figure: Figure, path: Path) -> Path:
     return save_bytes(path, small.getvalue())
 
 
-def _image(figure: Figure, name: str) -> str:
+def _embed_png(figure: Figure, name: str) -> str:
     pixels = io.BytesIO()
     figure.savefig(pixels, format="png", dpi=150, metadata={"Software": None})
     return f'<img alt="{name}" src="data:image/png;base64,{base64.b64encode(pixels.getvalue()).decode()}">'
 
 
-def _inline(text: str, name: str) -> str:
-    """Return the SVG without addresses, and with names of its own: all figures share one page."""
+def _embed_svg(text: str, name: str) -> str:
+    """Return the SVG without addresses, and with unique names, since all figures are on one page."""
     text = re.sub(r"<metadata>.*?</metadata>", "", text[text.index("<svg") :], flags=re.DOTALL)
     text = re.sub(r'\s(xmlns(:\w+)?|width|height)="[^"]*"', "", text, count=4)
-    # Matplotlib hashes the last digits of the layout into its names, and these differ from run to run: count instead.
+    # The names by matplotlib contain hashes of digits that differ from run to run, so they are replaced by numbers.
     names = {old: f"{name}-{count}" for count, old in enumerate(dict.fromkeys(re.findall(r'\bid="([^"]+)"', text)))}
     text = re.sub(r'(\bid="|url\(#|href="#)([^")]+)', lambda found: found[1] + names.get(found[2], found[2]), text)
     return text.replace("<svg", f'<svg role="img" aria-label="{name}"', 1)

@@ -1,4 +1,4 @@
-"""Numbers, units and names as a reader meets them."""
+"""Formatting of numbers, units and names for readers."""
 
 from __future__ import annotations
 
@@ -42,11 +42,11 @@ DASH = "–"
 ANGLE: ContextVar[str] = ContextVar("ANGLE", default="rad")
 """The unit in which angles are shown."""
 SMALLEST = 1e-99
-"""A p-value below this is not told from nothing."""
+"""A smaller p-value is reported as below this value."""
 
 
 class Scale(NamedTuple):
-    """Factor that turns an SI value into the unit shown."""
+    """The factor from SI to the displayed unit, and that unit."""
 
     factor: float
     unit: str
@@ -62,10 +62,10 @@ def angles_in(unit: str) -> Iterator[None]:
         ANGLE.reset(before)
 
 
-def readable(largest: float, unit: str) -> Scale:
-    """Return the scale in which values up to `largest` are easy to read: SI, or milli, micro, kilo where that helps.
+def choose_scale(largest: float, unit: str) -> Scale:
+    """Return a readable scale for values up to `largest`: SI, or with the prefix milli, micro or kilo.
 
-    Within `angles_in("deg")` angles are in degrees.
+    Within `angles_in("deg")`, angles are in degrees.
     """
     if ANGLE.get() == "deg" and unit in DEGREES:
         return Scale(180.0 / math.pi, DEGREES[unit])
@@ -77,24 +77,24 @@ def readable(largest: float, unit: str) -> Scale:
     return Scale(1.0, unit)
 
 
-def pretty(unit: str) -> str:
-    """Return a unit with raised powers; the unit of pure numbers is an empty string."""
+def format_unit(unit: str) -> str:
+    """Return a unit with superscript powers; the unit of pure numbers is an empty string."""
     return "" if unit == "1" else re.sub(r"\^(-?\d+)", lambda match: match[1].translate(RAISED), unit)
 
 
 def with_unit(name: str, unit: str) -> str:
     """Return an axis label such as `velocity (m/s)`."""
-    return f"{name} ({pretty(unit)})" if pretty(unit) else name
+    return f"{name} ({format_unit(unit)})" if format_unit(unit) else name
 
 
 def typeset(text: str) -> str:
-    """Return a sentence as it stands on a page: raised powers, powers of ten, and no line break before "%"."""
+    """Return a sentence for a page: superscript powers, powers of ten, and no line break before "%"."""
     powers = re.sub(r"(?<=\d)e([+-]?)0*(\d+)\b", lambda m: f"·10{(m[1].strip('+') + m[2]).translate(RAISED)}", text)
     raised = re.sub(r"(?<=[A-Za-z])\^(-?\d+)", lambda m: m[1].translate(RAISED), powers)
     return raised.replace(" +- ", " ± ").replace(" %", "\N{NO-BREAK SPACE}%")
 
 
-def spoken(name: str) -> str:
+def to_words(name: str) -> str:
     """Return a name such as `coulomb_friction` as words: `Coulomb friction`."""
     return (
         " ".join(PROPER.get(word, word) for word in name.split("_"))
@@ -109,7 +109,7 @@ def sentence(text: str) -> str:
 
 
 def figures(value: Any, digits: int = 3) -> str:
-    """Return a number with so many significant figures at most, or a dash where there is none."""
+    """Return a number with at most `digits` significant figures, or a dash where there is none."""
     if not isinstance(value, int | float) or not math.isfinite(value):
         return DASH
     if value == 0:
@@ -123,12 +123,12 @@ def figures(value: Any, digits: int = 3) -> str:
 
 
 def span(number: float, unit: str) -> str:
-    """Return a length in a unit that is written in the plural: "one natural period", "0.5 Lyapunov times"."""
+    """Return a number with a unit given in the plural: "one natural period", "0.5 Lyapunov times"."""
     return f"{number:g} {unit}" if number != 1 else f"one {unit.rstrip('s')}"
 
 
 def power_of_ten(value: float) -> str:
-    """Return a positive number as the tick of a logarithmic axis: `1`, `10⁻⁵`, `2·10⁻⁵`."""
+    """Return a positive number as a tick label of a logarithmic axis: `1`, `10⁻⁵`, `2·10⁻⁵`."""
     power = math.floor(math.log10(value) + 1e-9)
     factor = figures(float(value) / 10.0**power, 2)
     if power == 0:
@@ -137,16 +137,16 @@ def power_of_ten(value: float) -> str:
     return raised if factor == "1" else f"{factor}·{raised}"
 
 
-def shortened(text: str, most: int = 48) -> str:
+def shorten(text: str, most: int = 48) -> str:
     """Return a text on one line, cut where it is too long for a figure."""
     line = " ".join(text.split())
     return line if len(line) <= most else line[: most - 1].rstrip() + "…"
 
 
-def measured(value: Any, unit: str) -> str:
+def format_quantity(value: Any, unit: str) -> str:
     """Return a number with its unit, such as `3.1 N`, or a dash."""
     text = figures(value)
-    return text if text == DASH else f"{text} {pretty(unit)}".rstrip()
+    return text if text == DASH else f"{text} {format_unit(unit)}".rstrip()
 
 
 def percent(value: Any) -> str:
@@ -155,7 +155,7 @@ def percent(value: Any) -> str:
 
 
 def probability(value: Any) -> str:
-    """Return a probability that is never rounded to certainty."""
+    """Return a probability with three decimals, or as "> 0.999" or "< 0.001"."""
     if not isinstance(value, int | float) or not math.isfinite(value):
         return DASH
     if value > 0.999:
@@ -164,41 +164,41 @@ def probability(value: Any) -> str:
 
 
 def chance(p: Any) -> str:
-    """Return a p-value as `p = 0.03`: one that is no more than rounding is said to be small, and not nothing."""
+    """Return a p-value as `p = 0.03`, or as `p < ...` where it is as small as rounding errors."""
     known = isinstance(p, int | float) and math.isfinite(p)
     return f"p < {figures(SMALLEST)}" if known and p < SMALLEST else f"p = {figures(p, 2)}"
 
 
 def interval(told: Interval | None, shown: Scale | None = None) -> str:
-    """Return `median [low, high] unit`, with as many decimals as the width of the interval deserves.
+    """Return `median [low, high] unit`, with decimals according to the width of the interval.
 
-    Where the interval is withheld the median stands alone, and says so.
+    Where the interval is withheld, the median is followed by "interval withheld".
     """
     if told is None or not math.isfinite(told.median):
         return DASH
-    factor, unit = shown or readable(told.median, told.unit)
+    factor, unit = shown or choose_scale(told.median, told.unit)
     if told.withheld:
-        return f"{figures(factor * told.median, 3)} {pretty(unit)}".rstrip() + ", interval withheld"
+        return f"{figures(factor * told.median, 3)} {format_unit(unit)}".rstrip() + ", interval withheld"
     ends = [factor * end for end in (told.median, told.low, told.high)]
     decimals = _decimals(ends[2] - ends[1], ends[0])
     median, low, high = (_signed(f"{end:.{decimals}f}") for end in ends)
-    return f"{median} [{low}, {high}] {pretty(unit)}".rstrip()
+    return f"{median} [{low}, {high}] {format_unit(unit)}".rstrip()
 
 
 def _signed(text: str) -> str:
-    """Return a number with a proper minus sign."""
+    """Return a number with a typographic minus sign."""
     return "−" + text[1:] if text.startswith("-") else text
 
 
 def _decimals(width: float, value: float) -> int:
-    """Return the decimals that show two figures of a width, or four of the value where there is no width."""
+    """Return the number of decimals for two digits of the width, or four of the value where there is no width."""
     size = width / 30 if width > 0 and math.isfinite(width) else abs(value) / 1e4
     return min(12, max(0, -math.floor(math.log10(size)) - 1)) if size > 0 else 1
 
 
 def words_of(name: str) -> str:
-    """Return the name of a parameter in words; that of a term's parameter says whose it is."""
+    """Return the name of a parameter in words; for a parameter of a term, preceded by the name of the term."""
     term, _, own = name.rpartition(".")
     mechanism, _, place = term.partition("@")
     where = f" ({place})" if place else ""
-    return f"{spoken(mechanism)}{where}: {spoken(own)}" if term else name
+    return f"{to_words(mechanism)}{where}: {to_words(own)}" if term else name

@@ -1,1 +1,1 @@
-"""A machine set in motion: a model with terms, parameters by name, and a drive."""
+"""Simulation of a machine: a model with terms, parameters by name, and a drive."""

@@ -1,4 +1,4 @@
-"""What moves a simulated machine: signals with their exact derivative, made from texts such as `harmonic:omega=40`."""
+"""Drives of a simulated machine: signals with exact derivatives, made from texts such as `harmonic:omega=40`."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from lostmotion.errors import CaseError, nearest
 
 Function = Callable[[Array], Array]
 LINES, KNOTS = 10_000, 10_000_000
-"""The most lines of a multisine, and values that noise is drawn through."""
+"""The greatest number of lines of a multisine, and of random values of noise."""
 
 
 @dataclass(frozen=True)
 class DriveSignal:
-    """A function of time (s) and its exact derivative, both of arrays; nothing in it is faster than `top` (Hz)."""
+    """A function of time (s) and its exact derivative, both of arrays; `top` (Hz) is its highest frequency."""
 
     value: Function
     slope: Function
@@ -31,20 +31,20 @@ class DriveSignal:
 
 
 def signal_of(text: str, *, duration: float, rng: np.random.Generator) -> DriveSignal:
-    """Return the signal that `kind:key=value,...` stands for; `rng` draws phases and noise."""
+    """Return the signal of a text `kind:key=value,...`; `rng` draws phases and noise."""
     kind, _, rest = text.partition(":")
     if kind not in KINDS:
         raise CaseError(f"there is no drive {kind!r}{nearest(kind, KINDS)}: the drives are {', '.join(KINDS)}")
     make, keys, defaults = KINDS[kind]
-    options = pairs(rest, f"drive {text!r}")
+    options = parse_pairs(rest, f"drive {text!r}")
     for key in options:
         if key not in keys:
             raise CaseError(f"drive {kind} has no {key!r}{nearest(key, keys)}: it has {', '.join(keys)}")
     return make(Options(kind, {**defaults, **options}), duration, rng)
 
 
-def pairs(text: str, whose: str) -> dict[str, str]:
-    """Return `key=value,key=value` as a dictionary; `whose` begins the sentence when it is something else."""
+def parse_pairs(text: str, whose: str) -> dict[str, str]:
+    """Return `key=value,key=value` as a dictionary; `whose` begins the message of the `CaseError` for another text."""
     found: dict[str, str] = {}
     for piece in filter(None, text.split(",")):
         key, equals, value = (part.strip() for part in piece.partition("="))
@@ -56,8 +56,8 @@ def pairs(text: str, whose: str) -> dict[str, str]:
     return found
 
 
-def number(text: str, whose: str) -> float:
-    """Return a finite number; `whose` begins the sentence when it is none."""
+def parse_number(text: str, whose: str) -> float:
+    """Return a finite number; raise `CaseError` with a sentence that begins with `whose` for another text."""
     try:
         value = float(text)
     except ValueError:
@@ -69,16 +69,16 @@ def number(text: str, whose: str) -> float:
 
 @dataclass(frozen=True)
 class Options:
-    """The keys of one drive, asked for as numbers."""
+    """The options of one drive, with access as numbers."""
 
     kind: str
     texts: Mapping[str, str]
 
     def number(self, key: str, *, positive: bool = False) -> float:
-        """Return the number under `key`, which must be there."""
+        """Return the number of `key`; raise `CaseError` where it is missing."""
         if key not in self.texts:
             raise CaseError(f"drive {self.kind} lacks {key}: write {self.kind}:{key}=...")
-        value = number(self.texts[key], f"{key} of drive {self.kind}")
+        value = parse_number(self.texts[key], f"{key} of drive {self.kind}")
         if positive and value <= 0.0:
             raise CaseError(f"{key} of drive {self.kind} is {value:g}: wanted more than zero")
         return value
@@ -86,7 +86,7 @@ class Options:
     def shares(self) -> list[float]:
         """Return the amplitudes of the second, third, ... harmonic as shares of the first."""
         text = self.texts["harmonics"]
-        return [number(part, f"harmonics of drive {self.kind}") for part in text.split("/") if part]
+        return [parse_number(part, f"harmonics of drive {self.kind}") for part in text.split("/") if part]
 
     def omega(self) -> float:
         """Return the angular frequency (rad/s), given as `omega` or as `frequency` (Hz)."""
@@ -101,11 +101,11 @@ class Options:
         """Return `low` and `high` (Hz), in this order."""
         low, high = self.number("low", positive=True), self.number("high", positive=True)
         if low >= high:
-            raise CaseError(f"drive {self.kind} has low = {low:g} and high = {high:g}: low must lie below high")
+            raise CaseError(f"drive {self.kind} has low = {low:g} and high = {high:g}: low must be below high")
         return low, high
 
 
-def _waves(waves: Sequence[tuple[float, float, float]]) -> DriveSignal:
+def _sum_waves(waves: Sequence[tuple[float, float, float]]) -> DriveSignal:
     """Return the sum of `amplitude * cos(omega t + phase)`."""
     return DriveSignal(
         lambda t: sum((a * np.cos(w * t + f) for a, w, f in waves), np.zeros(len(t))),
@@ -114,14 +114,14 @@ def _waves(waves: Sequence[tuple[float, float, float]]) -> DriveSignal:
     )
 
 
-def _harmonic(options: Options, duration: float, rng: np.random.Generator) -> DriveSignal:
-    """Return amplitude * cos(omega t + phase) with shares of its harmonics, all with a crest at the same time."""
+def _make_harmonic(options: Options, duration: float, rng: np.random.Generator) -> DriveSignal:
+    """Return amplitude * cos(omega t + phase) with shares of its harmonics, all with a maximum at the same time."""
     amplitude, omega, phase = options.number("amplitude"), options.omega(), options.number("phase")
-    return _waves([(amplitude * s, n * omega, n * phase) for n, s in enumerate([1.0, *options.shares()], start=1)])
+    return _sum_waves([(amplitude * s, n * omega, n * phase) for n, s in enumerate([1.0, *options.shares()], start=1)])
 
 
-def _sweep(options: Options, duration: float, rng: np.random.Generator) -> DriveSignal:
-    """Return a sine whose frequency goes evenly from `start` to `stop` (Hz) over the whole time."""
+def _make_sweep(options: Options, duration: float, rng: np.random.Generator) -> DriveSignal:
+    """Return a sine whose frequency changes linearly from `start` to `stop` (Hz) over the duration."""
     amplitude = options.number("amplitude")
     first, last = (2.0 * math.pi * options.number(key, positive=True) for key in ("start", "stop"))
     pace = (last - first) / duration
@@ -132,19 +132,19 @@ def _sweep(options: Options, duration: float, rng: np.random.Generator) -> Drive
     )
 
 
-def _multisine(options: Options, duration: float, rng: np.random.Generator) -> DriveSignal:
-    """Return equal lines from `low` to `high` (Hz) with random phases."""
+def _make_multisine(options: Options, duration: float, rng: np.random.Generator) -> DriveSignal:
+    """Return lines of equal amplitude from `low` to `high` (Hz) with random phases."""
     rms, lines = options.number("rms"), options.number("lines", positive=True)
     if lines != round(lines) or lines > LINES:
         raise CaseError(f"lines of drive multisine is {lines:g}: wanted a whole number up to {LINES}")
     omegas = 2.0 * math.pi * np.linspace(*options.band(), round(lines))
     phases = rng.uniform(0.0, 2.0 * math.pi, len(omegas))
     amplitude = rms * math.sqrt(2.0 / len(omegas))
-    return _waves([(amplitude, w, f) for w, f in zip(omegas.tolist(), phases.tolist(), strict=True)])
+    return _sum_waves([(amplitude, w, f) for w, f in zip(omegas.tolist(), phases.tolist(), strict=True)])
 
 
-def _step(options: Options, duration: float, rng: np.random.Generator) -> DriveSignal:
-    """Return zero, then `size` from the time `at` (s) on; it rises within `rise` (s) with a smooth acceleration."""
+def _make_step(options: Options, duration: float, rng: np.random.Generator) -> DriveSignal:
+    """Return a step of `size` at the time `at` (s), which rises smoothly within `rise` (s)."""
     size, at, rise = options.number("size"), options.number("at"), options.number("rise", positive=True)
 
     def share(t: Array) -> Array:
@@ -157,8 +157,8 @@ def _step(options: Options, duration: float, rng: np.random.Generator) -> DriveS
     )
 
 
-def _noise(options: Options, duration: float, rng: np.random.Generator) -> DriveSignal:
-    """Return a spline through normal values, so that little lies above `bandwidth` (Hz)."""
+def _make_noise(options: Options, duration: float, rng: np.random.Generator) -> DriveSignal:
+    """Return a spline through normal random values, with little power above `bandwidth` (Hz)."""
     rms, bandwidth = options.number("rms"), options.number("bandwidth", positive=True)
     if 2.0 * bandwidth * duration > KNOTS:
         raise CaseError(f"drive noise up to {bandwidth:g} Hz for {duration:g} s is too long: lower the bandwidth")
@@ -170,10 +170,14 @@ def _noise(options: Options, duration: float, rng: np.random.Generator) -> Drive
 
 Maker = Callable[[Options, float, np.random.Generator], DriveSignal]
 KINDS: Mapping[str, tuple[Maker, tuple[str, ...], Mapping[str, str]]] = {
-    "harmonic": (_harmonic, ("amplitude", "omega", "frequency", "phase", "harmonics"), {"phase": "0", "harmonics": ""}),
-    "sweep": (_sweep, ("amplitude", "start", "stop"), {}),
-    "multisine": (_multisine, ("rms", "low", "high", "lines"), {"lines": "20"}),
-    "step": (_step, ("size", "at", "rise"), {"at": "0", "rise": "0.01"}),
-    "noise": (_noise, ("rms", "bandwidth"), {}),
+    "harmonic": (
+        _make_harmonic,
+        ("amplitude", "omega", "frequency", "phase", "harmonics"),
+        {"phase": "0", "harmonics": ""},
+    ),
+    "sweep": (_make_sweep, ("amplitude", "start", "stop"), {}),
+    "multisine": (_make_multisine, ("rms", "low", "high", "lines"), {"lines": "20"}),
+    "step": (_make_step, ("size", "at", "rise"), {"at": "0", "rise": "0.01"}),
+    "noise": (_make_noise, ("rms", "bandwidth"), {}),
 }
-"""For each drive: what makes it, the keys it has, and the values of those that need not be given."""
+"""For each kind of drive: its function, its keys, and the default values of optional keys."""

@@ -1,4 +1,4 @@
-"""A machine set in motion: a model with terms, parameters by name, a drive, and what its sensors would show."""
+"""Simulation of a machine: a model with terms, parameters by name, a drive, and the readings of its sensors."""
 
 from __future__ import annotations
 
@@ -18,29 +18,29 @@ from lostmotion.likelihood.drive import SILENT, Drive, DriveHarmonic
 from lostmotion.likelihood.motion import compute_derivatives
 from lostmotion.likelihood.observation import Observation, find_harmonic
 from lostmotion.likelihood.system import Clock, Slot, System, key_of
-from lostmotion.preparation.vetting import sound
+from lostmotion.preparation.vetting import make_plugin
 from lostmotion.provenance import provenance
 from lostmotion.quantities import unit_of
 from lostmotion.registry import Registry
-from lostmotion.simulation.drives import DriveSignal, number, pairs, signal_of
+from lostmotion.simulation.drives import DriveSignal, parse_number, parse_pairs, signal_of
 from lostmotion.storage import save_table
 
 ACCURACY = 0.02
-"""Step times fastest rate: 300 steps a cycle. At a kink the method is of first order, whatever the step."""
+"""Step times fastest rate: 300 steps per cycle. At a kink the method is of first order for any step."""
 FEWEST, LARGEST = 4, 10_000_000
-"""Steps between samples at least, and steps in all at most, which is what a gigabyte holds."""
+"""The least number of steps between samples, and the greatest number in total, which needs a gigabyte."""
 PROBES = 200
 HUGE = 1e150
-"""What no input and no channel reaches: its square would be infinite."""
+"""The limit of inputs and channels: the square of a larger number would be infinite."""
 
 
 @dataclass(frozen=True)
 class Plan:
-    """What is to be simulated; `duration` in s, `rate` in Hz, everything else in the units of the model.
+    """The description of a simulation; `duration` in s, `rate` in Hz, everything else in the units of the model.
 
     `values` and `initial` name parameters (`c`, `coulomb_friction@base.force`) and states. Several `drives` add up.
     `noise` is the standard deviation of white noise on each channel, as a share of that of the channel. `origins` are
-    the digests or versions of the plugins of other people that take part.
+    the digests or versions of the third-party plugins that are used.
     """
 
     assembly: Assembly
@@ -56,7 +56,7 @@ class Plan:
 
 @dataclass(frozen=True)
 class SimulatedTable:
-    """Columns (samples,) by name: `time`, the inputs, the channels; with their units and where they come from."""
+    """Columns (samples,) by name: `time`, the inputs, the channels; with units and provenance."""
 
     columns: Mapping[str, Array]
     units: Mapping[str, str]
@@ -64,12 +64,12 @@ class SimulatedTable:
     nsub: int
 
     def save(self, path: Path) -> None:
-        """Write a .csv or .nc file, whole or not at all."""
+        """Write a .csv or .nc file atomically."""
         save_table(path, self.columns, self.units, self.attrs)
 
 
 @dataclass(frozen=True, eq=False)
-class Moved:
+class FreeMotion:
     """A free motion: `times` (samples,) in s, `inputs` (samples, inputs), the `channels` (samples,) by name."""
 
     system: System
@@ -80,26 +80,26 @@ class Moved:
     nsub: int
 
 
-def set_in_motion(
+def run_free_motion(
     assembly: Assembly,
     values: Mapping[str, float],
     columns: Sequence[Callable[[Array], Array]],
     samples: int,
     rate: float,
     initial: Mapping[str, float],
-) -> Moved:
+) -> FreeMotion:
     """Return the free motion of a model with its terms; `columns` are the first inputs of the model over time (s).
 
-    Raises `CaseError` where it leaves all bounds or asks for too many steps.
+    Raises `CaseError` where the motion diverges or needs too many steps.
     """
     system = System.of(assembly)
-    full, y0 = _parameters(system, values), _initial(assembly.model, initial)
+    full, y0 = _make_parameters(system, values), _make_initial(assembly.model, initial)
     times = np.arange(samples) / rate
     inputs = np.stack([column(times) for column in columns], axis=1)
     if not np.abs(inputs).max() < HUGE:
         raise CaseError(f"the drive reaches {np.abs(inputs).max():.3g}: check its unit")
-    nsub = _substeps(system, full, y0, inputs, 1.0 / rate)
-    acting, harmonic = _acting(system, full, columns, inputs, 1.0 / rate)
+    nsub = _choose_substeps(system, full, y0, inputs, 1.0 / rate)
+    acting, harmonic = _acting_inputs(system, full, columns, inputs, 1.0 / rate)
     motion = system.moved(full, y0, acting, Clock(1.0 / rate, nsub, samples), harmonic)
     acts = np.stack([column(times) for column in acting], axis=1)
     packed = system.pack(full[None], 1.0 / (rate * nsub), harmonic)
@@ -107,21 +107,21 @@ def set_in_motion(
     channels = dict(zip(assembly.model.channels, seen.T, strict=True))
     if motion.finite < samples or not all(np.abs(x).max() < HUGE for x in channels.values()):
         raise CaseError(
-            f"the motion left all bounds after {motion.finite / rate:.4g} s of {samples / rate:g} s:"
+            f"the motion diverged after {motion.finite / rate:.4g} s of {samples / rate:g} s:"
             " check the signs and sizes of the parameters"
         )
-    return Moved(system, full, times, inputs, channels, nsub)
+    return FreeMotion(system, full, times, inputs, channels, nsub)
 
 
 def simulate(plan: Plan) -> SimulatedTable:
     """Return the simulated columns of `plan`, sampled at 0, 1/rate, ... up to but not including `duration`."""
-    samples = _samples(plan)
-    signals = _inputs(plan)
+    samples = _count_samples(plan)
+    signals = _make_inputs(plan)
     columns = [signal.value for signal in signals]
-    moved = set_in_motion(plan.assembly, plan.values, columns, samples, plan.rate, plan.initial)
+    moved = run_free_motion(plan.assembly, plan.values, columns, samples, plan.rate, plan.initial)
     shown = dict(zip(plan.assembly.model.driven, moved.inputs.T, strict=True))
-    shown |= _shown(moved.system, moved.full, _noisy(moved.channels, plan), plan)
-    return _table(plan, {"time": moved.times, **shown}, moved.nsub)
+    shown |= _apply_sensors(moved.system, moved.full, _add_noise(moved.channels, plan), plan)
+    return _make_table(plan, {"time": moved.times, **shown}, moved.nsub)
 
 
 def assembly_of(
@@ -129,22 +129,22 @@ def assembly_of(
 ) -> tuple[Assembly, dict[str, float]]:
     """Return model plus terms, and the parameters given with the terms, from `NAME[@PLACE][:param=value,...]`.
 
-    `motion` is "translation" or "rotation"; without it the model is as it comes.
+    `motion` is "translation" or "rotation"; by default the model is not changed.
     """
-    made: Model = sound(registry, "model", model)
+    made: Model = make_plugin(registry, "model", model)
     assembly, values = Assembly(made.turned(motion) if motion else made), {}
     for text in terms:
         head, _, rest = text.partition(":")
         name, _, place = head.partition("@")
-        term = sound(registry, "term", name, **({"at": place} if place else {}))
+        term = make_plugin(registry, "term", name, **({"at": place} if place else {}))
         assembly = assembly + term
-        for key, value in pairs(rest, f"term {text!r}").items():
-            values[f"{key_of(term)}.{_own(term, key)}"] = number(value, f"{key} of {name}")
+        for key, value in parse_pairs(rest, f"term {text!r}").items():
+            values[f"{key_of(term)}.{_own_parameter(term, key)}"] = parse_number(value, f"{key} of {name}")
     return assembly, values
 
 
-def _own(term: Term, key: str) -> str:
-    """Return the name of a term's parameter from its name or an alias."""
+def _own_parameter(term: Term, key: str) -> str:
+    """Return the name of a parameter of a term, given its name or an alias."""
     for q in term.params:
         if key in (q.name, *q.aliases):
             return q.name
@@ -152,8 +152,8 @@ def _own(term: Term, key: str) -> str:
     raise CaseError(f"{term.name} has no parameter {key!r}{nearest(key, known)}: it has {', '.join(known)}")
 
 
-def _samples(plan: Plan) -> int:
-    """Return the number of samples, having looked at the numbers of the plan."""
+def _count_samples(plan: Plan) -> int:
+    """Return the number of samples after a check of the numbers in the plan."""
     for what, value in (("duration", plan.duration), ("rate", plan.rate)):
         if not (0.0 < value < math.inf):
             raise CaseError(f"the {what} is {value:g}: wanted a finite number above zero")
@@ -167,10 +167,10 @@ def _samples(plan: Plan) -> int:
     return round(samples)
 
 
-def _parameters(system: System, values: Mapping[str, float]) -> Array:
-    """Return the full parameter vector; what must be given and is not is named with its unit."""
+def _make_parameters(system: System, values: Mapping[str, float]) -> Array:
+    """Return the full parameter vector; raise `CaseError` that names missing parameters with their units."""
     given = {system.slot(name).key: value for name, value in values.items()}
-    lacking = [slot for slot in system.slots if slot.key not in given and _needed(slot)]
+    lacking = [slot for slot in system.slots if slot.key not in given and _is_required(slot)]
     if lacking:
         names = ", ".join(f"{slot.key} ({slot.param.meaning}, {slot.unit})" for slot in lacking)
         raise CaseError(f"{system.model.name} lacks {names}: add --set {lacking[0].key}=...")
@@ -180,8 +180,8 @@ def _parameters(system: System, values: Mapping[str, float]) -> Array:
     return system.vector(given)
 
 
-def _needed(slot: Slot) -> bool:
-    """Return whether a parameter must be given: all of a term; of a model, those that are not simply absent at zero."""
+def _is_required(slot: Slot) -> bool:
+    """Return whether a parameter must be given: each one of a term, and those of a model that cannot be zero."""
     return slot.term is not None or slot.param.scale == "log" or slot.param.low > 0.0
 
 
@@ -193,8 +193,8 @@ def _require_bounds(slot: Slot, value: float | None, inertia: bool) -> None:
     raise CaseError(f"{slot.key} ({q.meaning}) is {value:g}: wanted a value {wanted} {slot.unit}")
 
 
-def _initial(model: Model, initial: Mapping[str, float]) -> Array:
-    """Return the state to start from: zero where nothing is given."""
+def _make_initial(model: Model, initial: Mapping[str, float]) -> Array:
+    """Return the initial state, zero where no value is given."""
     states = model.states
     for name in initial:
         if name not in states:
@@ -202,7 +202,7 @@ def _initial(model: Model, initial: Mapping[str, float]) -> Array:
     return np.array([float(initial.get(name, 0.0)) for name in states])
 
 
-def _inputs(plan: Plan) -> list[DriveSignal]:
+def _make_inputs(plan: Plan) -> list[DriveSignal]:
     """Return a signal for each driven input of the model: the drive itself, and its derivative for a base velocity."""
     model = plan.assembly.model
     if not plan.drives:
@@ -212,27 +212,27 @@ def _inputs(plan: Plan) -> list[DriveSignal]:
     total = functools.reduce(operator.add, parts)
     if total.top > 0.5 * plan.rate:
         raise CaseError(
-            f"the drive reaches {total.top:.4g} Hz, of which {plan.rate:g} samples per second show nothing:"
+            f"the drive reaches {total.top:.4g} Hz, which {plan.rate:g} samples per second cannot show:"
             f" wanted a rate above {2.0 * total.top:.4g} Hz, or a slower drive"
         )
     slope = DriveSignal(total.slope, total.slope, total.top)
     return [slope if name == "base_velocity" else total for name in model.driven]
 
 
-def _acting(
+def _acting_inputs(
     system: System, full: Array, columns: Sequence[Callable[[Array], Array]], inputs: Array, dt: float
 ) -> tuple[list[Callable[[Array], Array]], DriveHarmonic]:
-    """Return the inputs that act, as functions of time, where terms stand between them and what is recorded.
+    """Return the acting inputs as functions of time, which drive terms derive from the recorded inputs.
 
-    The tone is what a diagnosis would read off the recorded samples.
+    The harmonic is the one that a diagnosis would find in the recorded samples.
     """
     harmonic = find_harmonic(Observation.of("drive", np.zeros(len(inputs)), inputs, dt, ""))
     acting = system.acting(columns, full, system.list_input_terms(system.everything), harmonic)
     return [there or recorded for there, recorded in zip(acting, columns, strict=True)], harmonic
 
 
-def _shown(system: System, full: Array, channels: Mapping[str, Array], plan: Plan) -> dict[str, Array]:
-    """Return what the sensors store: the first channel, with what the terms of a sensor make of it."""
+def _apply_sensors(system: System, full: Array, channels: Mapping[str, Array], plan: Plan) -> dict[str, Array]:
+    """Return the stored readings: the channels, with the effects of sensor terms on the first one."""
     shown, first = dict(channels), plan.assembly.model.channels[0]
     gain = system.gain(full, system.everything)
     shown[first] = gain * shown[first]
@@ -244,10 +244,10 @@ def _shown(system: System, full: Array, channels: Mapping[str, Array], plan: Pla
     return shown
 
 
-def _substeps(system: System, full: Array, y0: Array, recorded: Array, dt: float) -> int:
-    """Return the steps between samples, from the fastest rate met in a coarse run, or refuse what would take too many.
+def _choose_substeps(system: System, full: Array, y0: Array, recorded: Array, dt: float) -> int:
+    """Return the number of steps between samples from the fastest rate in a coarse run; `CaseError` for too many.
 
-    The coarse run may be unstable; it then still reaches the contacts, and they are what is fast.
+    The coarse run may be unstable; it then still reaches the contacts, which have the fastest rates.
     """
     n, samples = len(system.model.states), len(recorded)
     motion = system.simulate(full, system.everything, y0, Drive.held(recorded, dt), FEWEST)
@@ -255,22 +255,22 @@ def _substeps(system: System, full: Array, y0: Array, recorded: Array, dt: float
     rate = system.find_fastest_rate(full, system.everything, motion.states[picked, :n], recorded[picked])
     asked = rate * dt / ACCURACY
     if not asked * samples <= LARGEST:
-        after = f"left all bounds after {motion.finite * dt:.4g} s, or " * (motion.finite < samples)
+        after = f"diverged after {motion.finite * dt:.4g} s, or " * (motion.finite < samples)
         raise CaseError(
-            f"the motion {after}is too stiff: {rate:.3g} rad/s ask for {asked:.3g} steps between samples, and {LARGEST}"
-            " in all are taken at most; check signs and sizes of the parameters, or shorten the duration"
+            f"the motion {after}is too stiff: {rate:.3g} rad/s ask for {asked:.3g} steps between samples, and at most"
+            f" {LARGEST} in total are allowed; check signs and sizes of the parameters, or shorten the duration"
         )
     return max(FEWEST, math.ceil(asked))
 
 
-def _noisy(channels: Mapping[str, Array], plan: Plan) -> dict[str, Array]:
-    """Return the channels with white noise on each; the noise of a channel does not depend on the others."""
+def _add_noise(channels: Mapping[str, Array], plan: Plan) -> dict[str, Array]:
+    """Return the channels with white noise; the noise of a channel does not depend on the other channels."""
     streams = np.random.default_rng(np.random.SeedSequence(plan.seed, spawn_key=(1,))).spawn(len(channels))
     both = zip(channels.items(), streams, strict=True)
     return {name: x + plan.noise * x.std() * rng.standard_normal(len(x)) for (name, x), rng in both}
 
 
-def _table(plan: Plan, columns: Mapping[str, Array], nsub: int) -> SimulatedTable:
+def _make_table(plan: Plan, columns: Mapping[str, Array], nsub: int) -> SimulatedTable:
     model = plan.assembly.model
     settings = {
         "values": dict(plan.values), "initial": dict(plan.initial), "drives": list(plan.drives),
@@ -285,11 +285,11 @@ def _table(plan: Plan, columns: Mapping[str, Array], nsub: int) -> SimulatedTabl
         "title": plan.assembly.label,
         "provenance": json.dumps(made, sort_keys=True),
     }
-    return SimulatedTable(columns, {name: _unit(name, model) for name in columns}, attrs, nsub)
+    return SimulatedTable(columns, {name: _unit_of(name, model) for name in columns}, attrs, nsub)
 
 
-def _unit(name: str, model: Model) -> str:
-    """Return the SI unit of a column; of one that nobody knows, "1"."""
+def _unit_of(name: str, model: Model) -> str:
+    """Return the SI unit of a column, or "1" for an unknown one."""
     try:
         return "s" if name == "time" else unit_of(name, model.motion)
     except DataError:

@@ -11,11 +11,12 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from lostmotion.report import style
-from lostmotion.report.words import readable, with_unit
+from lostmotion.report.words import choose_scale, with_unit
 from lostmotion.results import Array
 from lostmotion_trials.coverage.results import BarBand, CurveBand, ParameterCheck
 
 PANELS_ACROSS = 3
+"""Panels in a row of a figure."""
 DECADE = 4.0
 """Ratio of largest to smallest truth from which the axis is logarithmic."""
 FRAME_SDS = 5.0
@@ -50,7 +51,7 @@ def _make_panels(found: Sequence[Found], height: float, across: int = PANELS_ACR
     """Return a figure with a panel for each parameter, titled with its name."""
     wide = min(across, len(found))
     rows = -(-len(found) // wide)
-    figure = style.blank(height * rows + 0.2)
+    figure = style.make_figure(height * rows + 0.2)
     panels = list(figure.subplots(rows, wide, squeeze=False).flat)
     for axes in panels[len(found) :]:
         axes.remove()
@@ -115,7 +116,7 @@ def draw_intervals(found: Sequence[Found]) -> Figure:
 def _draw_intervals(axes: Axes, one: Found) -> None:
     kept = np.isfinite(one.columns["median"])
     truth, low, median, high, sd = (one.columns[k][kept] for k in ("truth", "low", "median", "high", "sd"))
-    scale = readable(float(np.median(np.abs(truth))), one.row.unit)
+    scale = choose_scale(float(np.median(np.abs(truth))), one.row.unit)
     down, middle, up = ((x - truth) / sd for x in (low, median, high))
     missed = (down > 0.0) | (up < 0.0)
     place = scale.factor * truth if np.ptp(truth) else np.arange(len(truth), dtype=float)

@@ -15,8 +15,8 @@ from lostmotion.codec import from_plain, to_plain
 from lostmotion.contracts import Array
 from lostmotion.errors import DataError
 from lostmotion.report import style
-from lostmotion.report.pages import DrawnSection, template, written
-from lostmotion.report.words import DASH, figures, pretty, readable, sentence, spoken, words_of
+from lostmotion.report.pages import DrawnSection, load_template, write_page
+from lostmotion.report.words import DASH, choose_scale, figures, format_unit, sentence, to_words, words_of
 from lostmotion.storage import load_json, require_files
 from lostmotion_trials.coverage.figures import CAPTIONS, Found, draw_ecdf, draw_histograms, draw_intervals
 from lostmotion_trials.coverage.results import (
@@ -55,13 +55,13 @@ class Calibration:
 def _format_name(name: str) -> str:
     """Return the name of a parameter in words, followed by that of its recording."""
     own, bracket, rest = name.partition("[")
-    return (words_of(own) if "." in own else spoken(own)) + bracket + rest
+    return (words_of(own) if "." in own else to_words(own)) + bracket + rest
 
 
 def write_calibration(folder: Path) -> Path:
     """Return the path of `report.html`, written from `calibration.json` and `machines.csv` in the folder."""
     calibration = read_calibration(folder)
-    return written(folder / "report.html", lambda: render(calibration), AGAIN)
+    return write_page(folder / "report.html", lambda: render(calibration), AGAIN)
 
 
 def read_calibration(folder: Path) -> Calibration:
@@ -85,12 +85,12 @@ def _read_numbers(cells: tuple[str, ...]) -> Array:
 def render(calibration: Calibration) -> str:
     """Return the page as one self-contained HTML text."""
     facts, summary = calibration.facts, calibration.summary
-    with style.applied():
+    with style.use_style():
         drawn = [
-            DrawnSection(name, title, style.embedded(figure, name), said)
+            DrawnSection(name, title, style.embed_figure(figure, name), said)
             for name, title, figure, said in _list_figures(calibration)
         ]
-    return template("page.html.j2", __package__).render(
+    return load_template("page.html.j2", __package__).render(
         title=facts.title,
         model=facts.model,
         passes=summary.passes,
@@ -155,8 +155,10 @@ def _format_coverage(one: Coverage, *, drawn: bool) -> tuple[str, bool]:
 
 
 def _format_hardest(one: HardMachine) -> list[str]:
-    scale = readable(one.truth, one.unit)
-    truth, median = (f"{figures(scale.factor * x, 6)} {pretty(scale.unit)}".rstrip() for x in (one.truth, one.median))
+    scale = choose_scale(one.truth, one.unit)
+    truth, median = (
+        f"{figures(scale.factor * x, 6)} {format_unit(scale.unit)}".rstrip() for x in (one.truth, one.median)
+    )
     return [str(one.machine), _format_name(one.parameter), truth, median, figures(one.z) or DASH]
 
 

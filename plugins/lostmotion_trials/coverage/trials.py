@@ -21,7 +21,7 @@ from lostmotion.identification.sampling import SampledPosterior, identify
 from lostmotion.identification.trajectory import choose_terms, sample_case
 from lostmotion.preparation.prepare import case_of, prepare
 from lostmotion.quantities import ANGULAR, SI, unit_of
-from lostmotion.simulation.drives import Options, pairs
+from lostmotion.simulation.drives import Options, parse_pairs
 from lostmotion.storage import save_table
 from lostmotion_trials.coverage.design import Design, DrawnMachine, Workshop, make_workshop
 from lostmotion_trials.coverage.machines import SeenMachine
@@ -111,7 +111,7 @@ def make_maps(shop: Workshop, out: Path, jobs: int) -> tuple[Path, ...]:
 def _read_harmonic(drive: str) -> tuple[float, float]:
     """Return amplitude and angular frequency (rad/s) of a drive, which must be a plain sine."""
     kind, _, rest = drive.partition(":")
-    options = Options(kind, {"harmonics": "", **pairs(rest, f"drive {drive!r}")})
+    options = Options(kind, {"harmonics": "", **parse_pairs(rest, f"drive {drive!r}")})
     if kind != "harmonic" or options.shares():
         raise CaseError(
             f"the drive {drive!r} is no sine: the route by quantifiers wants harmonic:amplitude=...,omega=..."

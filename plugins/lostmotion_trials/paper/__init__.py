@@ -1,1 +1,1 @@
-"""The figures and tables of Tjahjowidodo, Al-Bender and Van Brussel (2007) from runs of our own."""
+"""Reproduces the figures and tables of Tjahjowidodo, Al-Bender and Van Brussel (2007) with our own simulations."""

@@ -1,4 +1,4 @@
-"""The experimental chain on a recording: delay and dimension, correlation sums against surrogates, cleaning."""
+"""The experimental analysis chain of the paper: embedding, correlation sums, surrogates, noise reduction."""
 
 from __future__ import annotations
 
@@ -14,9 +14,11 @@ from lostmotion.contracts import Array, Series
 from lostmotion_trials.paper.lab import Lab
 
 DIMS = 8
+"""Largest embedding dimension of the correlation sums."""
 SHARES = (1e-4, 3e-3)
-"""Shares of pairs between which a slope is taken, in every dimension, of recording and surrogates alike."""
+"""Shares of pairs between which the slope is measured; the same in every dimension, for recording and surrogates."""
 SIGMAS = 3.0
+"""Standard deviations of the surrogates beyond which a recording differs from them: the criterion of the paper."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,30 +31,25 @@ class Slopes:
     spread: Array
 
     @property
-    def apart(self) -> Array:
-        """How many standard deviations (dims,) the recording lies below its surrogates."""
+    def separation(self) -> Array:
+        """Return by how many standard deviations (dims,) the recording lies below its surrogates."""
         return np.asarray((self.mean - self.recorded) / np.maximum(self.spread, 1e-3))
 
     @property
     def differs(self) -> bool:
-        """Whether it lies more than three of them away at most of the dimensions above 2."""
-        return bool(np.mean(np.abs(self.apart[2:]) > SIGMAS) > 0.5)
-
-    @property
-    def rise(self) -> float:
-        """What the last dimension adds to the slope of the recording."""
-        return float(self.recorded[-1] - self.recorded[-2])
+        """Return whether the separation exceeds three standard deviations at most of the dimensions above 2."""
+        return bool(np.mean(np.abs(self.separation[2:]) > SIGMAS) > 0.5)
 
 
-def unfolded(lab: Lab, x: Array, dt: float, period: float) -> Series:
-    """Return a recording with delay and dimension by mutual information and Cao's method."""
+def embed_recording(lab: Lab, x: Array, dt: float, period: float) -> Series:
+    """Return a recording embedded with the delay from mutual information and the dimension from Cao's method."""
     return embed(x, lab.make("embedder", "ami_cao"), dt=dt, period=period)
 
 
-def first_minimum(curves: Mapping[str, Array], within: float) -> float:
-    """Return the first lag (s) whose mutual information is the least of all lags up to `within` s away from it.
+def find_first_minimum(curves: Mapping[str, Array], within: float) -> float:
+    """Return the first lag (s) whose mutual information is the lowest of all lags within `within` s of it.
 
-    Shallower minima are ripples of the bins. It is NaN where there is none.
+    Local minima on a shorter scale are ripples caused by the bins. The result is NaN if there is no such lag.
     """
     lag, ami = curves["lag"], curves["ami"]
     reach = max(round(within / float(lag[1] - lag[0])), 1)
@@ -62,17 +59,17 @@ def first_minimum(curves: Mapping[str, Array], within: float) -> float:
     return math.nan
 
 
-def slopes(lab: Lab, series: Series, draws: int, stream: str) -> Slopes:
+def measure_slopes(lab: Lab, series: Series, draws: int, stream: str) -> Slopes:
     """Return the slopes of a recording and of its Fourier surrogates, the null hypothesis of the paper."""
-    surrogate, rng = lab.make("surrogate", "fourier"), lab.rng(stream)
+    surrogate, rng = lab.make("surrogate", "fourier"), lab.make_rng(stream)
     drawn = surrogate.draw(series, draws=draws, rng=rng)
     part = surrogate.piece(series)
-    values = np.array([_slope(lab, replace(series, x=x), rng) for x in (series.x[part], *drawn)])
+    values = np.array([_measure_slope(lab, replace(series, x=x), rng) for x in (series.x[part], *drawn)])
     return Slopes(np.arange(1.0, DIMS + 1.0), values[0], values[1:].mean(axis=0), values[1:].std(axis=0, ddof=1))
 
 
-def _slope(lab: Lab, series: Series, rng: np.random.Generator) -> Array:
-    """Return the slope (dims,) between two shares of pairs."""
+def _measure_slope(lab: Lab, series: Series, rng: np.random.Generator) -> Array:
+    """Return the slope (dims,) of the log correlation sum over log radius between the two shares of pairs."""
     method = lab.make("quantifier", "correlation_dimension", dims=DIMS, pairs=lab.pick(20_000_000, 6_000_000))
     curve = quantify(series, method, rng=rng).curve
     found = np.full(DIMS, math.nan)
@@ -87,11 +84,11 @@ def _slope(lab: Lab, series: Series, rng: np.random.Generator) -> Array:
     return found
 
 
-def cleaned(lab: Lab, series: Series, noise: float) -> Array:
-    """Return the recording (n,) behind simple non-linear noise reduction; `noise` in the unit of x."""
-    return np.asarray(lab.make("denoiser", "simple_nonlinear").clean(series, noise=noise, rng=lab.rng("clean")))
+def clean_recording(lab: Lab, series: Series, noise: float) -> Array:
+    """Return the recording (n,) after simple non-linear noise reduction; `noise` is in the unit of x."""
+    return np.asarray(lab.make("denoiser", "simple_nonlinear").clean(series, noise=noise, rng=lab.make_rng("clean")))
 
 
-def size(x: Array) -> float:
+def compute_std(x: Array) -> float:
     """Return the standard deviation of x."""
     return float(np.std(x))

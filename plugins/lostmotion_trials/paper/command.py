@@ -1,4 +1,4 @@
-"""`lostmotion reproduce`: the figures and tables of the paper, from runs of our own."""
+"""`lostmotion reproduce`: the figures and tables of the paper from our own simulations."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from lostmotion.cli.progress import show_progress
     required=True,
     metavar="DIR",
     type=click.Path(file_okay=False, path_type=Path),
-    help="Where figures, tables and the page go.",
+    help="Directory for figures, tables and the page.",
 )
 @click.option("--quick", is_flag=True, help="Shorter runs and coarser sweeps, within two minutes.")
 @click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="The same seed, the same numbers.")
@@ -30,15 +30,16 @@ from lostmotion.cli.progress import show_progress
 @click.option("--quiet", is_flag=True, help="Show no progress.")
 @click.pass_context
 def command(ctx: click.Context, /, names: tuple[str, ...], out: Path, quiet: bool, **asked: object) -> None:
-    """Redo the paper of Tjahjowidodo, Al-Bender and Van Brussel (2007): figures 3 to 23, tables 1 and 2, and more.
+    """Reproduce the paper of Tjahjowidodo, Al-Bender and Van Brussel (2007): figures 3 to 23, tables 1 and 2, and more.
 
-    Each figure comes with a sentence: reproduced, reproduced in part, or not, and why. Writes PNG and PDF, tables as
-    CSV and Markdown, reproduce.json with the key figures, and index.html with all of it into DIR. Exit status 0 when
-    the work has finished, whatever the sentences say; 2 for a name that does not exist or a DIR that cannot be used.
+    Each figure has a verdict (reproduced, reproduced in part, not reproduced) and a sentence with the reason. Writes
+    PNG and PDF, tables as CSV and Markdown, reproduce.json with the key figures, and index.html with everything into
+    DIR. Exit status 0 when the work has finished, whatever the verdicts are; 2 for a name that does not exist or a DIR
+    that cannot be used.
     """
-    from lostmotion_trials.paper.run import laboratory, reproduce
+    from lostmotion_trials.paper.run import make_laboratory, reproduce
 
-    lab = laboratory(registry_of(ctx), **asked)  # type: ignore[arg-type]
+    lab = make_laboratory(registry_of(ctx), **asked)  # type: ignore[arg-type]
     with show_progress("reproduce", quiet=quiet) as say:
         content = reproduce(names, out, lab, say)
     for name, item in content.items.items():

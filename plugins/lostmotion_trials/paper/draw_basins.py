@@ -1,4 +1,4 @@
-"""Basins of attraction and sections coloured by density."""
+"""Draws basins of attraction and sections coloured by density."""
 
 from __future__ import annotations
 
@@ -12,13 +12,14 @@ from matplotlib.patches import Patch
 
 from lostmotion.report import style
 from lostmotion_trials.paper.drawings import Basin, BasinsDrawing, VisitsDrawing
-from lostmotion_trials.paper.style import letter, panels
+from lostmotion_trials.paper.style import letter_panels, make_panels
 
 BASINS = ("#0b3954", "#e0a458", "#5f9ea0", "#b23a48", "#c9d6df", "#6a4c93", "#8ab17d", "#f4e285")
 CHAOS = "#1a1a1a"
 
 
-def _basin(axes: Axes, data: Basin) -> None:
+def _draw_basin(axes: Axes, data: Basin) -> None:
+    """Draw the attractor of each start as a colour, with a legend."""
     labels = data.labels
     most = len(BASINS)
     chaos = [name.startswith("chaos") for name in labels[:most]]
@@ -35,18 +36,18 @@ def _basin(axes: Axes, data: Basin) -> None:
     axes.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.13), ncols=2, fontsize=8.5)
 
 
-def basins(data: BasinsDrawing) -> Figure:
-    """Return the basins of Cases 2 and 3."""
-    figure, axes = panels(1, 2, 5.6)
+def draw_basins(data: BasinsDrawing) -> Figure:
+    """Return the figure with the basins of Cases 2 and 3."""
+    figure, axes = make_panels(1, 2, 5.6)
     for panel, one in zip(axes, data.cases, strict=True):
-        _basin(panel, one)
-    letter(axes, ("Case 2, A = 240 N", "Case 3, A = 108 N"))
+        _draw_basin(panel, one)
+    letter_panels(axes, ("Case 2, A = 240 N", "Case 3, A = 108 N"))
     return figure
 
 
-def section(data: VisitsDrawing) -> Figure:
-    """Return the sections of Cases 1 and 3, brighter where the motion comes more often."""
-    figure, axes = panels(1, 2, 4.6)
+def draw_section(data: VisitsDrawing) -> Figure:
+    """Return the figure with the sections of Cases 1 and 3; cells with more visits are brighter."""
+    figure, axes = make_panels(1, 2, 4.6)
     for panel, one in zip(axes, data.cases, strict=True):
         panel.set_facecolor("#0d0d12")
         shown = np.where(one.counts > 0, one.counts, np.nan).T
@@ -59,8 +60,8 @@ def section(data: VisitsDrawing) -> Figure:
         bar = figure.colorbar(drawn, ax=panel, pad=0.02)
         bar.set_label("visits of a cell")
         style.log_ticks(bar.ax.yaxis)
-    letter(axes, [f"Case {k}, {one.periods:,} periods" for k, one in zip((1, 3), data.cases, strict=True)])
+    letter_panels(axes, [f"Case {k}, {one.periods:,} periods" for k, one in zip((1, 3), data.cases, strict=True)])
     return figure
 
 
-FIGURES: Mapping[str, Callable[..., Figure]] = {"basins": basins, "section": section}
+FIGURES: Mapping[str, Callable[..., Figure]] = {"basins": draw_basins, "section": draw_section}

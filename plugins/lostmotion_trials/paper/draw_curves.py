@@ -1,4 +1,4 @@
-"""Mutual information, Cao's numbers, correlation dimensions and spectra over their axes."""
+"""Draws mutual information, Cao's numbers, correlation dimensions, spectra, delay plots and Poincare maps."""
 
 from __future__ import annotations
 
@@ -24,12 +24,20 @@ from lostmotion_trials.paper.drawings import (
     NoisyMapsDrawing,
     SlopesDrawing,
 )
-from lostmotion_trials.paper.style import COLOURS, MARKS, dots, letter, orbit, panels, whole_ticks
+from lostmotion_trials.paper.style import (
+    COLOURS,
+    MARKS,
+    draw_dots,
+    draw_orbit,
+    letter_panels,
+    make_panels,
+    set_whole_ticks,
+)
 
 
-def fig17(data: JointDrawing) -> Figure:
-    """Return output, input and output, spectra, and the output without the harmonics."""
-    figure, axes = panels(2, 2, 6.6)
+def draw_fig17(data: JointDrawing) -> Figure:
+    """Return the figure with the output, input and output, spectra, and the output without the harmonics."""
+    figure, axes = make_panels(2, 2, 6.6)
     time, few = data.time, data.time < 6.0
     early = time < 60.0
     axes[0].plot(time[early], data.link[early], color=style.AFTER, lw=0.4, rasterized=True)
@@ -52,13 +60,13 @@ def fig17(data: JointDrawing) -> Figure:
     axes[2].set_xlabel("frequency (Hz)")
     axes[2].set_ylabel("power spectral density (°²/Hz)")
     axes[3].set_ylabel("angle without harmonics (°)")
-    letter(axes, ("output", "input and output", "spectra of the output", "output without the harmonics"))
+    letter_panels(axes, ("output", "input and output", "spectra of the output", "output without the harmonics"))
     return figure
 
 
-def fig18(data: InformationDrawing) -> Figure:
-    """Return the mutual information over the lag."""
-    figure, axes = panels(1, 1, 3.6)
+def draw_fig18(data: InformationDrawing) -> Figure:
+    """Return the figure with the mutual information over the lag."""
+    figure, axes = make_panels(1, 1, 3.6)
     axes[0].plot(data.lag, data.ami, color=style.AFTER)
     at = float(np.interp(data.first, data.lag, data.ami))
     axes[0].plot([data.first], [at], ls="", marker="o", color=style.BEFORE, ms=7,
@@ -71,17 +79,18 @@ def fig18(data: InformationDrawing) -> Figure:
     return figure
 
 
-def _cao(axes: Axes, dims: Array, values: Array, **options: Any) -> None:
+def _draw_cao(axes: Axes, dims: Array, values: Array, **options: Any) -> None:
+    """Draw one curve of Cao's numbers over the embedding dimension."""
     axes.plot(dims, values, **{"marker": "o", "ms": 5, **options})
-    whole_ticks(axes)
+    set_whole_ticks(axes)
     axes.set_xlabel("embedding dimension d")
 
 
-def fig19(data: CaoDrawing) -> Figure:
-    """Return Cao's E1 and E2 over dimension."""
-    figure, axes = panels(1, 1, 3.6)
-    _cao(axes[0], data.dim, data.e1, color=style.AFTER, label="E1")
-    _cao(axes[0], data.dim, data.e2, color=style.QUIET, ls="--", marker="s", label="E2")
+def draw_fig19(data: CaoDrawing) -> Figure:
+    """Return the figure with Cao's E1 and E2 over the dimension."""
+    figure, axes = make_panels(1, 1, 3.6)
+    _draw_cao(axes[0], data.dim, data.e1, color=style.AFTER, label="E1")
+    _draw_cao(axes[0], data.dim, data.e2, color=style.QUIET, ls="--", marker="s", label="E2")
     axes[0].axhline(1.0, color="#444444", lw=0.8)
     axes[0].set_ylabel("Cao's numbers")
     axes[0].set_ylim(0.0, 1.1 * float(np.nanmax([data.e1, data.e2])))
@@ -89,54 +98,55 @@ def fig19(data: CaoDrawing) -> Figure:
     return figure
 
 
-def _delay_plots(axes: Sequence[Axes], data: DelayDrawing) -> None:
+def _draw_delays(axes: Sequence[Axes], data: DelayDrawing) -> None:
+    """Draw one delay plot in each panel."""
     for panel, x, lag, seconds in zip(axes, data.links, data.lags, data.seconds, strict=True):
         shown = x[: 120 * 60]
-        orbit(panel, shown[:-lag], shown[lag:], width=0.3)
+        draw_orbit(panel, shown[:-lag], shown[lag:], width=0.3)
         panel.set_xlabel("q(t) (°)")
         panel.set_ylabel(f"q(t + {seconds:.3f} s) (°)")
 
 
-def fig20(data: DelayDrawing) -> Figure:
-    """Return delay plots at the eight levels."""
-    figure, axes = panels(2, 4, 5.6)
-    _delay_plots(axes, data)
+def draw_fig20(data: DelayDrawing) -> Figure:
+    """Return the figure with delay plots at the eight levels."""
+    figure, axes = make_panels(2, 4, 5.6)
+    _draw_delays(axes, data)
     for panel in axes:
         style.few_ticks(panel, 4, 4)
         panel.set_aspect("equal")
-    letter(axes, data.titles)
+    letter_panels(axes, data.titles)
     return figure
 
 
-def slopes(data: SlopesDrawing) -> Figure:
-    """Return slopes of four recordings over dimension, with mean and three standard deviations of surrogates."""
-    figure, axes = panels(2, 2, 6.6)
+def draw_slopes(data: SlopesDrawing) -> Figure:
+    """Return the figure with slopes of four recordings over the dimension, and mean and 3 sd of their surrogates."""
+    figure, axes = make_panels(2, 2, 6.6)
     for panel, one in zip(axes, data.slopes, strict=True):
         panel.errorbar(one.dims, one.mean, 3.0 * one.spread, color=style.QUIET, marker="s", ms=4, capsize=3, lw=1.0,
                        label="surrogates: mean, 3 standard deviations")  # fmt: skip
         panel.plot(one.dims, one.recorded, color=style.BEFORE, marker="o", ms=5, label="recording")
-        whole_ticks(panel)
+        set_whole_ticks(panel)
         panel.set_ylim(0.0, None)
         panel.set_xlabel("embedding dimension m")
         panel.set_ylabel("slope of the correlation sum")
     style.legend_above(figure, axes[0])
-    letter(axes, data.titles)
+    letter_panels(axes, data.titles)
     return figure
 
 
-def fig22(data: DelayDrawing) -> Figure:
-    """Return the delay plots before and after noise reduction."""
-    figure, axes = panels(1, 2, 4.6, sharex=True, sharey=True)
-    _delay_plots(axes, data)
-    letter(axes, data.titles)
+def draw_fig22(data: DelayDrawing) -> Figure:
+    """Return the figure with delay plots before and after noise reduction."""
+    figure, axes = make_panels(1, 2, 4.6, sharex=True, sharey=True)
+    _draw_delays(axes, data)
+    letter_panels(axes, data.titles)
     return figure
 
 
-def fig23(data: CleanedCaoDrawing) -> Figure:
-    """Return Cao's E1 before and after noise reduction."""
-    figure, axes = panels(1, 1, 3.6)
-    _cao(axes[0], data.dim, data.before, color=style.BEFORE, label="as recorded")
-    _cao(axes[0], data.dim_after, data.after, color=style.AFTER, ls="--", marker="s", label="cleaned")
+def draw_fig23(data: CleanedCaoDrawing) -> Figure:
+    """Return the figure with Cao's E1 before and after noise reduction."""
+    figure, axes = make_panels(1, 1, 3.6)
+    _draw_cao(axes[0], data.dim, data.before, color=style.BEFORE, label="as recorded")
+    _draw_cao(axes[0], data.dim_after, data.after, color=style.AFTER, ls="--", marker="s", label="cleaned")
     axes[0].axhline(1.0, color="#444444", lw=0.8)
     axes[0].set_ylabel("Cao's E1")
     axes[0].set_ylim(0.0, 1.1)
@@ -144,9 +154,9 @@ def fig23(data: CleanedCaoDrawing) -> Figure:
     return figure
 
 
-def fig11(data: NoisyInformationDrawing) -> Figure:
-    """Return the motion of Case 3 and its mutual information at four noise levels."""
-    figure, axes = panels(2, 1, 6.2)
+def draw_fig11(data: NoisyInformationDrawing) -> Figure:
+    """Return the figure with the motion of Case 3 and its mutual information at four noise levels."""
+    figure, axes = make_panels(2, 1, 6.2)
     axes[0].plot(data.time, 1e3 * data.x, color=style.AFTER)
     axes[0].set_xlabel("time (s)")
     axes[0].set_ylabel("displacement x (mm)")
@@ -161,15 +171,15 @@ def fig11(data: NoisyInformationDrawing) -> Figure:
     axes[1].set_ylim(low, 1.2 * high)
     axes[1].legend(loc="upper right", ncols=5)
     axes[1].xaxis.set_major_locator(MultipleLocator(0.1))
-    letter(axes, ("Case 3 without noise", "its mutual information"))
+    letter_panels(axes, ("Case 3 without noise", "its mutual information"))
     return figure
 
 
-def fig13(data: NoisyCaoDrawing) -> Figure:
-    """Return Cao's E1 at four noise levels."""
-    figure, axes = panels(1, 1, 4.0)
+def draw_fig13(data: NoisyCaoDrawing) -> Figure:
+    """Return the figure with Cao's E1 at four noise levels."""
+    figure, axes = make_panels(1, 1, 4.0)
     for k, (name, dims, e1) in enumerate(zip(data.names, data.dims, data.e1, strict=True)):
-        _cao(axes[0], dims, e1, color=COLOURS[k], marker=MARKS[k], label=name)
+        _draw_cao(axes[0], dims, e1, color=COLOURS[k], marker=MARKS[k], label=name)
     axes[0].axhline(1.0, color="#444444", lw=0.8)
     axes[0].set_ylabel("Cao's E1")
     axes[0].set_ylim(0.0, 1.1)
@@ -177,30 +187,31 @@ def fig13(data: NoisyCaoDrawing) -> Figure:
     return figure
 
 
-def _maps(data: NoisyMapsDrawing, cleaned: Sequence[Array] = ()) -> tuple[Figure, list[Axes]]:
-    figure, axes = panels(2, 2, 7.2)
+def _draw_maps(data: NoisyMapsDrawing, cleaned: Sequence[Array] = ()) -> tuple[Figure, list[Axes]]:
+    """Return the figure with Poincare maps at four noise levels, after noise reduction where given, and its panels."""
+    figure, axes = make_panels(2, 2, 7.2)
     for k, panel in enumerate(axes):
         noisy = 1e3 * data.noisy[k]
         if cleaned and k:
-            dots(panel, noisy[:, 0], noisy[:, 1], size=1.6, color="#c3ccd6", label="with noise")
+            draw_dots(panel, noisy[:, 0], noisy[:, 1], size=1.6, color="#c3ccd6", label="with noise")
         points = 1e3 * cleaned[k] if cleaned else noisy
-        dots(panel, points[:, 0], points[:, 1], size=1.6, label="cleaned")
+        draw_dots(panel, points[:, 0], points[:, 1], size=1.6, label="cleaned")
         panel.set_xlabel("x(t) (mm)")
         panel.set_ylabel("x(t + 0.08 s) (mm)")
         if cleaned and k:
             panel.legend(loc="best", markerscale=4.0)
-    letter(axes, data.names)
+    letter_panels(axes, data.names)
     return figure, axes
 
 
-def fig12(data: NoisyMapsDrawing) -> Figure:
-    """Return Poincare maps at four noise levels."""
-    return _maps(data)[0]
+def draw_fig12(data: NoisyMapsDrawing) -> Figure:
+    """Return the figure with Poincare maps at four noise levels."""
+    return _draw_maps(data)[0]
 
 
-def cleaned_maps(data: CleanedMapsDrawing) -> Figure:
-    """Return Poincare maps behind noise reduction over those with noise, or a window of them, enlarged."""
-    figure, axes = _maps(data, data.cleaned)
+def draw_cleaned_maps(data: CleanedMapsDrawing) -> Figure:
+    """Return the figure with Poincare maps before and after noise reduction, or with an enlarged window of them."""
+    figure, axes = _draw_maps(data, data.cleaned)
     if data.window is not None:
         (left, right), (low, high) = (1e3 * data.window).tolist()
         for panel in axes:
@@ -210,6 +221,7 @@ def cleaned_maps(data: CleanedMapsDrawing) -> Figure:
 
 
 FIGURES: Mapping[str, Callable[..., Figure]] = {
-    "fig11": fig11, "fig12": fig12, "fig13": fig13, "fig14": slopes, "fig15": cleaned_maps, "fig16": cleaned_maps,
-    "fig17": fig17, "fig18": fig18, "fig19": fig19, "fig20": fig20, "fig21": slopes, "fig22": fig22, "fig23": fig23,
+    "fig11": draw_fig11, "fig12": draw_fig12, "fig13": draw_fig13, "fig14": draw_slopes, "fig15": draw_cleaned_maps,
+    "fig16": draw_cleaned_maps, "fig17": draw_fig17, "fig18": draw_fig18, "fig19": draw_fig19, "fig20": draw_fig20,
+    "fig21": draw_slopes, "fig22": draw_fig22, "fig23": draw_fig23,
 }  # fmt: skip

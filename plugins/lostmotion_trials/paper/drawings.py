@@ -1,4 +1,4 @@
-"""What each figure of the paper is drawn from: arrays, and words beside them; figures drawn alike share one."""
+"""The data of each figure of the paper: arrays and labels. Figures of the same form share a class."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from lostmotion_trials.paper.chain import Slopes
 
 @dataclass(frozen=True, eq=False)
 class Drawing:
-    """What a figure is drawn from."""
+    """The data of a figure."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,7 +27,7 @@ class PhaseDrawing(Drawing):
 
 @dataclass(frozen=True, eq=False)
 class UnfoldedDrawing(Drawing):
-    """States (samples, 2) in m and m/s, and the delay in samples by which the first is unfolded."""
+    """States (samples, 2) in m and m/s, and the delay in samples of the delay plot of the displacement."""
 
     states: Array
     lag: int
@@ -43,7 +43,7 @@ class ForceDrawing(Drawing):
 
 @dataclass(frozen=True, eq=False)
 class SectionsDrawing(Drawing):
-    """Poincare maps: points (periods, 2) in m with a title for each, and those of a transient."""
+    """Poincare maps: points (periods, 2) in m with a title for each map, and the points of a transient."""
 
     points: Sequence[Array]
     titles: Sequence[str]
@@ -54,7 +54,7 @@ class SectionsDrawing(Drawing):
 class LineDrawing(Drawing):
     """Exponents (cells, starts) in bit per normalised time over 1/alpha, the share of starts in chaos (cells,).
 
-    `known` are the windows of 1/alpha in which there is chaos.
+    `known` are the windows of 1/alpha in which careful integration found chaos.
     """
 
     inverse: Array
@@ -93,14 +93,14 @@ class PlaneDrawing(Drawing):
 
 @dataclass(frozen=True, eq=False)
 class SharedPlaneDrawing(PlaneDrawing):
-    """The same with the share of starts (zeta, inverse) that end in chaos."""
+    """A plane with the share of starts (zeta, inverse) that end in chaos as well."""
 
     share: Array
 
 
 @dataclass(frozen=True, eq=False)
 class Basin:
-    """Which attractor, by its number among the labels, each start (up, across) ends on."""
+    """The attractor on which each start (up, across) ends, as an index into the labels."""
 
     across: Array
     up: Array
@@ -117,7 +117,7 @@ class BasinsDrawing(Drawing):
 
 @dataclass(frozen=True, eq=False)
 class Visits:
-    """How often each cell (x, v) of a section is visited, between edges in x0 and x0 omega_0, over so many periods."""
+    """The number of visits of each cell (x, v) of a section in `periods` drive periods; edges in x0 and x0 omega_0."""
 
     counts: Array
     x: Array
@@ -134,7 +134,10 @@ class VisitsDrawing(Drawing):
 
 @dataclass(frozen=True, eq=False)
 class JointDrawing(Drawing):
-    """A recording of the joint in degrees over time (s), what is `left` without harmonics, and densities of both."""
+    """A recording of the joint over time (s), the output without harmonics (`left`), and the spectra of both.
+
+    Angles are in degrees, frequencies in Hz, spectral densities in degrees squared per Hz.
+    """
 
     time: Array
     base: Array
@@ -147,7 +150,7 @@ class JointDrawing(Drawing):
 
 @dataclass(frozen=True, eq=False)
 class InformationDrawing(Drawing):
-    """Mutual information (bit) over the lag (s), and where its first minimum is."""
+    """Mutual information (bit) over the lag (s), and the lag (s) of its first minimum."""
 
     lag: Array
     ami: Array
@@ -185,7 +188,7 @@ class DelayDrawing(Drawing):
 
 @dataclass(frozen=True, eq=False)
 class SlopesDrawing(Drawing):
-    """Slopes of the correlation sum with those of surrogates, and titles."""
+    """Slopes of the correlation sum of recordings and their surrogates, and titles."""
 
     slopes: Sequence[Slopes]
     titles: Sequence[str]
@@ -193,7 +196,7 @@ class SlopesDrawing(Drawing):
 
 @dataclass(frozen=True, eq=False)
 class NoisyInformationDrawing(Drawing):
-    """A motion (m) over time (s), and its mutual information (bit) over lags (s) at levels of noise."""
+    """A motion (m) over time (s), and its mutual information (bit) over lags (s) at several noise levels."""
 
     time: Array
     x: Array
@@ -204,7 +207,7 @@ class NoisyInformationDrawing(Drawing):
 
 @dataclass(frozen=True, eq=False)
 class NoisyCaoDrawing(Drawing):
-    """Cao's E1 over the dimension at levels of noise."""
+    """Cao's E1 over the dimension at several noise levels."""
 
     names: Sequence[str]
     dims: Sequence[Array]
@@ -213,7 +216,7 @@ class NoisyCaoDrawing(Drawing):
 
 @dataclass(frozen=True, eq=False)
 class NoisyMapsDrawing(Drawing):
-    """Poincare maps (periods, 2) in m at levels of noise."""
+    """Poincare maps (periods, 2) in m at several noise levels."""
 
     names: Sequence[str]
     noisy: Sequence[Array]
@@ -221,7 +224,7 @@ class NoisyMapsDrawing(Drawing):
 
 @dataclass(frozen=True, eq=False)
 class CleanedMapsDrawing(NoisyMapsDrawing):
-    """The same behind noise reduction; `window` has the ends (2, 2) in m of what is shown, if that is not all."""
+    """Poincare maps before and after noise reduction; `window` are the axis limits (2, 2) in m of an enlarged part."""
 
     cleaned: Sequence[Array]
     window: Array | None = None

@@ -1,4 +1,4 @@
-"""Figs. 17 to 23 and Table 2: the experimental chain on the stand-in for the experiment."""
+"""Figs. 17 to 23 and Table 2: the experimental analysis chain on simulated recordings of a joint."""
 
 from __future__ import annotations
 
@@ -12,7 +12,14 @@ from lostmotion.contracts import Series
 from lostmotion.rates import exponent_in
 from lostmotion.results import Estimate
 from lostmotion.signals import spectrum, without_harmonics
-from lostmotion_trials.paper.chain import Slopes, cleaned, first_minimum, size, slopes, unfolded
+from lostmotion_trials.paper.chain import (
+    Slopes,
+    clean_recording,
+    compute_std,
+    embed_recording,
+    find_first_minimum,
+    measure_slopes,
+)
 from lostmotion_trials.paper.drawings import (
     CaoDrawing,
     CleanedCaoDrawing,
@@ -29,71 +36,72 @@ from lostmotion_trials.paper.joint import (
     RATIO,
     SUSPECT,
     JointRecording,
-    motions,
-    recording,
+    follow_joint,
+    make_recording,
 )
 from lostmotion_trials.paper.lab import Lab
-from lostmotion_trials.paper.outcome import PaperOutcome, PaperTable, verdict_of
+from lostmotion_trials.paper.outcome import PaperOutcome, PaperTable, judge_claims
 
 FIRST = 2.68
 """The level (degrees) of Figs. 17 to 19."""
 CLEANED = 3.41
-"""The level of Fig. 22 in the text; its caption says 2.68."""
+"""The level (degrees) of Fig. 22 according to the text; the caption says 2.68."""
 RIPPLE = 0.05
-"""Share of the period within which minima of the mutual information are ripples."""
+"""Minima of the mutual information on a scale below this share of the period are ripples caused by the bins."""
 CHAOTIC = 0.1
-"""Exponents (bit/s) above which a motion counts as chaotic."""
+"""Exponent (bit/s) above which a motion counts as chaotic; chosen by experience, no measurement recorded."""
 STAND_IN = "on a simulated joint: the recordings were never published"
+"""Added to each sentence about the experiment."""
 
 
 def fig17(lab: Lab) -> PaperOutcome:
-    """Return output and input at 2.68 degrees, and what is left of the output without harmonics."""
-    made = recording(lab, FIRST)
+    """Return output and input at 2.68 degrees, and the output without the harmonics of the drive."""
+    made = make_recording(lab, FIRST)
     x, dt = made.link - made.link.mean(), float(made.time[1])
     left, removed = without_harmonics(x, dt, made.period)
-    share = size(left) / size(x)
+    share = compute_std(left) / compute_std(x)
     whole, rest = spectrum(x, dt), spectrum(left, dt)
-    floor = size(made.link - made.true) / size(x)
+    floor = compute_std(made.link - made.true) / compute_std(x)
     says = (
-        f"At 2.68 degrees {100 * share:.0f} % of the output (rms) is left when the drive and its harmonics are "
-        f"removed, against {100 * floor:.1f} % of encoder noise: it is aperiodic, as the paper shows, {STAND_IN}."
+        f"At 2.68 degrees {100 * share:.0f} % of the output (rms) remains after the drive and its harmonics are "
+        f"removed; encoder noise is {100 * floor:.1f} %. The output is aperiodic, as in the paper, {STAND_IN}."
     )
     data = JointDrawing(made.time, made.base, made.link, left, whole.frequency, whole.density, rest.density)
-    numbers = {"aperiodic_share": share, "noise_share": floor, "removed_share": size(removed) / size(x)}
-    return PaperOutcome(verdict_of(share > 3.0 * floor), says, numbers, data)
+    numbers = {"aperiodic_share": share, "noise_share": floor, "removed_share": compute_std(removed) / compute_std(x)}
+    return PaperOutcome(judge_claims(share > 3.0 * floor), says, numbers, data)
 
 
 def fig18(lab: Lab) -> PaperOutcome:
     """Return the mutual information at 2.68 degrees."""
-    made = recording(lab, FIRST)
-    lag = first_minimum(made.series.embedding.curves, RIPPLE * made.period)
+    made = make_recording(lab, FIRST)
+    lag = find_first_minimum(made.series.embedding.curves, RIPPLE * made.period)
     says = (
-        f"The first minimum is at {lag:.3f} s, {lag / made.period:.2f} of a period (paper: 0.174 s, 0.27 of one); "
+        f"The first minimum is at {lag:.3f} s, {lag / made.period:.2f} of a period (paper: 0.174 s, 0.27 of a period); "
         f"{STAND_IN}."
     )
     curves = made.series.embedding.curves
     data = InformationDrawing(curves["lag"], curves["ami"], lag)
-    return PaperOutcome(verdict_of(abs(lag - 0.174) < 0.03), says, {"lag_s": lag}, data)
+    return PaperOutcome(judge_claims(abs(lag - 0.174) < 0.03), says, {"lag_s": lag}, data)
 
 
 def fig19(lab: Lab) -> PaperOutcome:
     """Return Cao's numbers at 2.68 degrees."""
-    embedding = recording(lab, FIRST).series.embedding
+    embedding = make_recording(lab, FIRST).series.embedding
     says = f"E1 levels off at dimension {embedding.dim} (paper: 5), {STAND_IN}."
     data = CaoDrawing(embedding.curves["dim"], embedding.curves["e1"], embedding.curves["e2"])
-    return PaperOutcome(verdict_of(abs(embedding.dim - 5) <= 1), says, {"dim": float(embedding.dim)}, data)
+    return PaperOutcome(judge_claims(abs(embedding.dim - 5) <= 1), says, {"dim": float(embedding.dim)}, data)
 
 
 def fig20(lab: Lab) -> PaperOutcome:
     """Return delay plots of the output at the eight levels."""
-    made = [recording(lab, level) for level in LEVELS]
-    found = [motions(lab, level) for level in LEVELS]
+    made = [make_recording(lab, level) for level in LEVELS]
+    found = [follow_joint(lab, level) for level in LEVELS]
     chaotic = [bool(f.chaotic.mean() > 0.5) for f in found]
     right = [c == (level in SUSPECT) for c, level in zip(chaotic, LEVELS, strict=True)]
     says = (
-        f"{sum(right)} of 8 levels are of the same kind as in the paper, chaotic at 2.68 to 3.78 degrees only, "
-        f"{STAND_IN}. omega/omega_0 = {RATIO:g}, 2 zeta = {DAMPING:g}, backlash {2 * HALF:.3g} degrees, found by a "
-        "search over frequency ratio and damping with the exponents of Table 2 as the aim."
+        f"{sum(right)} of 8 levels show the same kind of motion as in the paper, chaotic at 2.68 to 3.78 degrees "
+        f"only, {STAND_IN}. omega/omega_0 = {RATIO:g}, 2 zeta = {DAMPING:g} and a backlash of {2 * HALF:.3g} degrees "
+        "were found by a search over frequency ratio and damping for the exponents of Table 2."
     )
     titles = [f"{m.level:.2f}°: {'chaotic' if c else f'period {f.periods[0]}'}"
               for m, c, f in zip(made, chaotic, found, strict=True)]  # fmt: skip
@@ -101,18 +109,18 @@ def fig20(lab: Lab) -> PaperOutcome:
     seconds = [lag * m.series.dt for lag, m in zip(lags, made, strict=True)]
     data = DelayDrawing([m.link for m in made], lags, seconds, titles)
     numbers = {f"chaotic_share_{m.level:g}": float(f.chaotic.mean()) for m, f in zip(made, found, strict=True)}
-    return PaperOutcome(verdict_of(*right), says, numbers, data)
+    return PaperOutcome(judge_claims(*right), says, numbers, data)
 
 
 def fig21(lab: Lab) -> PaperOutcome:
-    """Return slopes of the correlation sum over dimension at the four chaotic levels, with those of surrogates."""
+    """Return slopes of the correlation sum over dimension at the four chaotic levels, of recordings and surrogates."""
     draws = lab.pick(20, 4)
     found: list[Slopes] = []
     values: list[Estimate] = []
     for level in SUSPECT:
-        made = recording(lab, level)
-        found.append(slopes(lab, made.series, draws, f"surrogates {level}"))
-        values.append(_dimension(lab, made))
+        made = make_recording(lab, level)
+        found.append(measure_slopes(lab, made.series, draws, f"surrogates {level}"))
+        values.append(_estimate_dimension(lab, made))
     differs = [f.differs for f in found]
     known = [f"{v.value:.2f}" if math.isfinite(v.value) else f"none ({v.status})" for v in values]
     says = (
@@ -121,78 +129,78 @@ def fig21(lab: Lab) -> PaperOutcome:
         f"{STAND_IN}."
     )
     numbers = {f"d2_{level:g}": v.value for level, v in zip(SUSPECT, values, strict=True)}
-    numbers |= {f"apart_{level:g}": float(np.median(f.apart[2:])) for level, f in zip(SUSPECT, found, strict=True)}
+    numbers |= {f"apart_{level:g}": float(np.median(f.separation[2:])) for level, f in zip(SUSPECT, found, strict=True)}
     data = SlopesDrawing(found, [f"{level:.2f}°" for level in SUSPECT])
-    return PaperOutcome(verdict_of(*differs, any(math.isfinite(v.value) for v in values)), says, numbers, data)
+    return PaperOutcome(judge_claims(*differs, any(math.isfinite(v.value) for v in values)), says, numbers, data)
 
 
-def _dimension(lab: Lab, made: JointRecording) -> Estimate:
-    """Return the correlation dimension of a recording behind noise reduction."""
+def _estimate_dimension(lab: Lab, made: JointRecording) -> Estimate:
+    """Return the correlation dimension of a recording after noise reduction."""
     method = lab.make("quantifier", "correlation_dimension", pairs=lab.pick(100_000_000, 10_000_000))
-    return quantify(clean_of(lab, made), method, rng=lab.rng(f"dimension {made.level}"))
+    return quantify(clean_and_embed(lab, made), method, rng=lab.make_rng(f"dimension {made.level}"))
 
 
-def noise_of(lab: Lab, made: JointRecording) -> float:
-    """Return the noise (degrees) that is measured in a recording, not the one that was put in."""
+def measure_noise(lab: Lab, made: JointRecording) -> float:
+    """Return the noise (degrees) as measured from the recording; the simulated noise level is not used."""
 
     def make() -> float:
-        found = quantify(made.series, lab.make("quantifier", "noise_level"), rng=lab.rng("noise"))
-        return max(found.value, 0.25 * found.high) * size(made.series.x)
+        found = quantify(made.series, lab.make("quantifier", "noise_level"), rng=lab.make_rng("noise"))
+        return max(found.value, 0.25 * found.high) * compute_std(made.series.x)
 
-    return lab.once(f"noise {made.level}", make)
+    return lab.compute_once(f"noise {made.level}", make)
 
 
-def clean_of(lab: Lab, made: JointRecording) -> Series:
-    """Return a recording behind noise reduction, embedded anew."""
+def clean_and_embed(lab: Lab, made: JointRecording) -> Series:
+    """Return a recording after noise reduction, with a new embedding."""
 
     def make() -> Series:
-        x = cleaned(lab, made.series, noise_of(lab, made))
-        return unfolded(lab, x, made.series.dt, made.period)
+        x = clean_recording(lab, made.series, measure_noise(lab, made))
+        return embed_recording(lab, x, made.series.dt, made.period)
 
-    return lab.once(f"clean {made.level}", make)
+    return lab.compute_once(f"clean {made.level}", make)
 
 
 def fig22(lab: Lab) -> PaperOutcome:
     """Return the delay plot of a recording before and after noise reduction."""
-    made = recording(lab, CLEANED)
-    after, true = clean_of(lab, made), made.true - made.link.mean()
-    before, left = size(made.series.x - true), size(after.x - true)
+    made = make_recording(lab, CLEANED)
+    after, true = clean_and_embed(lab, made), made.true - made.link.mean()
+    before, left = compute_std(made.series.x - true), compute_std(after.x - true)
     says = (
-        f"At 3.41 degrees (so the text; the caption says 2.68) noise reduction takes the error from {before:.3f} to "
-        f"{left:.3f} degrees, by a factor of {before / left:.1f}; here the truth is known, {STAND_IN}."
+        f"At 3.41 degrees (according to the text; the caption says 2.68) noise reduction lowers the error from "
+        f"{before:.3f} to {left:.3f} degrees, by a factor of {before / left:.1f}; the truth is known here, {STAND_IN}."
     )
     lag = made.series.embedding.lag
-    titles = ("as recorded", "behind noise reduction")
+    titles = ("as recorded", "after noise reduction")
     data = DelayDrawing((made.series.x, after.x), (lag, lag), (lag * made.series.dt,) * 2, titles)
     return PaperOutcome(
-        verdict_of(left < 0.8 * before), says, {"error_before_deg": before, "error_after_deg": left}, data
+        judge_claims(left < 0.8 * before), says, {"error_before_deg": before, "error_after_deg": left}, data
     )
 
 
 def fig23(lab: Lab) -> PaperOutcome:
-    """Return Cao's E1 before and after noise reduction, at the same delay."""
-    made = recording(lab, CLEANED)
+    """Return Cao's E1 before and after noise reduction."""
+    made = make_recording(lab, CLEANED)
     before = made.series.embedding
-    after = clean_of(lab, made).embedding
+    after = clean_and_embed(lab, made).embedding
     rises = float(np.nanmean(after.curves["e1"][1:4]) - np.nanmean(before.curves["e1"][1:4]))
     says = (
         f"The noisy recording needs {before.dim} dimensions and the cleaned one {after.dim} (paper: 5 and 4); E1 at "
-        f"dimensions 2 to 4 goes up by {rises:.2f}, {STAND_IN}."
+        f"dimensions 2 to 4 increases by {rises:.2f}, {STAND_IN}."
     )
     numbers = {"dim_before": float(before.dim), "dim_after": float(after.dim), "e1_rise": rises}
     data = CleanedCaoDrawing(*(curves[key] for curves in (before.curves, after.curves) for key in ("dim", "e1")))
-    return PaperOutcome(verdict_of(after.dim <= before.dim, rises > 0.0, after.dim < before.dim), says, numbers, data)
+    return PaperOutcome(judge_claims(after.dim <= before.dim, rises > 0.0, after.dim < before.dim), says, numbers, data)
 
 
 def table2(lab: Lab) -> PaperOutcome:
-    """Return the exponents at the eight levels: of the recordings, of the model, and those of the paper."""
+    """Return the exponents of the recordings, of the model and of the paper at the eight levels."""
     heads = ("level (deg)", "paper (bit/s)", "recording (bit/s)", "95 % interval", "status", "model (bit/s)",
              "share of starts in chaos", "period of the rest")  # fmt: skip
     rows: list[tuple[str | float, ...]] = []
     numbers: dict[str, float] = {}
     right, near = [], []
     for level, paper in zip(LEVELS, PAPER, strict=True):
-        found, read = motions(lab, level), _exponent(lab, recording(lab, level))
+        found, read = follow_joint(lab, level), _estimate_exponent(lab, make_recording(lab, level))
         model, share = float(found.bits.mean()), float(found.chaotic.mean())
         seen = math.isfinite(read.value) and read.low > CHAOTIC
         right.append(seen == math.isfinite(paper))
@@ -204,17 +212,17 @@ def table2(lab: Lab) -> PaperOutcome:
         rows.append((f"{level:.2f}", said, value, span, read.status, f"{model:.2f}", f"{share:.2f}", rest))
         numbers |= {f"recording_{level:g}": read.value, f"model_{level:g}": model, f"share_{level:g}": share}
     says = (
-        f"The recordings show chaos or none as in the paper at {sum(right)} of 8 levels, the exponents of the model "
-        f"lie within 0.5 bit/s of Table 2 at {sum(near) - 4} of the 4 levels with a number; {STAND_IN}. The "
-        "parameters were searched for this: such a joint can behave so, which does not say that theirs had these "
-        "parameters."
+        f"The recordings agree with the paper on chaos or no chaos at {sum(right)} of 8 levels. The exponents of the "
+        f"model lie within 0.5 bit/s of Table 2 at {sum(near) - 4} of the 4 levels with a number; {STAND_IN}. The "
+        "parameters were searched to reach this: a joint can behave in this way, but this does not show that the joint "
+        "of the paper had these parameters."
     )
     kinds = all((numbers[f"share_{level:g}"] > 0.5) == (level in SUSPECT) for level in LEVELS)
-    return PaperOutcome(verdict_of(kinds, all(right), all(near)), says, numbers, table=PaperTable(heads, tuple(rows)))
+    return PaperOutcome(judge_claims(kinds, all(right), all(near)), says, numbers, table=PaperTable(heads, tuple(rows)))
 
 
-def _exponent(lab: Lab, made: JointRecording) -> Estimate:
+def _estimate_exponent(lab: Lab, made: JointRecording) -> Estimate:
     """Return the largest exponent of a recording in bit/s."""
     series = replace(made.series, period=made.period)
-    found = quantify(series, lab.make("quantifier", "lyapunov_kantz"), rng=lab.rng(f"exponent {made.level}"))
+    found = quantify(series, lab.make("quantifier", "lyapunov_kantz"), rng=lab.make_rng(f"exponent {made.level}"))
     return exponent_in(found, "bit/s")

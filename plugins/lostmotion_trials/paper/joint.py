@@ -1,4 +1,4 @@
-"""A stand-in for the experiment of section 6, whose recordings were never published: eight simulated recordings."""
+"""Eight simulated recordings that replace the experiment of section 6, whose recordings were never published."""
 
 from __future__ import annotations
 
@@ -8,23 +8,25 @@ from dataclasses import dataclass
 import numpy as np
 
 from lostmotion.contracts import Array, Series
-from lostmotion_trials.paper.chain import unfolded
+from lostmotion_trials.paper.chain import embed_recording
 from lostmotion_trials.paper.lab import FollowedMotions, Lab, SampledFlow
 
 FREQUENCY = 1.54
+"""Frequency of the input in Hz."""
 LEVELS = (1.34, 2.07, 2.68, 3.41, 3.65, 3.78, 4.87, 5.73)
 """Amplitudes of the input in degrees."""
 PAPER = (math.nan, math.nan, 1.423, 1.322, 1.533, 1.802, math.nan, math.nan)
-"""Exponents of Table 2 in bit/s; where there is none the paper calls the motion periodic."""
+"""Exponents of Table 2 in bit/s; NaN where the paper calls the motion periodic."""
 SUSPECT = (2.68, 3.41, 3.65, 3.78)
+"""Levels (degrees) at which the paper finds chaos."""
 RATIO, DAMPING, HALF = 0.2615, 0.1116, 0.7589
 """omega/omega_0, 2 zeta = c / sqrt(k0 m) and half of the backlash (degrees) of the joint.
 
-Found with `python benchmarks/search_joint.py`: of 3840 joints on a grid of ratio and damping, with the exact flow from
-several starts at all eight levels, those that are chaotic at the four middle levels only, by enough for an encoder to
-see; of these, and of joints close to them, one of the nearest to Table 2 (its exponents are off by 0.31 bit/s, rms).
-The nearest of all (0.252, 0.1212, 0.7436: 0.14 bit/s) is not taken, since it is chaotic at 5.73 degrees too once its
-last digit changes. The link has no weight, and no friction but viscous damping.
+Found with `python benchmarks/search_joint.py`. It computes 3840 joints on a grid of ratio and damping, with the exact
+flow from several starts at all eight levels, and keeps those that are chaotic at the four middle levels only, with an
+amplitude that an encoder can measure. This joint is one of the nearest to Table 2 among these and joints close to them
+(its exponents differ by 0.31 bit/s, rms). The nearest of all (0.252, 0.1212, 0.7436: 0.14 bit/s) is not used, since it
+is also chaotic at 5.73 degrees when its last digit changes. The link has no weight, and viscous damping only.
 """
 NOISE, STEP = 0.03, 360.0 / 65536.0
 """Standard deviation of the noise of the encoder, and its step (degrees)."""
@@ -32,7 +34,7 @@ NOISE, STEP = 0.03, 360.0 / 65536.0
 
 @dataclass(frozen=True, eq=False)
 class JointRecording:
-    """What the two encoders read at one level, in degrees, and the motion without noise; the series is embedded."""
+    """The readings of both encoders at one level and the motion without noise, in degrees; the series is embedded."""
 
     level: float
     time: Array
@@ -43,36 +45,36 @@ class JointRecording:
     period: float
 
 
-def joint(lab: Lab, level: float) -> SampledFlow:
-    """Return the flow of the joint (angles in rad) at an input of so many degrees."""
+def make_joint_flow(lab: Lab, level: float) -> SampledFlow:
+    """Return the flow of the joint (angles in rad) at an input amplitude of `level` degrees."""
     omega = 2.0 * math.pi * FREQUENCY
     natural = omega / RATIO
     values = {"m": 1.0, "c": DAMPING * natural, "k0": natural**2, "x0": math.radians(HALF), "mgl": 0.0}
-    return lab.flow("robot_joint", values, (math.radians(level), omega))
+    return lab.make_flow("robot_joint", values, (math.radians(level), omega))
 
 
-def motions(lab: Lab, level: float) -> FollowedMotions:
-    """Return the motions of the joint at a level from several starts, followed once for all figures."""
+def follow_joint(lab: Lab, level: float) -> FollowedMotions:
+    """Return the motions of the joint at a level (degrees) from several starts; computed once for all figures."""
 
     def make() -> FollowedMotions:
-        flow = joint(lab, level)
-        starts = lab.starts(flow, lab.pick(24, 6))
+        flow = make_joint_flow(lab, level)
+        starts = lab.draw_starts(flow, lab.pick(24, 6))
         return lab.follow(flow, starts, periods=lab.pick(3000, 600), transient=300)
 
-    return lab.once(f"joint {level}", make)
+    return lab.compute_once(f"joint {level}", make)
 
 
-def recording(lab: Lab, level: float) -> JointRecording:
-    """Return the recording at a level: encoder noise added to both angles, and both read in whole steps."""
-    return lab.once(f"recording {level}", lambda: _recorded(lab, level))
+def make_recording(lab: Lab, level: float) -> JointRecording:
+    """Return the recording at a level (degrees): both angles with encoder noise, rounded to encoder steps."""
+    return lab.compute_once(f"recording {level}", lambda: _simulate_recording(lab, level))
 
 
-def _recorded(lab: Lab, level: float) -> JointRecording:
-    flow, rng = joint(lab, level), lab.rng(f"encoder {level}")
+def _simulate_recording(lab: Lab, level: float) -> JointRecording:
+    flow, rng = make_joint_flow(lab, level), lab.make_rng(f"encoder {level}")
     looks, periods = lab.pick((80, 400), (60, 160))
-    true = np.degrees(flow.sample(motions(lab, level).states[0, -1], periods=periods, looks=looks)[:-1, 0])
+    true = np.degrees(flow.sample(follow_joint(lab, level).states[0, -1], periods=periods, looks=looks)[:-1, 0])
     time = np.arange(len(true)) * flow.period / looks
     base = level * np.cos(2.0 * math.pi * FREQUENCY * time)
     link, read = (STEP * np.round((x + NOISE * rng.standard_normal(len(x))) / STEP) for x in (true, base))
-    series = unfolded(lab, link, float(time[1]), flow.period)
+    series = embed_recording(lab, link, float(time[1]), flow.period)
     return JointRecording(level, time, read, link, true, series, flow.period)

@@ -1,4 +1,4 @@
-"""What one figure or table comes to: the arrays it is drawn from, key figures, and whether the paper's claim holds."""
+"""The outcome of one figure or table: its data, key figures, and whether the claim of the paper holds."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ class PaperTable:
 class PaperOutcome:
     """The outcome of one figure or table.
 
-    `data` is what its drawing takes, `numbers` are the key figures by name, `says` is one sentence: what was found,
-    against what the paper says.
+    `data` is the input of its drawing, `numbers` are the key figures by name, `says` is a sentence that compares the
+    result with the paper.
     """
 
     verdict: Verdict
@@ -37,28 +37,28 @@ class PaperOutcome:
 
 @dataclass(frozen=True)
 class ReproducedItem:
-    """What became of one figure or table."""
+    """The result of one figure or table in `reproduce.json`."""
 
     verdict: str = described("reproduced, reproduced in part, not reproduced, or beyond the paper")
-    says: str = described("what was found, against what the paper says")
+    says: str = described("comparison of the result with the paper")
     numbers: Mapping[str, float] = described("key figures, by name")
 
 
 @dataclass(frozen=True)
 class Reproduction:
-    """What `reproduce.json` holds."""
+    """The content of `reproduce.json`."""
 
     items: Mapping[str, ReproducedItem] = described("figures and tables, by name")
-    provenance: Mapping[str, object] = described("versions, settings and seed that made it")
+    provenance: Mapping[str, object] = described("versions, settings and seed of this run")
 
 
-def verdict_of(*claims: bool) -> Verdict:
-    """Return the verdict on a figure of which these claims hold or not."""
+def judge_claims(*claims: bool) -> Verdict:
+    """Return the verdict on a figure from the truth of each claim of the paper about it."""
     if all(claims):
         return "reproduced"
     return "reproduced in part" if any(claims) else "not reproduced"
 
 
-def listed(items: list[str]) -> str:
-    """Return the items as words: a, b and c."""
+def join_words(items: list[str]) -> str:
+    """Return the items as text: "a, b and c"; "none" if there is no item."""
     return items[0] if len(items) == 1 else ", ".join(items[:-1]) + " and " + items[-1] if items else "none"

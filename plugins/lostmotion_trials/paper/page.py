@@ -1,4 +1,4 @@
-"""The page with every figure and table of the paper, each with its sentence; and tables as files."""
+"""Writes the page with every figure and table of the paper and its verdict, and the tables as files."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from lostmotion.report import style
-from lostmotion.report.pages import template
+from lostmotion.report.pages import load_template
 from lostmotion.storage import whole
 from lostmotion_trials.paper import draw_basins as paper_basins
 from lostmotion_trials.paper import draw_curves as paper_curves
@@ -43,28 +43,28 @@ class PageEntry:
 
     @property
     def kind(self) -> str:
-        """The class of the badge."""
+        """Return the CSS class of the badge."""
         return {"reproduced": "good", "not reproduced": "bad"}.get(self.verdict, "part")
 
     @property
     def image(self) -> str:
-        """The name of the picture, if there is one."""
+        """Return the file name of the picture, or an empty text if there is none."""
         return next((name for name in self.files if name.endswith(".png")), "")
 
 
-def drawn(name: str, data: Drawing, folder: Path) -> tuple[str, ...]:
-    """Return the names of the files into which the figure `name` was drawn."""
-    with style.applied():
-        return tuple(paper_style.files(DRAWINGS[name](data), folder, name))
+def draw_figure(name: str, data: Drawing, folder: Path) -> tuple[str, ...]:
+    """Draw the figure `name` and return the names of its files."""
+    with style.use_style():
+        return tuple(paper_style.save_figure(DRAWINGS[name](data), folder, name))
 
 
-def cells(rows: tuple[tuple[str | float, ...], ...]) -> tuple[tuple[str, ...], ...]:
-    """Return the rows as text."""
+def format_cells(rows: tuple[tuple[str | float, ...], ...]) -> tuple[tuple[str, ...], ...]:
+    """Return the rows with every cell as text."""
     return tuple(tuple(x if isinstance(x, str) else f"{x:.6g}" for x in row) for row in rows)
 
 
-def tabled(name: str, heads: tuple[str, ...], rows: tuple[tuple[str, ...], ...], folder: Path) -> tuple[str, ...]:
-    """Return the names of the files, CSV and Markdown, into which a table was written."""
+def write_table(name: str, heads: tuple[str, ...], rows: tuple[tuple[str, ...], ...], folder: Path) -> tuple[str, ...]:
+    """Write a table as CSV and Markdown and return the names of the files."""
     text = io.StringIO()
     csv.writer(text, lineterminator="\n").writerows([heads, *rows])
     lines = [f"| {' | '.join(row)} |" for row in (heads, tuple("---" for _ in heads), *rows)]
@@ -75,12 +75,14 @@ def tabled(name: str, heads: tuple[str, ...], rows: tuple[tuple[str, ...], ...],
 
 
 def write_index(folder: Path, entries: list[PageEntry], effort: str) -> Path:
-    """Return the path of `index.html`, which stands beside the pictures that it shows."""
+    """Write `index.html` into the folder of the pictures that it shows, and return its path."""
     page = folder / "index.html"
     counts = {e.verdict: sum(x.verdict == e.verdict for x in entries) for e in entries}
     with whole(page) as spare:
         spare.write_text(
-            template("page.html.j2", __package__).render(entries=entries, counts=sorted(counts.items()), effort=effort),
+            load_template("page.html.j2", __package__).render(
+                entries=entries, counts=sorted(counts.items()), effort=effort
+            ),
             encoding="utf-8",
         )
     return page

@@ -1,4 +1,4 @@
-"""All that was asked for, one after another: pictures, tables, the page and the key figures."""
+"""Makes the requested figures and tables one after another, then the page and the key figures."""
 
 from __future__ import annotations
 
@@ -14,13 +14,16 @@ from lostmotion.registry import Registry
 from lostmotion.storage import folder_for, save_json
 from lostmotion_trials.paper.lab import Lab
 from lostmotion_trials.paper.outcome import PaperOutcome, ReproducedItem, Reproduction
-from lostmotion_trials.paper.page import PageEntry, cells, drawn, tabled, write_index
+from lostmotion_trials.paper.page import PageEntry, draw_figure, format_cells, write_index, write_table
 
 Say = Callable[[str], None]
 
 
 class Item(NamedTuple):
-    """A figure or table: its label and title on the page, and the module that makes it."""
+    """A figure or table: its label and title on the page, and the module and function that make it.
+
+    An empty `function` means the function with the name of the item.
+    """
 
     label: str
     title: str
@@ -29,7 +32,7 @@ class Item(NamedTuple):
 
 
 ITEMS: dict[str, Item] = {
-    "table1": Item("Table 1", "The three oscillators, and what they do", "portraits"),
+    "table1": Item("Table 1", "The three oscillators and their motions", "portraits"),
     "fig3": Item("Fig. 3", "Phase plots of Cases 1 and 2", "portraits"),
     "fig4": Item("Fig. 4", "Phase plot of Case 3, and in delay coordinates", "portraits"),
     "fig5": Item("Fig. 5", "The normalised force of the backlash", "portraits"),
@@ -42,7 +45,7 @@ ITEMS: dict[str, Item] = {
     "fig12": Item("Fig. 12", "Poincaré maps of Case 3 under noise", "noisy"),
     "fig13": Item("Fig. 13", "Cao's E1 of Case 3 under noise", "noisy"),
     "fig14": Item("Fig. 14", "Slopes of the correlation sum of Case 3, against surrogates", "noisy"),
-    "fig15": Item("Fig. 15", "Poincaré maps behind noise reduction", "noisy"),
+    "fig15": Item("Fig. 15", "Poincaré maps after noise reduction", "noisy"),
     "fig16": Item("Fig. 16", "The same, enlarged", "noisy"),
     "fig17": Item("Fig. 17", "Input and output of the joint at 2.68 degrees", "experiment"),
     "fig18": Item("Fig. 18", "Mutual information of the output at 2.68 degrees", "experiment"),
@@ -52,23 +55,23 @@ ITEMS: dict[str, Item] = {
     "table2": Item("Table 2", "Largest exponents of the output at eight levels", "experiment"),
     "fig22": Item("Fig. 22", "Noise reduction of the output", "experiment"),
     "fig23": Item("Fig. 23", "Cao's number before and after noise reduction", "experiment"),
-    "bifurcation": Item("More", "A bifurcation diagram with the exponents beneath", "sweeps"),
+    "bifurcation": Item("More", "A bifurcation diagram with the exponents below it", "sweeps"),
     "basins": Item("More", "Basins of attraction of Cases 2 and 3", "basins"),
     "section": Item("More", "Poincaré sections coloured by density", "basins"),
     "map": Item("More", "A map of the largest exponent over 1/alpha and damping", "sweeps", "plane_map"),
 }
-"""Everything that can be asked for, in the order of the page."""
+"""All figures and tables, in the order of the page."""
 
 
-def chosen(names: Sequence[str]) -> list[str]:
-    """Return the names asked for in the order of the page; none, or `all`, is all of them."""
+def choose_names(names: Sequence[str]) -> list[str]:
+    """Return the requested names in the order of the page; no name, or `all`, means all of them."""
     for name in names:
         if name != "all" and name not in ITEMS:
             raise DataError(f"there is no {name!r} to reproduce{nearest(name, ITEMS)}: take {', '.join(ITEMS)} or all")
     return list(ITEMS) if not names or "all" in names else [name for name in ITEMS if name in names]
 
 
-def outcome_of(name: str, lab: Lab) -> PaperOutcome:
+def make_outcome(name: str, lab: Lab) -> PaperOutcome:
     """Return the outcome of one figure or table."""
     item = ITEMS[name]
     module = import_module(f"lostmotion_trials.paper.{item.module}")
@@ -76,13 +79,13 @@ def outcome_of(name: str, lab: Lab) -> PaperOutcome:
 
 
 def reproduce(names: Sequence[str], out: Path, lab: Lab, say: Say = lambda _step: None) -> Reproduction:
-    """Return the content of `reproduce.json` after writing it, the figures, the tables and `index.html` into `out`."""
-    wanted, folder = chosen(names), folder_for(out)
+    """Write the figures, the tables, `index.html` and `reproduce.json` into `out`; return the content of the last."""
+    wanted, folder = choose_names(names), folder_for(out)
     entries, items = [], {}
     for name in wanted:
         say(ITEMS[name].label)
-        found = outcome_of(name, lab)
-        entries.append(_written(name, found, folder))
+        found = make_outcome(name, lab)
+        entries.append(_write_item(name, found, folder))
         items[name] = ReproducedItem(found.verdict, found.says, found.numbers)
     effort = "Drawn with --quick: short runs and coarse sweeps." if lab.quick else "Drawn with full effort."
     write_index(folder, entries, effort)
@@ -92,15 +95,15 @@ def reproduce(names: Sequence[str], out: Path, lab: Lab, say: Say = lambda _step
     return result
 
 
-def _written(name: str, found: PaperOutcome, folder: Path) -> PageEntry:
-    """Return the entry of a figure or table whose files are written."""
+def _write_item(name: str, found: PaperOutcome, folder: Path) -> PageEntry:
+    """Write the files of a figure or table and return its entry on the page."""
     item = ITEMS[name]
-    files = drawn(name, found.data, folder) if found.data else ()
-    heads, rows = (found.table.heads, cells(found.table.rows)) if found.table else ((), ())
-    files += tabled(name, heads, rows, folder) if rows else ()
+    files = draw_figure(name, found.data, folder) if found.data else ()
+    heads, rows = (found.table.heads, format_cells(found.table.rows)) if found.table else ((), ())
+    files += write_table(name, heads, rows, folder) if rows else ()
     return PageEntry(name, item.label, item.title, found.verdict, found.says, files, heads, rows)
 
 
-def laboratory(registry: Registry, *, quick: bool, seed: int, jobs: int) -> Lab:
-    """Return the laboratory in which all figures are made."""
+def make_laboratory(registry: Registry, *, quick: bool, seed: int, jobs: int) -> Lab:
+    """Return the shared setting of all figures."""
     return Lab(registry, quick, seed, jobs)

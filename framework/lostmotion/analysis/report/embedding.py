@@ -11,7 +11,7 @@ from matplotlib.ticker import MaxNLocator
 
 from lostmotion.analysis.report.view import AnalysisView, Variant, find_versions, join_sentences
 from lostmotion.report import style
-from lostmotion.report.words import DASH, figures, shortened, spoken
+from lostmotion.report.words import DASH, figures, shorten, to_words
 
 CLEAN_PREFIX, RAW_PREFIX = "embedding_", "embedding_raw_"
 DELAYS_SHOWN = 14.0
@@ -24,7 +24,7 @@ def draw_delay(view: AnalysisView) -> Figure | None:
     names = [name for name in ("ami", "autocorrelation") if _has_curve(view, name, "lag")]
     if not names:
         return None
-    figure = style.blank(3.3)
+    figure = style.make_figure(3.3)
     panels = figure.subplots(1, len(names), squeeze=False)[0]
     for axes, name in zip(panels, names, strict=True):
         _draw_curves(axes, view, name, "lag")
@@ -33,7 +33,7 @@ def draw_delay(view: AnalysisView) -> Figure | None:
         axes.set_xlim(0.0, _find_longest_lag(view))
         _limit_start(axes, view, name)
         style.few_ticks(axes, 6, 5)
-    unit = shortened(view.units.get(CLEAN_PREFIX + "ami", "") or view.units.get(RAW_PREFIX + "ami", ""), 12)
+    unit = shorten(view.units.get(CLEAN_PREFIX + "ami", "") or view.units.get(RAW_PREFIX + "ami", ""), 12)
     words = {"ami": f"mutual information ({UNIT_NAMES.get(unit, 'nat')})", "autocorrelation": "autocorrelation"}
     for axes, name in zip(panels, names, strict=True):
         axes.set_ylabel(words[name])
@@ -50,7 +50,7 @@ def caption_delay(view: AnalysisView) -> str:
         if math.isfinite(seconds)
         else "no delay was chosen"
     )
-    how = f" (by {shortened(spoken(method))})." if method and math.isfinite(seconds) else "."
+    how = f" (by {shorten(to_words(method))})." if method and math.isfinite(seconds) else "."
     floor = "dotted: the value for independent samples." if view.has(CLEAN_PREFIX + "ami_floor") else ""
     return join_sentences(
         [
@@ -66,7 +66,7 @@ def draw_dimension(view: AnalysisView) -> Figure | None:
     able = [name for name, axis in (("e1", "dim"), ("fnn", "dim_fnn")) if _has_curve(view, name, axis)]
     if not able:
         return None
-    figure = style.blank(3.4)
+    figure = style.make_figure(3.4)
     panels = figure.subplots(1, len(able), squeeze=False)[0]
     for axes, name in zip(panels, able, strict=True):
         (_draw_cao if name == "e1" else _draw_false)(axes, view)

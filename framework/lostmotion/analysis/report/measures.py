@@ -12,7 +12,7 @@ from matplotlib.ticker import MaxNLocator
 
 from lostmotion.analysis.report.view import AnalysisView, join_sentences
 from lostmotion.report import style
-from lostmotion.report.words import figures, pretty, shortened
+from lostmotion.report.words import figures, format_unit, shorten
 from lostmotion.results import STATUSES, Array
 from lostmotion.results.analysis import Measure
 
@@ -30,7 +30,7 @@ def draw_divergence_figure(view: AnalysisView) -> Figure | None:
     """Return the mean logarithm of the distance of neighbours over time with the fitted line, and its local slopes."""
     if not view.has("lyapunov_time", "lyapunov_divergence"):
         return None
-    figure = style.blank(3.5)
+    figure = style.make_figure(3.5)
     slopes = view.has("lyapunov_slope")
     panels = figure.subplots(1, 1 + slopes, squeeze=False, width_ratios=(1.5, 1.0)[: 1 + slopes])[0]
     draw_divergence(panels[0], view)
@@ -73,7 +73,7 @@ def draw_divergence(axes: Axes, view: AnalysisView) -> None:
         begin, end, slope = _find_fit_line(view)
         axes.axvspan(begin, end, color=style.SHADE, zorder=0.3)
         window = np.linspace(begin - 0.15 * (end - begin), end + 0.15 * (end - begin), 2)
-        value = shortened(f"{figures(view.result.lyapunov.value)} {pretty(view.result.lyapunov.unit)}", 32)
+        value = shorten(f"{figures(view.result.lyapunov.value)} {format_unit(view.result.lyapunov.unit)}", 32)
         middle = 0.5 * (begin + end)
         line = np.interp(middle, time, curve) + slope * (window - middle)
         axes.plot(window, line, color=style.BEFORE, linewidth=2.0,
@@ -145,7 +145,7 @@ def draw_correlation(view: AnalysisView) -> Figure | None:
     draws = [draw for draw, can in ((_draw_sums, sums), (_draw_local_slopes, slopes), (draw_dimensions, values)) if can]
     if not draws:
         return None
-    figure = style.blank(3.5)
+    figure = style.make_figure(3.5)
     panels = figure.subplots(1, len(draws), squeeze=False)[0]
     for axes, draw in zip(panels, draws, strict=True):
         draw(axes, view)
@@ -229,7 +229,7 @@ def _format_radius_axis(axes: Axes, view: AnalysisView) -> None:
     low, high, value = _find_plateau(view)
     if math.isfinite(low) and math.isfinite(high) and math.isfinite(value):
         axes.axvspan(low, high, color=style.SHADE, zorder=0.3)
-    label = pretty(shortened(unit, 16))
+    label = format_unit(shorten(unit, 16))
     axes.set_xlabel(f"radius ({label})" if label else "radius")
 
 

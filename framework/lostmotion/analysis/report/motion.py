@@ -21,7 +21,7 @@ from lostmotion.analysis.report.view import (
     wrap_label,
 )
 from lostmotion.report import style
-from lostmotion.report.words import Scale, figures, pretty, shortened, with_unit
+from lostmotion.report.words import Scale, figures, format_unit, shorten, with_unit
 from lostmotion.results import Array
 
 CYCLES_SHOWN = 12
@@ -37,7 +37,7 @@ def draw_course(view: AnalysisView) -> Figure | None:
     """Return some periods of the recording, with its excitation below if there is one, beside its phase portrait."""
     if not view.has("x"):
         return None
-    figure = style.blank(3.8)
+    figure = style.make_figure(3.8)
     below = view.has("excitation", "time")
     grid = figure.add_gridspec(
         2 if below else 1, 2, width_ratios=(1.75, 1.0), height_ratios=(1.8, 1) if below else None
@@ -89,7 +89,7 @@ def _choose_window(view: AnalysisView) -> slice:
 def _draw_signal(axes: Axes, view: AnalysisView, name: str, colour: str) -> None:
     window, period = _choose_window(view), view.period
     time, values = _get_times(view)[window], view.arrays[name][window]
-    shown = style.scale_of(values, shortened(view.units.get(name, ""), 12))
+    shown = style.scale_of(values, shorten(view.units.get(name, ""), 12))
     keep = slice(None, None, max(1, len(time) // MAX_SAMPLES))
     axes.plot(time[keep], shown.factor * values[keep], color=colour, linewidth=1.0)
     if math.isfinite(period):
@@ -124,7 +124,7 @@ def draw_portraits(view: AnalysisView) -> Figure | None:
     both = find_versions(view, "x", "cleaned")
     if len(both) < 2:
         return None
-    figure = style.blank(4.2)
+    figure = style.make_figure(4.2)
     shown = choose_scale(view)
     panels = figure.subplots(1, 2, sharex=True, sharey=True)
     for axes, (key, words, colour) in zip(panels, both, strict=True):
@@ -148,7 +148,7 @@ def draw_spectra(view: AnalysisView) -> Figure | None:
     rest = view.has("density_rest")
     kept = frequency <= _find_highest_frequency(frequency, density, view.period)
     whole = bool(kept.all())
-    figure = style.blank(3.4 if whole else 5.0)
+    figure = style.make_figure(3.4 if whole else 5.0)
     rows = 1 if whole else 2
     axes, *below = figure.subplots(rows, 1, squeeze=False, height_ratios=[2.2, 1][:rows])[:, 0]
     for panel in below:
@@ -165,8 +165,8 @@ def draw_spectra(view: AnalysisView) -> Figure | None:
     _mark_harmonics(axes, view, float(frequency[kept][-1]))
     style.log_ticks(axes.yaxis)
     axes.set_xlabel("frequency (Hz)")
-    unit = re.sub(r"^\((\w+)\)\^2", r"\1^2", shortened(view.units.get("density", ""), 18)).replace("1^2/", "1/")
-    axes.set_ylabel(f"spectral density ({pretty(unit) or '1/Hz'})")
+    unit = re.sub(r"^\((\w+)\)\^2", r"\1^2", shorten(view.units.get("density", ""), 18)).replace("1^2/", "1/")
+    axes.set_ylabel(f"spectral density ({format_unit(unit) or '1/Hz'})")
     if rest:
         style.legend_above(figure, axes)
     return figure
@@ -239,7 +239,7 @@ def draw_sections(view: AnalysisView) -> Figure | None:
     both = find_versions(view, "section", "section_cleaned")
     if not both:
         return None
-    figure = style.blank(4.2)
+    figure = style.make_figure(4.2)
     shown = choose_scale(view, "section", "section_cleaned")
     panels = figure.subplots(1, len(both), squeeze=False, sharex=True, sharey=True)[0]
     for axes, (key, words, colour) in zip(panels, both, strict=True):

@@ -13,7 +13,7 @@ from lostmotion.analysis.report import tables as tables
 from lostmotion.analysis.report.view import RERUN_HINT, AnalysisView, complete_sentence, read_analysis
 from lostmotion.codec import to_plain
 from lostmotion.report import style
-from lostmotion.report.pages import PageSection, drawn, template, written
+from lostmotion.report.pages import PageSection, draw_sections, load_template, write_page
 
 SECTIONS: tuple[PageSection[AnalysisView], ...] = (
     PageSection("course", "The motion", motion.draw_course, motion.caption_course),
@@ -33,17 +33,17 @@ SECTIONS: tuple[PageSection[AnalysisView], ...] = (
 def write_analysis(folder: Path) -> Path:
     """Return the path of `report.html`, written from `analysis.json` and `analysis.nc` in the folder."""
     view = read_analysis(folder)
-    return written(folder / "report.html", lambda: render(view), RERUN_HINT)
+    return write_page(folder / "report.html", lambda: render(view), RERUN_HINT)
 
 
 def render(view: AnalysisView) -> str:
     """Return the page as one self-contained HTML text."""
     result = view.result
-    with style.applied():
-        figures = list(drawn(SECTIONS, view))
+    with style.use_style():
+        figures = list(draw_sections(SECTIONS, view))
     first, *rest = tables.split_opening(result)
     kind, word = tables.name_verdict(result)
-    return template("page.html.j2", __package__).render(
+    return load_template("page.html.j2", __package__).render(
         title=result.title or "Analysis",
         kind=kind,
         verdict=word,

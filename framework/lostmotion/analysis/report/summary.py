@@ -18,14 +18,14 @@ Panel = Callable[[Axes, AnalysisView], None]
 
 def save_summary(folder: Path) -> Path:
     """Write `summary.png` into the folder (portrait, section, divergence, dimension) and return its path."""
-    with style.applied():
+    with style.use_style():
         return style.save(draw(read_analysis(folder)), folder / "summary.png")
 
 
 def draw(view: AnalysisView) -> Figure:
     """Return the panels side by side; a panel whose arrays are absent is left out."""
     panels = _list_panels(view)
-    figure = style.blank(3.5, width=3.5 * max(1, len(panels)))
+    figure = style.make_figure(3.5, width=3.5 * max(1, len(panels)))
     row = figure.subplots(1, max(1, len(panels)), squeeze=False)[0]
     for axes, (title, panel) in zip(row, panels, strict=False):
         panel(axes, view)

@@ -11,7 +11,7 @@ from matplotlib.ticker import MaxNLocator
 
 from lostmotion.analysis.report.view import AnalysisView
 from lostmotion.report import style
-from lostmotion.report.words import probability, shortened, spoken
+from lostmotion.report.words import probability, shorten, to_words
 from lostmotion.results import Array
 
 PANELS_PER_ROW = 3
@@ -25,7 +25,7 @@ def draw_tests(view: AnalysisView) -> Figure | None:
         return None
     columns = min(PANELS_PER_ROW, len(values))
     rows = math.ceil(len(values) / columns)
-    figure = style.blank(2.4 * rows + 0.5)
+    figure = style.make_figure(2.4 * rows + 0.5)
     panels = figure.subplots(rows, columns, squeeze=False).ravel()
     for k, axes in enumerate(panels):
         if k < len(values):
@@ -67,9 +67,9 @@ def _draw_test(axes: Axes, view: AnalysisView, place: int, values: Array) -> Non
     axes.set_xlim(*style.span_of(np.append(finite, original), 0.1))
     style.few_ticks(axes, 4, 4)
     axes.yaxis.set_major_locator(MaxNLocator(4, integer=True))
-    axes.set_xlabel(shortened(spoken(test.statistic if test else "statistic"), 36))
+    axes.set_xlabel(shorten(to_words(test.statistic if test else "statistic"), 36))
     axes.set_ylabel("surrogates" if place % PANELS_PER_ROW == 0 else "")
-    name = shortened(spoken(test.method if test else f"test {place + 1}"), 26)
+    name = shorten(to_words(test.method if test else f"test {place + 1}"), 26)
     axes.set_title(f"{name}: p = {probability(test.p if test else None)}".replace("= <", "<").replace("= >", ">"))
 
 

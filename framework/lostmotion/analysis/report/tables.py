@@ -10,13 +10,13 @@ from typing import NamedTuple
 from lostmotion.analysis.report.view import AnalysisView, complete_sentence, name_period_source
 from lostmotion.report.words import (
     figures,
-    measured,
+    format_quantity,
+    format_unit,
     percent,
-    pretty,
     probability,
     sentence,
-    shortened,
-    spoken,
+    shorten,
+    to_words,
 )
 from lostmotion.results import STATUSES
 from lostmotion.results.analysis import (
@@ -141,7 +141,7 @@ def _name_method(name: str) -> str:
 
 
 def _shorten_name(name: str) -> str:
-    return shortened(spoken(name), 40)
+    return shorten(to_words(name), 40)
 
 
 def make_estimate_row(name: str, found: Measure) -> Row:
@@ -154,13 +154,13 @@ def make_estimate_row(name: str, found: Measure) -> Row:
 
 
 def _format_value(found: Measure) -> str:
-    unit, (value, low, high) = shortened(found.unit, 16), (found.value, found.low, found.high)
+    unit, (value, low, high) = shorten(found.unit, 16), (found.value, found.low, found.high)
     if not (math.isfinite(low) and math.isfinite(high)):
-        return measured(value, unit) + ", no interval"
+        return format_quantity(value, unit) + ", no interval"
     # Two figures of the width of the interval, as many as the opening sentence has.
     decimals = max(0, min(9, 1 - math.floor(math.log10(high - low)))) if high > low else 3
     text = f"{value:.{decimals}f} [{low:.{decimals}f}, {high:.{decimals}f}]".replace("-", "−")
-    return f"{text} {pretty(unit)}".rstrip()
+    return f"{text} {format_unit(unit)}".rstrip()
 
 
 def _make_drive_rows(view: AnalysisView) -> list[Row]:

@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 
 from lostmotion.report import style
-from lostmotion.report.words import Scale, sentence, shortened, spoken, with_unit
+from lostmotion.report.words import Scale, sentence, shorten, to_words, with_unit
 from lostmotion.results import Array
 from lostmotion.results.analysis import Analysis
 from lostmotion.storage import load_arrays, load_result, require_files
@@ -83,13 +83,13 @@ def name_period_source(view: AnalysisView) -> str:
 def name_quantity(view: AnalysisView) -> str:
     """Return the name of the recorded quantity, such as `displacement`."""
     name = view.long_names.get("x", "").partition(",")[0]
-    return shortened(spoken(name) if name not in ("", "x") else "recorded signal", 24)
+    return shorten(to_words(name) if name not in ("", "x") else "recorded signal", 24)
 
 
 def choose_scale(view: AnalysisView, *names: str) -> Scale:
     """Return the unit scale in which the recording is easy to read."""
     values = [view.arrays[name].ravel() for name in names or ("x",) if view.has(name)]
-    return style.scale_of(np.concatenate(values) if values else np.zeros(1), shortened(view.units.get("x", ""), 12))
+    return style.scale_of(np.concatenate(values) if values else np.zeros(1), shorten(view.units.get("x", ""), 12))
 
 
 def name_delay_axes(view: AnalysisView, shown: Scale) -> tuple[str, str]:

@@ -66,7 +66,7 @@ def draw_cycles(
     if not measured:
         return None
     scale = style.scale_of(np.concatenate([curve.amplitude for curve in measured]), unit)
-    figure = style.blank(3.2)
+    figure = style.make_figure(3.2)
     left, right = figure.subplots(1, 2)
     groups = (
         ("recording", style.RECORDED, measured),
@@ -120,7 +120,7 @@ def _limit_axis(axes: Axes, measured: Array, models: list[Array]) -> None:
     """Set limits that leave out outlying cycles and diverging models."""
     low, high = np.nanpercentile(measured, SHOWN_PERCENTILES)
     kept = measured[(measured >= low - MARGIN * (high - low)) & (measured <= high + MARGIN * (high - low))]
-    axes.set_ylim(style.framed(kept if kept.size else measured, models, MARGIN))
+    axes.set_ylim(style.limits_around(kept if kept.size else measured, models, MARGIN))
 
 
 def _format_axes(axes: Axes, amplitude: Array) -> None:

@@ -29,7 +29,7 @@ def draw(evidence: Evidence) -> Figure | None:
     """Return the figure of the growth of the prediction error, or None without its curves."""
     if not evidence.has("lead") or not _list_curves(evidence):
         return None
-    figure = style.blank(3.4)
+    figure = style.make_figure(3.4)
     axes = figure.subplots()
     draw_growth(axes, evidence, make_lead_axis(evidence))
     style.legend_above(figure, axes)
@@ -99,7 +99,7 @@ def draw_whiteness(evidence: Evidence) -> Figure | None:
     shown = [version for version in list_versions(evidence) if evidence.has(f"acf_{version.key}")]
     if not shown:
         return None
-    figure = style.blank(2.2)
+    figure = style.make_figure(2.2)
     panels = figure.subplots(1, len(shown), squeeze=False, sharey=True)[0]
     for axes, version in zip(panels, shown, strict=True):
         _draw_lags(axes, evidence, version.key, version.colour)

@@ -20,14 +20,14 @@ Panel = Callable[[Figure, Evidence, Place], None]
 def save_hero(folder: Path) -> Path:
     """Write `hero.png` into the folder (held-out prediction, missing force, ranking) and return its path."""
     evidence = read_evidence(folder)
-    with style.applied(evidence.result.units.angle):
+    with style.use_style(evidence.result.units.angle):
         return style.save(draw(evidence), folder / "hero.png")
 
 
 def draw(evidence: Evidence) -> Figure:
     """Return the three panels side by side; a panel whose arrays are absent is left out."""
     panels = _list_panels(evidence)
-    figure = style.blank(3.7, width=4.8 * max(1, len(panels)))
+    figure = style.make_figure(3.7, width=4.8 * max(1, len(panels)))
     grid = figure.add_gridspec(2, max(1, len(panels)), height_ratios=[2.2, 1])
     for column, panel in enumerate(panels):
         panel(figure, evidence, (grid, column))

@@ -30,7 +30,7 @@ def draw(evidence: Evidence) -> Figure | None:
     curves = list_curves(evidence)
     if not curves:
         return None
-    figure = style.blank(3.2)
+    figure = style.make_figure(3.2)
     panels = figure.subplots(1, len(curves), squeeze=False)
     for axes, curve in zip(panels.flat, curves, strict=True):
         drawn = draw_surface if curve.over_too else draw_learned

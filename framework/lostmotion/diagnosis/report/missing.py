@@ -21,7 +21,7 @@ def draw(evidence: Evidence) -> Figure | None:
     if not shown:
         return None
     rows = -(-len(shown) // 2)
-    figure = style.blank(2.75 * rows + 0.3)
+    figure = style.make_figure(2.75 * rows + 0.3)
     panels = figure.subplots(rows, min(2, len(shown)), squeeze=False, sharey=True)
     for axes, name in zip(panels.flat, shown, strict=False):
         draw_curve(axes, evidence, name)

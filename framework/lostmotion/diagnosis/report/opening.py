@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from lostmotion.report.words import sentence, span, spoken
+from lostmotion.report.words import sentence, span, to_words
 from lostmotion.results.diagnosis import Diagnosis
 
 
@@ -32,4 +32,4 @@ def format_horizon(result: Diagnosis) -> str:
 
 def write_confusions(result: Diagnosis) -> list[str]:
     """Return one sentence for each mechanism that the recording cannot distinguish from the found one."""
-    return [f"{sentence(spoken(one.mechanism))}: {one.says}" for one in result.confused_with]
+    return [f"{sentence(to_words(one.mechanism))}: {one.says}" for one in result.confused_with]

@@ -24,7 +24,7 @@ from lostmotion.diagnosis.report import (
 )
 from lostmotion.diagnosis.report.evidence import RERUN_HINT, Evidence, read_evidence
 from lostmotion.report import style
-from lostmotion.report.pages import PageSection, drawn, template, written
+from lostmotion.report.pages import PageSection, draw_sections, load_template, write_page
 from lostmotion.report.words import typeset
 
 SECTIONS: tuple[PageSection[Evidence], ...] = (
@@ -47,16 +47,16 @@ SECTIONS: tuple[PageSection[Evidence], ...] = (
 def write_report(folder: Path) -> Path:
     """Return the path of `report.html`, written from `diagnosis.json` and `arrays.nc` in the folder."""
     evidence = read_evidence(folder)
-    return written(folder / "report.html", lambda: render(evidence), RERUN_HINT)
+    return write_page(folder / "report.html", lambda: render(evidence), RERUN_HINT)
 
 
 def render(evidence: Evidence) -> str:
     """Return the page as one self-contained HTML text."""
     result = evidence.result
-    with style.applied(result.units.angle):
-        sections = list(drawn(SECTIONS, evidence))
+    with style.use_style(result.units.angle):
+        sections = list(draw_sections(SECTIONS, evidence))
         numbers, mechanisms = tables.make_number_table(evidence), tables.make_mechanism_table(evidence)
-    return template("page.html.j2", __package__).render(
+    return load_template("page.html.j2", __package__).render(
         title=result.title,
         badge=opening.make_badge(result),
         answer=[typeset(part) for part in result.says],

@@ -34,7 +34,7 @@ def draw(evidence: Evidence) -> Figure | None:
     columns = [
         version for version in _list_models(evidence) if any(version in _list_columns(evidence, kind) for kind in kinds)
     ]
-    figure = style.blank(2.75 * len(kinds) + 0.2)
+    figure = style.make_figure(2.75 * len(kinds) + 0.2)
     panels = figure.subplots(len(kinds), len(columns), squeeze=False, sharey="row", sharex="row")
     for row, kind in zip(panels, kinds, strict=True):
         frame = make_frame(evidence, kind)
@@ -104,7 +104,7 @@ def make_frame(evidence: Evidence, kind: str) -> Frame:
 
 
 def _find_limits(factor: float, values: list[Array]) -> tuple[float, float]:
-    return style.framed(factor * values[0], [factor * other for other in values[1:]], 0.5)
+    return style.limits_around(factor * values[0], [factor * other for other in values[1:]], 0.5)
 
 
 def _list_models(evidence: Evidence) -> list[tuple[str, str, str]]:

@@ -9,8 +9,8 @@ from matplotlib.figure import Figure
 from lostmotion.diagnosis.report.evidence import Evidence
 from lostmotion.diagnosis.report.versions import list_versions
 from lostmotion.report import style
-from lostmotion.report.pages import Grid, trimmed
-from lostmotion.report.words import DASH, Scale, figures, pretty, readable, with_unit, words_of
+from lostmotion.report.pages import Grid, trim_table
+from lostmotion.report.words import DASH, Scale, choose_scale, figures, format_unit, with_unit, words_of
 from lostmotion.report.words import interval as in_words
 from lostmotion.results import Array, Interval
 
@@ -30,7 +30,7 @@ def draw(evidence: Evidence) -> Figure | None:
         return None
     across = min(PANELS_PER_ROW, len(names))
     rows = -(-len(names) // across)
-    figure = style.blank(2.1 * rows + 0.35)
+    figure = style.make_figure(2.1 * rows + 0.35)
     panels = figure.subplots(rows, across, squeeze=False)
     for axes, name in zip(panels.flat, names, strict=False):
         draw_density(axes, evidence, name)
@@ -132,15 +132,15 @@ def make_table(evidence: Evidence) -> Grid:
         for name in list_parameters(evidence)
         if (last := get_last_interval(evidence, name))
     ]
-    return trimmed(head, rows if evidence.augmented else [[*row[:2], DASH, *row[3:]] for row in rows])
+    return trim_table(head, rows if evidence.augmented else [[*row[:2], DASH, *row[3:]] for row in rows])
 
 
 def _make_row(evidence: Evidence, name: str, last: Interval) -> list[str]:
-    scale, truth, sets = readable(last.median, last.unit), evidence.truth(name), evidence.result.parameters
+    scale, truth, sets = choose_scale(last.median, last.unit), evidence.truth(name), evidence.result.parameters
     row = [words_of(name), *(in_words(one.get(name), scale) for one in (sets.before, sets.after))]
     if not np.isfinite(truth):
         return [*row, DASH, DASH]
-    known = f"{figures(scale.factor * truth, 4)} {pretty(scale.unit)}".rstrip()
+    known = f"{figures(scale.factor * truth, 4)} {format_unit(scale.unit)}".rstrip()
     if last.withheld:
         return [*row, known, DASH]
     return [*row, known, "inside" if truth in last else "outside"]

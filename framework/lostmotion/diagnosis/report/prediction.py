@@ -33,7 +33,7 @@ def draw(evidence: Evidence) -> Figure | None:
         return None
     window = choose_window(evidence)
     panels = 3 if has_prediction(evidence) else 2
-    figure = style.blank(0.4 + 1.85 * panels)
+    figure = style.make_figure(0.4 + 1.85 * panels)
     rows = figure.subplots(panels, 1, height_ratios=[0.55, 2, 1][:panels])
     draw_overview(rows[0], evidence, window)
     draw_window(rows[1], evidence, window)
@@ -139,7 +139,7 @@ def draw_window(axes: Axes, evidence: Evidence, window: Window) -> None:
         at, values = _insert_gaps(time, evidence.arrays[name], window)
         axes.plot(at, scale.factor * values, color=colour, label=words)
     others = [scale.factor * evidence.arrays[name][window.shown] for name, _, _ in _list_forecasts(evidence)]
-    axes.set_ylim(style.framed(scale.factor * seen, others, 0.5))
+    axes.set_ylim(style.limits_around(scale.factor * seen, others, 0.5))
     _format_axes(axes, evidence, window, with_unit(evidence.result.response.quantity, scale.unit))
 
 

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from lostmotion.diagnosis.report.evidence import Evidence
 from lostmotion.report import style
-from lostmotion.report.words import figures, probability, sentence, spoken
+from lostmotion.report.words import figures, probability, sentence, to_words
 from lostmotion.results.diagnosis import Candidate, Mechanism
 
 CANDIDATES_SHOWN = 16
@@ -21,7 +21,7 @@ def draw(evidence: Evidence) -> Figure | None:
     rows = rank_candidates(evidence)
     if not rows:
         return None
-    figure = style.blank(0.75 + 0.27 * len(rows))
+    figure = style.make_figure(0.75 + 0.27 * len(rows))
     axes = figure.subplots()
     draw_bars(axes, evidence, rows)
     return figure
@@ -86,7 +86,7 @@ def _make_key(one: Candidate | Mechanism) -> tuple[str, str]:
 def _make_labels(evidence: Evidence, rows: list[Candidate]) -> list[str]:
     """Return the names of the candidates, with their places where there is more than one."""
     several = len({one.at for one in evidence.result.ranking if one.at}) > 1
-    named = [(sentence(spoken(one.mechanism)), one.at) for one in rows]
+    named = [(sentence(to_words(one.mechanism)), one.at) for one in rows]
     return [f"{name} ({at})" if several and at else name for name, at in named]
 
 

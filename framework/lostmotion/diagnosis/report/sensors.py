@@ -12,7 +12,7 @@ from lostmotion.diagnosis.report.evidence import Evidence
 from lostmotion.diagnosis.report.versions import list_versions
 from lostmotion.report import style
 from lostmotion.report.pages import Grid
-from lostmotion.report.words import DASH, figures, percent, pretty, readable, shortened, spoken
+from lostmotion.report.words import DASH, choose_scale, figures, format_unit, percent, shorten, to_words
 from lostmotion.results.diagnosis import Response, SensorFacts
 
 NOISE_NAMES = {"white": "white", "ar1": "autocorrelated", "quantised": "quantised"}
@@ -24,12 +24,12 @@ def draw(evidence: Evidence) -> Figure | None:
     if len(shown) < 2:
         return None
     window = prediction.choose_window(evidence)
-    figure = style.blank(0.4 + 2.75 * len(shown))
+    figure = style.make_figure(0.4 + 2.75 * len(shown))
     rows = figure.subplots(2 * len(shown), 1, sharex=True, height_ratios=[1.7, 1] * len(shown))
     for (name, one), upper, lower in zip(shown, rows[::2], rows[1::2], strict=True):
         prediction.draw_window(upper, one, window)
         prediction.draw_error(lower, one, window)
-        upper.set_title(shortened(name))
+        upper.set_title(shorten(name))
         for axes in (upper, lower):
             axes.set_xlabel("")
     rows[-1].set_xlabel(f"time ({evidence.result.units.time})")
@@ -61,7 +61,7 @@ def _make_row(evidence: Evidence, sensor: SensorFacts) -> list[str]:
     errors = [percent(score.nrmse_by_sensor.get(sensor.name)) for score in scores]
     return [
         sensor.name,
-        spoken(sensor.channel),
+        to_words(sensor.channel),
         _format_noise(sensor),
         NOISE_NAMES.get(sensor.kind, sensor.kind),
         *errors,
@@ -71,8 +71,8 @@ def _make_row(evidence: Evidence, sensor: SensorFacts) -> list[str]:
 def _format_noise(sensor: SensorFacts) -> str:
     if math.isnan(sensor.noise_sd):
         return DASH
-    scale = readable(sensor.noise_sd, sensor.unit)
-    return f"{figures(scale.factor * sensor.noise_sd)} {pretty(scale.unit)}".rstrip()
+    scale = choose_scale(sensor.noise_sd, sensor.unit)
+    return f"{figures(scale.factor * sensor.noise_sd)} {format_unit(scale.unit)}".rstrip()
 
 
 def split_by_sensor(evidence: Evidence) -> list[tuple[str, Evidence]]:
@@ -81,7 +81,7 @@ def split_by_sensor(evidence: Evidence) -> list[tuple[str, Evidence]]:
 
 
 def _select_sensor(evidence: Evidence, number: int, sensor: SensorFacts) -> Evidence:
-    result, data = replace(evidence.result, response=Response(spoken(sensor.channel))), evidence.data
+    result, data = replace(evidence.result, response=Response(to_words(sensor.channel))), evidence.data
     if number > 1:
         firsts = ("response", "forecast_before", "forecast_after")
         its_own = {f"{name}_{number}": name for name in firsts if f"{name}_{number}" in data}

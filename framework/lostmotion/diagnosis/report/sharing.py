@@ -4,7 +4,17 @@ from __future__ import annotations
 
 from lostmotion.diagnosis.report.evidence import Evidence
 from lostmotion.report.pages import Grid
-from lostmotion.report.words import chance, figures, interval, measured, pretty, readable, typeset, with_unit, words_of
+from lostmotion.report.words import (
+    chance,
+    choose_scale,
+    figures,
+    format_quantity,
+    format_unit,
+    interval,
+    typeset,
+    with_unit,
+    words_of,
+)
 from lostmotion.results import Interval
 from lostmotion.results.sharing import FullComparison, SharedParameter
 
@@ -24,15 +34,15 @@ def make_table(evidence: Evidence) -> Grid | None:
     if sharing is None:
         return None
     columns = zip(sharing.recordings or (), sharing.levels or (), strict=True)
-    heads = [f"{name} ({measured(level, sharing.level_unit or '')})" for name, level in columns]
+    heads = [f"{name} ({format_quantity(level, sharing.level_unit or '')})" for name, level in columns]
     rows = [_make_row(name, one) for name, one in sharing.parameters.items()]
     return Grid(["Parameter", *heads, "One value?"], rows)
 
 
 def _make_row(name: str, parameter: SharedParameter) -> list[str]:
     values = [Interval(one.median, one.low, one.high, one.unit) for one in parameter.by_recording]
-    scale = readable(max(abs(value.median) for value in values), values[0].unit)
-    cells = [interval(value, scale).removesuffix(pretty(scale.unit)).rstrip() for value in values]
+    scale = choose_scale(max(abs(value.median) for value in values), values[0].unit)
+    cells = [interval(value, scale).removesuffix(format_unit(scale.unit)).rstrip() for value in values]
     return [with_unit(words_of(name), scale.unit), *cells, _format_verdict(parameter.shared)]
 
 

@@ -8,7 +8,7 @@ from dataclasses import astuple, fields
 from lostmotion.diagnosis.report.evidence import Evidence
 from lostmotion.diagnosis.report.versions import list_versions
 from lostmotion.report.pages import Grid
-from lostmotion.report.words import DASH, chance, figures, percent, pretty
+from lostmotion.report.words import DASH, chance, figures, format_unit, percent
 from lostmotion.results.behaviour import (
     DimensionInterval,
     Distance,
@@ -38,7 +38,7 @@ def make_table(evidence: Evidence) -> Grid:
     entries = zip(
         astuple(MEASURE_NAMES), astuple(show.units), zip(*columns, strict=True), astuple(show.says), strict=True
     )
-    rows = [[_make_heading(name, pretty(unit)), *cells, says] for name, unit, cells, says in entries]
+    rows = [[_make_heading(name, format_unit(unit)), *cells, says] for name, unit, cells, says in entries]
     kept = [row for row in rows if row[-1] or set(row[1:-1]) - {DASH}]
     heads = ["Before", "After"] if evidence.augmented else ["Nominal model"]
     return Grid(["", *heads, "Noise floor or recording", "In words"], kept)

@@ -35,7 +35,7 @@ def draw(evidence: Evidence) -> Figure | None:
     }
     scale = style.scale_of(np.array(found.edges), "s")
     edges = scale.factor * np.array(found.edges)
-    figure = style.blank(0.45 * len(rows) + 2.6)
+    figure = style.make_figure(0.45 * len(rows) + 2.6)
     panels = figure.subplots(len(rows) + 1, 1, sharex=True, height_ratios=[*(0.32,) * len(rows), 1.6])
     _draw_strips(panels[:-1], edges, rows)
     below = panels[-1]

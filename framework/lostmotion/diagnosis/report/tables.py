@@ -6,8 +6,17 @@ import math
 
 from lostmotion.diagnosis.report.evidence import Evidence
 from lostmotion.diagnosis.report.opening import format_horizon
-from lostmotion.report.pages import Grid, trimmed
-from lostmotion.report.words import DASH, figures, measured, percent, probability, sentence, spoken, typeset
+from lostmotion.report.pages import Grid, trim_table
+from lostmotion.report.words import (
+    DASH,
+    figures,
+    format_quantity,
+    percent,
+    probability,
+    sentence,
+    to_words,
+    typeset,
+)
 from lostmotion.results.diagnosis import Mechanism, OpenTerm
 
 
@@ -24,7 +33,7 @@ def make_mechanism_table(evidence: Evidence) -> Grid:
         [_format_mechanism(one), "open", probability(one.probability), typeset(one.says)]
         for one in evidence.result.open
     ]
-    return trimmed(["Mechanism", "State", "Probability", "In words"], rows)
+    return trim_table(["Mechanism", "State", "Probability", "In words"], rows)
 
 
 def make_number_table(evidence: Evidence) -> Grid:
@@ -32,12 +41,12 @@ def make_number_table(evidence: Evidence) -> Grid:
     result = evidence.result
     fit, missing = result.fit, (result.unexplained_before, result.unexplained)
     shares, scores = [percent(one.share_of_drive) for one in missing], (fit.before, fit.after)
-    exponents = [measured(one, result.lyapunov.unit) for one in (result.lyapunov.before, result.lyapunov.after)]
+    exponents = [format_quantity(one, result.lyapunov.unit) for one in (result.lyapunov.before, result.lyapunov.after)]
     errors = [percent(one.nrmse) for one in scores]
     rows = [
         [
             "Unexplained force, r.m.s.",
-            *_arrange_values(evidence, *(measured(one.rms, one.unit) for one in missing)),
+            *_arrange_values(evidence, *(format_quantity(one.rms, one.unit) for one in missing)),
             DASH,
         ],
         [f"Its share of {result.drive.of}", *_arrange_values(evidence, *shares), DASH],
@@ -48,11 +57,11 @@ def make_number_table(evidence: Evidence) -> Grid:
     ]
     if not evidence.augmented:
         rows = [[name, before, DASH, floor] for name, before, _, floor in rows]
-    return trimmed(["", "Before" if evidence.augmented else "Nominal model", "After", "Noise floor"], rows)
+    return trim_table(["", "Before" if evidence.augmented else "Nominal model", "After", "Noise floor"], rows)
 
 
 def _format_mechanism(one: Mechanism | OpenTerm) -> str:
-    return sentence(spoken(one.mechanism)) + (f" (at the {one.at})" if one.at else "")
+    return sentence(to_words(one.mechanism)) + (f" (at the {one.at})" if one.at else "")
 
 
 def _arrange_values(evidence: Evidence, before: str, after: str) -> list[str]:
@@ -71,7 +80,7 @@ def _format_valid_times(evidence: Evidence) -> list[str]:
 
 
 def _format_duration(time: float, unit: str, in_lyapunov_times: float, *, more: bool) -> str:
-    text, times = measured(time, unit), figures(in_lyapunov_times, 2)
+    text, times = format_quantity(time, unit), figures(in_lyapunov_times, 2)
     if more:
         return f"more than {text}"
     return text if times == DASH else f"{text} ({times} Lyapunov times)"

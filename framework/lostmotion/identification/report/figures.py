@@ -33,7 +33,7 @@ CORNER_CAPTION = "Posterior of each parameter and of each pair; the lines enclos
 def draw_trace(view: IdentificationView) -> Figure:
     """Return one row for each parameter: its walkers over the steps, and the ranks of four groups of them."""
     names = view.names
-    figure = style.blank(1.35 * len(names) + 0.5)
+    figure = style.make_figure(1.35 * len(names) + 0.5)
     panels = figure.subplots(len(names), 2, squeeze=False, width_ratios=(2.4, 1.0))
     for (left, right), name in zip(panels, names, strict=True):
         scale = view.scale(name)
@@ -69,7 +69,7 @@ def _draw_ranks(axes: Axes, walks: Array) -> None:
 def draw_corner(view: IdentificationView) -> Figure:
     """Return the densities of all parameters on the diagonal and of all pairs below it; known values are dashed."""
     names = view.joint
-    figure = style.blank(min(1.55 * len(names) + 0.6, 11.0))
+    figure = style.make_figure(min(1.55 * len(names) + 0.6, 11.0))
     panels = figure.subplots(len(names), len(names), squeeze=False, sharex="col")
     for row, across in enumerate(names):
         for column, along in enumerate(names):

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from lostmotion.report import style
-from lostmotion.report.words import readable, with_unit
+from lostmotion.report.words import choose_scale, with_unit
 from lostmotion.results.identification import DriveLevel, ExpectedRange, MeasuredRange
 
 CAPTION = (
@@ -25,7 +25,7 @@ QUANTITIES: dict[Quantity, str] = {"lyapunov": "exponent", "d2": "correlation di
 def draw(levels: Sequence[DriveLevel]) -> Figure:
     """Return the figure: a panel for each measured quantity over the levels, and one for the probability of chaos."""
     shown = [key for key in QUANTITIES if any(_get_measured(level, key) for level in levels)]
-    figure = style.blank(2.1 * len(shown) + 1.9)
+    figure = style.make_figure(2.1 * len(shown) + 1.9)
     panels = figure.subplots(
         len(shown) + 1, 1, sharex=True, squeeze=False, height_ratios=[1.4] * len(shown) + [1.0]
     ).ravel()
@@ -43,7 +43,7 @@ def draw(levels: Sequence[DriveLevel]) -> Figure:
 def _format_amplitudes(levels: Sequence[DriveLevel]) -> tuple[list[str], str]:
     """Return the amplitudes as texts in one unit, and that unit."""
     sizes = [level.amplitude for level in levels]
-    scale = readable(max(sizes), levels[0].unit)
+    scale = choose_scale(max(sizes), levels[0].unit)
     return [f"{scale.factor * size:.4g}" for size in sizes], scale.unit
 
 

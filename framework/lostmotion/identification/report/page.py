@@ -13,8 +13,8 @@ from lostmotion.identification.report import figures as drawing
 from lostmotion.identification.report import levels as leveled
 from lostmotion.identification.report.view import RERUN_HINT, IdentificationView, read_identification
 from lostmotion.report import style
-from lostmotion.report.pages import DrawnSection, template, written
-from lostmotion.report.words import DASH, Scale, figures, interval, pretty, readable
+from lostmotion.report.pages import DrawnSection, load_template, write_page
+from lostmotion.report.words import DASH, Scale, choose_scale, figures, format_unit, interval
 from lostmotion.results.identification import Identification
 
 HEADLINE_PARAMETERS = 3
@@ -24,15 +24,15 @@ HEADLINE_PARAMETERS = 3
 def write_identification(folder: Path) -> Path:
     """Return the path of `report.html`, written from `identification.json` and `posterior.nc` in the folder."""
     view = read_identification(folder)
-    return written(folder / "report.html", lambda: render(view), RERUN_HINT)
+    return write_page(folder / "report.html", lambda: render(view), RERUN_HINT)
 
 
 def render(view: IdentificationView) -> str:
     """Return the page as one self-contained HTML text."""
     result = view.result
-    with style.applied():
+    with style.use_style():
         drawn = _draw_figures(view)
-    return template("page.html.j2", __package__).render(
+    return load_template("page.html.j2", __package__).render(
         title=result.title or "Identification",
         model=result.model,
         converged=result.converged,
@@ -71,7 +71,9 @@ def _draw_figures(view: IdentificationView) -> list[DrawnSection]:
     if result.converged and len(view.joint) > 1:
         caption = drawing.CORNER_CAPTION + (" Dashed: the known value." if known else "")
         parts.insert(0, ("corner", "Joint posterior of the parameters", drawing.draw_corner(view), caption))
-    return [DrawnSection(name, title, style.embedded(figure, name), caption) for name, title, figure, caption in parts]
+    return [
+        DrawnSection(name, title, style.embed_figure(figure, name), caption) for name, title, figure, caption in parts
+    ]
 
 
 def _make_header(result: Identification) -> list[str]:
@@ -81,7 +83,7 @@ def _make_header(result: Identification) -> list[str]:
 
 def _make_row(view: IdentificationView, name: str) -> list[str]:
     row = view.result.rows[name]
-    scale = readable(row.median if math.isfinite(row.median) else row.at_maximum, row.unit)
+    scale = choose_scale(row.median if math.isfinite(row.median) else row.at_maximum, row.unit)
     value = interval(row.interval, scale) if view.result.converged else "no interval: not converged"
     reached = [figures(row.ess, 4), f"{row.rhat:.3f}" if math.isfinite(row.rhat) else DASH]
     return [view.describe_name(name), value, *_make_truth_cells(view, name, scale), *reached]
@@ -94,7 +96,7 @@ def _make_truth_cells(view: IdentificationView, name: str, scale: Scale) -> list
     truth = view.truth(name)
     if not np.isfinite(truth):
         return [DASH, DASH]
-    text = f"{figures(scale.factor * truth, 4)} {pretty(scale.unit)}".rstrip()
+    text = f"{figures(scale.factor * truth, 4)} {format_unit(scale.unit)}".rstrip()
     if not view.result.converged:
         return [text, DASH]
     return [text, "inside" if truth in view.result.rows[name].interval else "outside"]

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from lostmotion.report.words import Scale, readable, spoken, words_of
+from lostmotion.report.words import Scale, choose_scale, to_words, words_of
 from lostmotion.results import Array
 from lostmotion.results.identification import Identification
 from lostmotion.storage import load_arrays, load_result, require_files
@@ -33,7 +33,7 @@ class IdentificationView:
 
     def describe_name(self, name: str) -> str:
         """Return the displayed name of a parameter: symbols of the model unchanged, other names in words."""
-        return spoken(name) if name in self.result.noise else words_of(name)
+        return to_words(name) if name in self.result.noise else words_of(name)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -57,7 +57,7 @@ class IdentificationView:
 
     def scale(self, name: str) -> Scale:
         """Return the unit scale in which the values of a parameter are easy to read."""
-        return readable(float(np.median(np.abs(self.draws[name]))), self.units[name])
+        return choose_scale(float(np.median(np.abs(self.draws[name]))), self.units[name])
 
 
 def read_identification(folder: Path) -> IdentificationView:
