@@ -46,10 +46,11 @@ PLAIN, COLOURED, OUTLIERS = "plain", "coloured", "outliers"
 VARIANTS: Mapping[str, float] = {PLAIN: 0.6, COLOURED: 0.2, OUTLIERS: 0.2}
 """The measurement noise of clean cases: white; AR(1); white with outliers. All other cases have white noise."""
 TOUCHES = (0.05, 0.98)
-"""A machine with a gap must be in contact for a share of time between these."""
+"""A machine with a gap must be in contact for a share of time between these. Chosen by experience; no measurement
+recorded."""
 RUNAWAY = 4.0
 """Another machine is drawn where the hidden effects increase the motion by more than this factor, as a softening spring
-may do."""
+may do. Chosen by experience; no measurement recorded."""
 TRIES = 2000
 """Machines that are drawn until one fits."""
 AGAIN = "conceal into another folder, or begin with --fresh"

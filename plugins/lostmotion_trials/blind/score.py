@@ -43,16 +43,22 @@ from lostmotion_trials.blind.sentences import write_sentences
 GAIN_EDGES = (0.0, 5.0, 15.0, 50.0, 150.0, 500.0, math.inf)
 """Edges of the bins of effect size: gain in log-likelihood of the true terms."""
 MOST_ALARMS = 0.02
-"""False alarms that a clean recording may raise."""
+"""Target: at most this share of clean recordings has a false alarm. Set by choice; no measurement recorded."""
 STATED_EDGES = (0.0, 0.01, 0.05, 0.2, 0.5, 0.8, 0.95, 0.99, 1.0)
+"""Edges of the bins of the stated probability, narrow near 0 and 1."""
 COVERAGE_LIMITS = (0.90, 0.98)
+"""Target: the share of truths that the 95 % intervals contain lies between these. Set by choice; no measurement
+recorded."""
 CLOSE_RATIO, LEAST_CLOSE = 1.05, 0.9
-"""Target: the held-out error of the found model is at most 1.05 times that of the true one in 90 % of the cases."""
+"""Target: the held-out error of the found model is at most 1.05 times that of the true one in 90 % of the cases. Set by
+choice; no measurement recorded."""
 SURE_LEVEL = 0.95
+"""Level of the confidence intervals of rates, and the target share of sure names that are present."""
 EQUAL_MARGIN = 3.0
-"""A wrong model cannot be distinguished from the true one whose log-likelihood is higher by less than this."""
+"""A wrong model cannot be distinguished from the true one whose log-likelihood is higher by less than this: a
+likelihood ratio of exp(3) = 20. Chosen by experience; no measurement recorded."""
 LEAST_TRIES = 20
-"""With fewer tries a target is not said to be met."""
+"""With fewer tries a target is not said to be met. Chosen by experience; no measurement recorded."""
 
 
 class HiddenEffect(NamedTuple):

@@ -27,6 +27,7 @@ STEPS_PER_RATE = 0.003
 MODEL_STEPS_PER_RATE = 0.0015
 """Steps of the model's own right-hand side times its fastest rate: a tenth of those of a final fit."""
 LEAST_SUBSTEPS, MOST_SUBSTEPS = 8, 4000
+"""Bounds of the integration steps per sample."""
 MOST_STEPS = 10_000_000
 """Steps of the right-hand side in all, which is what a gigabyte holds."""
 PIECE_SAMPLES = 1000
