@@ -1,8 +1,8 @@
 """How well the terms of the library are named: `python benchmarks/library.py [table|clean] [options]`.
 
-Each term is hidden in a machine by an integrator that shares nothing with the framework
-(`lostmotion_trials.integrators.hidden.move`), under a multisine, a sweep or a harmonic, seen by a sensor of position,
-velocity or acceleration, at a size that is to gain a given log-likelihood. Every diagnosis is kept as a row in
+Each term is hidden in a machine by an integrator that shares no code with the framework
+(`lostmotion_trials.integrators.hidden.move`), under a multisine, a sweep or a harmonic, measured by a sensor of
+position, velocity or acceleration, at a size with a given expected gain in log-likelihood. Every diagnosis is a row in
 `OUT/rows.jsonl`, so that a run can be stopped and resumed.
 """
 
@@ -26,19 +26,19 @@ from lostmotion.errors import LostMotionError
 from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import default
 from lostmotion.storage import save_table
-from lostmotion_trials.blind.bound import alike, spelled, yardstick
-from lostmotion_trials.blind.hiding import hidden_in
+from lostmotion_trials.blind.bound import are_equivalent, complete_parameters, compute_bound
+from lostmotion_trials.blind.hiding import convert_effects
 from lostmotion_trials.blind.mechanisms import NOISY, TABLE, Effect
 from lostmotion_trials.blind.pilot import Pilot
 from lostmotion_trials.blind.sealed import SealedMachine
 from lostmotion_trials.blind.simulator import (
-    USUAL,
+    EXCITATION_NOISE,
     BlindDrive,
     BlindMachine,
-    Meddling,
-    drawn_log,
-    moved,
-    sized,
+    Disturbances,
+    draw_log_uniform,
+    draw_parameters,
+    simulate_machine,
     wide_prior,
 )
 from lostmotion_trials.integrators.hidden import Hidden
@@ -51,8 +51,8 @@ ANGULAR = {"position": "rad", "velocity": "rad/s", "acceleration": "rad/s^2"}
 ESTIMATED = {"linear_oscillator": ("c", "k"), "rigid_drive": ("m", "c")}
 
 
-def signal(kind, size, omega, duration, rng):
-    """Return a drive whose strongest frequencies lie about `omega` (rad/s)."""
+def draw_drive(kind, size, omega, duration, rng):
+    """Return a drive whose strongest frequencies are near `omega` (rad/s)."""
     turn = float(rng.uniform(0.0, 2.0 * math.pi))
     if kind == "harmonic":
         return BlindDrive(((size, omega, turn),))
@@ -65,51 +65,51 @@ def signal(kind, size, omega, duration, rng):
     return BlindDrive(tuple((each, float(n) * 2.0 * math.pi / duration, float(p)) for n, p in pairs))
 
 
-def rig_of(name, kind, rng, samples):
-    """Return a machine in which a mechanism can act."""
+def draw_machine(name, kind, rng, samples):
+    """Return a random machine in which a mechanism can act."""
     able = [m for m in ("linear_oscillator", "lin_backlash", "robot_joint", "rigid_drive") if m in TABLE[name].models]
     model = able[int(rng.integers(len(able)))]
-    natural, mass = drawn_log(rng, 5.0, 100.0), drawn_log(rng, 0.2, 20.0)
-    values, amplitude = sized(model, mass, natural, rng)
-    ratio = drawn_log(rng, *((0.15, 0.4) if model == "robot_joint" else (0.5, 1.1)))
+    natural, mass = draw_log_uniform(rng, 5.0, 100.0), draw_log_uniform(rng, 0.2, 20.0)
+    values, amplitude = draw_parameters(model, mass, natural, rng)
+    ratio = draw_log_uniform(rng, *((0.15, 0.4) if model == "robot_joint" else (0.5, 1.1)))
     rate = 40.0 * max(ratio, 0.4) * natural / (2.0 * math.pi)
-    drive = signal(kind, amplitude, ratio * natural, samples / rate, rng)
+    drive = draw_drive(kind, amplitude, ratio * natural, samples / rate, rng)
     estimated = ESTIMATED.get(model, ("c", "x0"))
     return BlindMachine(
         model, values, estimated, drive, rate, samples, NOISE, {n: wide_prior(values[n], rng) for n in estimated}
     )
 
 
-def sized_effect(name, pilot, gain, rng):
-    """Return a mechanism at the size that is to gain this log-likelihood."""
+def make_effect(name, pilot, gain, rng):
+    """Return a mechanism of the size with this expected gain in log-likelihood."""
     mechanism = TABLE[name]
-    at = str(rng.choice(mechanism.spots(pilot.rig)))
+    at = str(rng.choice(mechanism.find_places(pilot.rig)))
     draft = mechanism.plan(pilot, at, rng)
     if name in NOISY:
         return Effect(name, at, draft.parameters(NOISY[name](pilot, 0.5)))
-    size = math.sqrt(gain / max(pilot.gain(draft), 1e-300))
+    size = math.sqrt(gain / max(pilot.expect_gain(draft), 1e-300))
     size *= rng.choice([-1.0, 1.0]) if mechanism.signed else 1.0
     return Effect(name, at, draft.parameters(float(size)))
 
 
-def concealed(task, folder):
-    """Write the case of a task, and return what was hidden and the machine."""
+def write_case(task, folder):
+    """Write the case of a task and return the hidden effects, the machine, and the measurement noise."""
     name, channel, kind, seed, gain, samples = task
     order = [*sorted(TABLE), "clean"].index(name)
     for attempt in range(200):
         rng = np.random.default_rng([seed, order, SENSORS.index(channel), DRIVES.index(kind), attempt])
-        rig = rig_of(name if name != "clean" else "coulomb_friction", kind, rng, samples)
+        rig = draw_machine(name if name != "clean" else "coulomb_friction", kind, rng, samples)
         if name != "clean" and not TABLE[name].fits(rig):
             continue
         try:
-            pilot = Pilot(rig, moved(rig, Hidden(), Meddling(), rng))
-            if "x0" in rig.values and not 0.1 < float(np.mean(np.abs(pilot.touching))) < 0.95:
+            pilot = Pilot(rig, simulate_machine(rig, Hidden(), Disturbances(), rng))
+            if "x0" in rig.values and not 0.1 < float(np.mean(np.abs(pilot.contact_sign))) < 0.95:
                 continue
-            effects = () if name == "clean" else (sized_effect(name, pilot, gain, rng),)
+            effects = () if name == "clean" else (make_effect(name, pilot, gain, rng),)
             seen = BlindMachine(**{**rig.__dict__, "channel": channel})
-            hidden = hidden_in(rig, effects)
-            truth = moved(seen, *hidden, np.random.default_rng([seed, attempt]))
-            own = moved(rig, *hidden, np.random.default_rng([seed, attempt]))
+            hidden = convert_effects(rig, effects)
+            truth = simulate_machine(seen, *hidden, np.random.default_rng([seed, attempt]))
+            own = simulate_machine(rig, *hidden, np.random.default_rng([seed, attempt]))
         except (ValueError, LostMotionError):
             continue
         if float(np.std(own)) > 3.0 * float(np.std(pilot.q)) or (
@@ -123,7 +123,7 @@ def concealed(task, folder):
     shown = truth + noise * rng.standard_normal(samples)
     if hidden[1].step:
         shown = hidden[1].step * np.round(shown / hidden[1].step)
-    drive = clean + USUAL * rig.signal.amplitude * rng.standard_normal(samples)
+    drive = clean + EXCITATION_NOISE * rig.signal.amplitude * rng.standard_normal(samples)
     save_table(folder / "recording.csv", {"time": rig.time, "drive": drive, "shown": shown}, {}, {})
     units = ("rad", ANGULAR[channel]) if rig.based else ("N", UNITS[channel])
     recording = {
@@ -140,17 +140,17 @@ def concealed(task, folder):
     return effects, rig, noise
 
 
-def reached(folder, effects, rig, noise):
-    """Return what the true term gains in log-likelihood on the fitted data, by our own likelihood, begun there."""
+def measure_gain(folder, effects, rig, noise):
+    """Return the gain in log-likelihood of the true term on the fitted data, by our own likelihood from the truth."""
     machine = SealedMachine(**vars(rig), measurement_noise=noise)
     try:
-        gain = yardstick(prepare(folder / "case.toml", default()), machine, effects, None).gains[0]
+        gain = compute_bound(prepare(folder / "case.toml", default()), machine, effects, None).gains[0]
         return None if math.isnan(gain) else gain
     except (LostMotionError, ValueError, ArithmeticError) as err:
         return f"not reached: {err}"
 
 
-def work(task):
+def run_task(task):
     """Return the row of one diagnosis."""
     from lostmotion.cli import main as run
 
@@ -159,32 +159,32 @@ def work(task):
     with tempfile.TemporaryDirectory() as place:
         folder = Path(place)
         try:
-            effects, rig, noise = concealed(task, folder)
+            effects, rig, noise = write_case(task, folder)
         except (ValueError, ArithmeticError, LostMotionError) as err:
             return {**row, "status": f"not made: {err}"}
         begin = time.process_time()
-        told = ["diagnose", str(folder / "case.toml"), "--out", str(folder / "out"), "--quiet", "--jobs", "1"]
+        arguments = ["diagnose", str(folder / "case.toml"), "--out", str(folder / "out"), "--quiet", "--jobs", "1"]
         try:
-            code = run.main(args=told, standalone_mode=False) or 0
+            code = run.main(args=arguments, standalone_mode=False) or 0
         except SystemExit as end:
             code = end.code
         row |= {"model": rig.model, "seconds": time.process_time() - begin, "status": code}
         if code:
             return row
-        told = json.loads((folder / "out" / "diagnosis.json").read_text())
+        diagnosis = json.loads((folder / "out" / "diagnosis.json").read_text())
         row["machine"] = {"values": dict(rig.values), "signal": {"tones": rig.signal.tones}}
         row["truth"] = [{"name": e.mechanism, "at": e.at, **e.parameters} for e in effects]
-        row["found"] = told["found"]
-        row["verdict"] = told["verdict"]
-        row["headline"] = told.get("headline", "")
-        row["ranking"] = told["ranking"][:6]
-        row["nrmse"] = [told["fit"][k]["heldout_nrmse"] for k in ("before", "after")]
+        row["found"] = diagnosis["found"]
+        row["verdict"] = diagnosis["verdict"]
+        row["headline"] = diagnosis.get("headline", "")
+        row["ranking"] = diagnosis["ranking"][:6]
+        row["nrmse"] = [diagnosis["fit"][k]["heldout_nrmse"] for k in ("before", "after")]
         if effects:
-            row["reached"] = reached(folder, effects, rig, noise)
+            row["reached"] = measure_gain(folder, effects, rig, noise)
     return row
 
 
-def parsed():
+def parse_options():
     """Return the options."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("what", nargs="?", default="table", choices=("table", "clean"))
@@ -199,48 +199,48 @@ def parsed():
     return parser.parse_args()
 
 
-def gain_of(args, name, sensor, drive, seed):
-    """Return the gain in log-likelihood that a machine is to show: of the table 50 to 500, drawn for each."""
+def choose_gain(args, name, sensor, drive, seed):
+    """Return the expected gain in log-likelihood of a machine: the option, or a random number from 50 to 500."""
     text = f"{name} {sensor} {drive} {seed}".encode()
     return args.gain or 50.0 * 10.0 ** float(np.random.default_rng(list(text)).random())
 
 
-def named(row):
-    """Return the names that a row has, and whether the hidden one is among them, or one that counts as it."""
+def list_names(row):
+    """Return the names of a row, and whether the hidden one or an equivalent one is among them."""
     unnamed = {"unknown", "random_force"} - {row["name"]}
     found = [f["mechanism"] for f in row["found"] if f["mechanism"] not in unnamed]
-    return found, any(alike(name, row["name"]) for name in found)
+    return found, any(are_equivalent(name, row["name"]) for name in found)
 
 
-def covered(row):
-    """Return for each parameter of the hidden term whether its interval holds the truth."""
+def check_coverage(row):
+    """Return for each parameter of the hidden term whether its interval contains the truth."""
     if not row["truth"]:
         return []
     truth = {k: v for k, v in row["truth"][0].items() if k not in ("name", "at")}
     machine = row.get("machine")
-    known = spelled(truth, machine["values"], BlindDrive(machine["signal"]["tones"])) if machine else truth
+    known = complete_parameters(truth, machine["values"], BlindDrive(machine["signal"]["tones"])) if machine else truth
     entry = next((f for f in row["found"] if f["mechanism"] == row["name"]), None)
-    told = entry["parameters"] if entry else {}
-    return [i["low"] <= known[k] <= i["high"] for k, i in told.items() if k in known and i["low"] is not None]
+    intervals = entry["parameters"] if entry else {}
+    return [i["low"] <= known[k] <= i["high"] for k, i in intervals.items() if k in known and i["low"] is not None]
 
 
 LEAST = 50.0
 BINS = (0.0, 20.0, 50.0, 150.0, 500.0, math.inf)
 
 
-def line(rows):
-    """Return how many were named, how many intervals hold, how many names were one too many, and the median time."""
-    hits = sum(named(r)[1] for r in rows)
-    held = [ok for r in rows for ok in covered(r)]
-    extra = sum(sum(not alike(n, r["name"]) for n in named(r)[0]) for r in rows)
+def format_line(rows):
+    """Return the numbers of named machines, intervals with the truth and wrong names, and the median time, as text."""
+    hits = sum(list_names(r)[1] for r in rows)
+    held = [ok for r in rows for ok in check_coverage(r)]
+    extra = sum(sum(not are_equivalent(n, r["name"]) for n in list_names(r)[0]) for r in rows)
     seconds = float(np.median([r["seconds"] for r in rows]))
     return f"{hits} of {len(rows)} | {sum(held)} of {len(held)} | {extra} | {seconds:.0f} |"
 
 
-def summary(rows):
-    """Print the table by gain, by sensor and drive, and what was missed: of machines that show enough of an effect.
+def print_summary(rows):
+    """Print the table by gain, the table by sensor and drive, and the missed machines with a gain of at least `LEAST`.
 
-    The gain is what the true term wins in log-likelihood on the fitted data, by our own likelihood begun at the truth.
+    The gain in log-likelihood is that of the true term on the fitted data, by our own likelihood from the truth.
     """
     hidden = [r for r in rows if r.get("status") == 0 and r["name"] != "clean"]
     good = [r for r in hidden if isinstance(r.get("reached"), float)]
@@ -248,32 +248,32 @@ def summary(rows):
     print(f"\n| gain | {heads} |\n|{'---|' * 5}")
     for low, high in itertools.pairwise(BINS):
         if own := [r for r in good if low <= r["reached"] < high]:
-            print(f"| {low:g} to {high:g} | {line(own)}")
+            print(f"| {low:g} to {high:g} | {format_line(own)}")
     if other := [r for r in hidden if r not in good]:
-        print(f"| not known | {line(other)}")
+        print(f"| not known | {format_line(other)}")
     shown = [r for r in good if r["reached"] >= LEAST]
     print(f"\n| sensor | drive | {heads} |\n|{'---|' * 6}")
     for sensor, drive in itertools.product(SENSORS, DRIVES):
         if own := [r for r in shown if (r["sensor"], r["drive"]) == (sensor, drive)]:
-            print(f"| {sensor} | {drive} | {line(own)}")
+            print(f"| {sensor} | {drive} | {format_line(own)}")
     clean = [r for r in rows if r.get("status") == 0 and r["name"] == "clean"]
     if clean:
-        print(f"\nOf {len(clean)} machines that hide nothing {sum(bool(named(r)[0]) for r in clean)} had a name.")
-    for r in (r for r in shown if not named(r)[1]):
+        print(f"\nOf {len(clean)} machines that hide nothing {sum(bool(list_names(r)[0]) for r in clean)} had a name.")
+    for r in (r for r in shown if not list_names(r)[1]):
         found = ", ".join(f["mechanism"] for f in r["found"]) or "nothing"
         print(f"- {r['name']}, {r['sensor']}, {r['drive']}, {r['model']}, gain {r['reached']:.0f}: {found}")
 
 
 def main():
-    """Run what is not done yet, and tell of all that is."""
-    args = parsed()
+    """Run the machines that are not done yet and print the summary of all."""
+    args = parse_options()
     args.out.mkdir(parents=True, exist_ok=True)
     path = args.out / "rows.jsonl"
     rows = [json.loads(line) for line in path.read_text().splitlines()] if path.exists() else []
     done = {(r["name"], r["sensor"], r["drive"], r["seed"]) for r in rows}
     names = ["clean"] if args.what == "clean" else [t for t in args.terms.split(",") if t] or sorted(TABLE)
     tasks = [
-        (name, sensor, drive, int(seed), gain_of(args, name, sensor, drive, seed), args.samples)
+        (name, sensor, drive, int(seed), choose_gain(args, name, sensor, drive, seed), args.samples)
         for seed in args.seeds.split(",")
         for sensor in args.sensors.split(",")
         for drive in args.drives.split(",")
@@ -283,7 +283,7 @@ def main():
     ]
     np.random.default_rng(0).shuffle(tasks)  # what is done after any time is a fair sample of all
     with ProcessPoolExecutor(args.jobs) as pool, path.open("a") as stream:
-        for row in pool.map(work, tasks):
+        for row in pool.map(run_task, tasks):
             print(json.dumps(row), file=stream, flush=True)
             names = [f["mechanism"] for f in row.get("found", [])]
             print(
@@ -297,7 +297,7 @@ def main():
                 names,
                 flush=True,
             )
-    summary([json.loads(line) for line in path.read_text().splitlines()])
+    print_summary([json.loads(line) for line in path.read_text().splitlines()])
 
 
 if __name__ == "__main__":

@@ -46,9 +46,9 @@ from lostmotion.preparation.prepare import Prepared, prepare
 from lostmotion.registry import default
 from lostmotion.settings import DEFAULT
 from lostmotion_trials.blind.commitment import RUNAWAY, TOUCHES
-from lostmotion_trials.blind.hiding import hidden_in
+from lostmotion_trials.blind.hiding import convert_effects
 from lostmotion_trials.blind.mechanisms import LARGEST, TABLE, UNKNOWN, Effect, Pilot
-from lostmotion_trials.blind.simulator import USUAL, BlindMachine, Meddling, draw_rig, moved
+from lostmotion_trials.blind.simulator import EXCITATION_NOISE, BlindMachine, Disturbances, draw_rig, simulate_machine
 from lostmotion_trials.blind.writing import write_case
 from lostmotion_trials.integrators.hidden import Hidden
 
@@ -79,11 +79,11 @@ Row = dict[str, Any]
 def drawn(name: str, pilot: Pilot, rng: np.random.Generator) -> Effect:
     """Return a mechanism of a size at which it should gain 50 to 500 in log-likelihood."""
     mechanism = (TABLE | UNKNOWN)[name]
-    at = str(rng.choice(mechanism.spots(pilot.rig)))
+    at = str(rng.choice(mechanism.find_places(pilot.rig)))
     draft = mechanism.plan(pilot, at, rng)
     wanted = math.exp(rng.uniform(math.log(GAIN[0]), math.log(GAIN[1])))
-    size = math.sqrt(wanted / max(pilot.gain(draft), 1e-300))
-    loud = size * float(np.std(draft.felt)) / pilot.inertial
+    size = math.sqrt(wanted / max(pilot.expect_gain(draft), 1e-300))
+    loud = size * float(np.std(draft.force)) / pilot.inertial_force
     size *= min(1.0, LARGEST / max(loud, 1e-300)) * (rng.choice([-1.0, 1.0]) if mechanism.signed else 1.0)
     parameters = draft.parameters(float(size))
     return Effect("unknown", at, parameters, name) if name in UNKNOWN else Effect(name, at, parameters)
@@ -98,14 +98,14 @@ def machine_of(kind: str, rng: np.random.Generator, number: int) -> tuple[BlindM
         if rig.model not in models or (kind != "noise" and not (TABLE | UNKNOWN)[name].fits(rig)):
             continue
         with suppress(DataError):
-            pilot = Pilot(rig, moved(rig, Hidden(), Meddling(), rng))
-            if "x0" in rig.values and not TOUCHES[0] < float(np.mean(np.abs(pilot.touching))) < TOUCHES[1]:
+            pilot = Pilot(rig, simulate_machine(rig, Hidden(), Disturbances(), rng))
+            if "x0" in rig.values and not TOUCHES[0] < float(np.mean(np.abs(pilot.contact_sign))) < TOUCHES[1]:
                 continue
             if kind == "noise":
-                kick = pilot.usual * 3.2 * 10.0 ** (0.7 * rng.random()) * (_noise_of(number) == "random force")
-                return rig, None, moved(rig, Hidden(), Meddling(rms=kick), rng) if kick else pilot.q
+                kick = pilot.usual_force * 3.2 * 10.0 ** (0.7 * rng.random()) * (_noise_of(number) == "random force")
+                return rig, None, simulate_machine(rig, Hidden(), Disturbances(rms=kick), rng) if kick else pilot.q
             effect = drawn(name, pilot, rng)
-            truth = moved(rig, *hidden_in(rig, (effect,)), rng)
+            truth = simulate_machine(rig, *convert_effects(rig, (effect,)), rng)
             if STUCK < float(np.std(truth)) / float(np.std(pilot.q)) < RUNAWAY:
                 return rig, effect, truth
     raise DataError("no machine was drawn that can have what is to be hidden")
@@ -129,7 +129,7 @@ def recorded(
         hit = rng.random(n) < 10.0 ** rng.uniform(-3.0, -2.0)
         white = white + hit * rng.choice([-1.0, 1.0], n) * rng.uniform(5.0, 20.0, n)
     shown = truth + rig.noise * float(np.std(truth - clean if rig.based else truth)) * white
-    return clean + USUAL * rig.signal.amplitude * rng.standard_normal(n), shown
+    return clean + EXCITATION_NOISE * rig.signal.amplitude * rng.standard_normal(n), shown
 
 
 def prepared(rig: BlindMachine, excitation: np.ndarray, response: np.ndarray) -> Prepared:

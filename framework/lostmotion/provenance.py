@@ -42,7 +42,7 @@ def origin_of(component: str, settings: Mapping[str, object], seed: int | None, 
 
 
 def provenance(
-    component: str, settings: Mapping[str, Any], seed: int | None, inputs: Mapping[str, str]
+    component: str, settings: Mapping[str, object], seed: int | None, inputs: Mapping[str, str]
 ) -> dict[str, Any]:
     """Return the result of `origin_of` as plain values for JSON and netCDF attributes."""
     made: dict[str, Any] = to_plain(origin_of(component, settings, seed, inputs))

@@ -169,7 +169,9 @@ def _make_dataset(
     return xarray.Dataset(table, coords=axis, attrs=dict(attrs))
 
 
-def save_datasets(path: Path, groups: Mapping[str | None, xr.Dataset], attrs: Mapping[str, Any] | None = None) -> None:
+def save_datasets(
+    path: Path, groups: Mapping[str | None, xr.Dataset], attrs: Mapping[str, object] | None = None
+) -> None:
     """Write datasets atomically to the groups of a netCDF file (None is its root).
 
     The file is first made in memory: after a full disk during writing, HDF5 would crash the process at its end.

@@ -167,7 +167,7 @@ def test_several_hits_in_one_record():
         assert DT * start < decay.time[0] < DT * start + 0.2
         assert decay.decrement == pytest.approx(decrement(0.02), rel=1e-5)
     assert len(decays_of(readings, DT, (0, 100))) <= 2
-    with pytest.raises(DataError, match="rising sample numbers"):
+    with pytest.raises(DataError, match="give rising numbers"):
         decays_of(readings, DT, (100, 50))
 
 

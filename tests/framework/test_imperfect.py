@@ -36,7 +36,7 @@ from lostmotion_trials.blind.page import render
 from lostmotion_trials.blind.pilot import Effect
 from lostmotion_trials.blind.results import Proof
 from lostmotion_trials.blind.sealed import SealedMachine, SealedTruth
-from lostmotion_trials.blind.simulator import BlindDrive, Meddling, moved
+from lostmotion_trials.blind.simulator import BlindDrive, Disturbances, simulate_machine
 from lostmotion_trials.integrators.hidden import Hidden
 from lostmotion_trials.integrators.imperfect import CELLS, REACH
 
@@ -59,8 +59,8 @@ def machine(kind, seed, samples=SHORT):
     rng = np.random.default_rng([seed, KINDS.index(kind)])
     while True:
         rig = draw_machine(kind, rng, samples)
-        pilot = Pilot(rig, moved(rig, Hidden(), Meddling(), rng))
-        if pilot.rig.model != "lin_backlash" or pilot.touching.any():
+        pilot = Pilot(rig, simulate_machine(rig, Hidden(), Disturbances(), rng))
+        if pilot.rig.model != "lin_backlash" or pilot.contact_sign.any():
             return pilot, draw_world(kind, pilot, rng), rng
 
 
@@ -175,7 +175,7 @@ def test_all_smooth_forces_together_are_a_small_share_of_the_drive():
         for seed in range(4):
             pilot, world, _ = machine(kind, seed)
             drive = np.inf if pilot.rig.based else pilot.rig.signal.amplitude
-            share = np.linalg.norm([b.rms for b in world.smooth]) / min(drive, np.sqrt(2.0) * pilot.inertial)
+            share = np.linalg.norm([b.rms for b in world.smooth]) / min(drive, np.sqrt(2.0) * pilot.inertial_force)
             assert SMOOTH_SIZES[0] <= share * 1.0000001
             assert share <= SMOOTH_SIZES[1] * 1.0000001
             assert kind == CYCLE or "phase" not in {b.over for b in world.smooth}
@@ -197,7 +197,8 @@ def test_noise_has_its_deviation_and_the_sensor_is_bent_by_half_a_per_cent_at_mo
 def test_hidden_force_is_a_share_of_that_of_inertia():
     for kind in (CYCLE, STEPS):
         pilot, _, rng = machine(kind, 1)
-        shares = [dict(draw_effect("offset_force", pilot, rng).parameters)["force"] / pilot.inertial for _ in range(50)]
+        forces = [dict(draw_effect("offset_force", pilot, rng).parameters)["force"] for _ in range(50)]
+        shares = np.array(forces) / pilot.inertial_force
         assert EFFECT_SIZES[0] <= np.abs(shares).min()
         assert np.abs(shares).max() <= EFFECT_SIZES[1]
         assert min(shares) < 0.0 < max(shares)

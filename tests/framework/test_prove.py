@@ -17,9 +17,9 @@ from lostmotion.codec import from_plain, to_plain
 from lostmotion.errors import DataError
 from lostmotion_trials.blind import judging
 from lostmotion_trials.blind import score as proof
-from lostmotion_trials.blind.bound import spelled
+from lostmotion_trials.blind.bound import complete_parameters
 from lostmotion_trials.blind.commitment import VARIANTS, Blind, conceal_case, format_case_name, open_sealed, publish
-from lostmotion_trials.blind.hiding import hidden_in
+from lostmotion_trials.blind.hiding import convert_effects
 from lostmotion_trials.blind.mechanisms import NAMES, UNKNOWN, Pilot
 from lostmotion_trials.blind.page import render
 from lostmotion_trials.blind.pilot import EffectDraft
@@ -35,7 +35,7 @@ from lostmotion_trials.blind.results import (
 )
 from lostmotion_trials.blind.run import Diagnoser
 from lostmotion_trials.blind.sealed import SealedTruth
-from lostmotion_trials.blind.simulator import BlindDrive, BlindMachine, Meddling, draw_rig, moved
+from lostmotion_trials.blind.simulator import BlindDrive, BlindMachine, Disturbances, draw_rig, simulate_machine
 
 SHORT = 600
 AGREED = {
@@ -153,8 +153,8 @@ def test_sizes_span_what_can_and_cannot_be_seen():
     for seed in range(8):
         rng = np.random.default_rng(seed)
         rig = draw_rig(rng, 500)
-        pilot = Pilot(rig, moved(rig, hidden_in(rig, ())[0], Meddling(), rng))
-        gains.append(pilot.gain(EffectDraft(1e-3 * pilot.inertial * np.sign(pilot.v), dict)))
+        pilot = Pilot(rig, simulate_machine(rig, convert_effects(rig, ())[0], Disturbances(), rng))
+        gains.append(pilot.expect_gain(EffectDraft(1e-3 * pilot.inertial_force * np.sign(pilot.v), dict)))
     assert np.all(np.array(gains) > 0.0)
 
 
@@ -220,12 +220,12 @@ def test_interval_that_is_withheld_is_not_judged():
 
 def test_wave_has_a_cosine_and_a_sine():
     signal = BlindDrive(((3.0, 1.0, 0.0), (4.0, 2.0, 0.0)))
-    found = spelled({"amplitude": 0.5, "phase": 0.3, "ratio": 2.0}, {}, signal)
+    found = complete_parameters({"amplitude": 0.5, "phase": 0.3, "ratio": 2.0}, {}, signal)
     angle = np.linspace(0.0, 6.0, 7)
     wave = 5.0 * (found["cosine"] * np.cos(angle) + found["sine"] * np.sin(angle))
     assert np.allclose(wave, 0.5 * np.cos(angle + 0.3))
     assert found["share"] == pytest.approx(0.1)
-    assert spelled({"force": 1.0}, {}, signal) == {"force": 1.0}
+    assert complete_parameters({"force": 1.0}, {}, signal) == {"force": 1.0}
 
 
 def test_probabilities_of_what_cannot_be_told_apart_are_added():

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from lostmotion_trials.blind.simulator import BlindDrive, BlindMachine, Meddling, moved
+from lostmotion_trials.blind.simulator import BlindDrive, BlindMachine, Disturbances, simulate_machine
 from lostmotion_trials.integrators.hidden import BOUC_WEN, DAHL, LUGRE, Body, Hidden, _levels, move
 
 BODY = Body(m=2.0, c=3.0, k=0.0, k0=800.0, x0=0.02)
@@ -248,25 +248,25 @@ def answer(t, amplitude, omega, phase):
 
 
 @pytest.mark.parametrize(
-    ("meddling", "late", "gain"),
+    ("disturbances", "late", "gain"),
     [
-        (Meddling(), 0.0, 1.0),
-        (Meddling(excitation_delay=0.013), 0.013, 1.0),
-        (Meddling(sensor_delay=0.013), 0.013, 1.0),
-        (Meddling(excitation_gain=0.2), 0.0, 1.2),
-        (Meddling(sensor_gain=-0.1), 0.0, 0.9),
+        (Disturbances(), 0.0, 1.0),
+        (Disturbances(excitation_delay=0.013), 0.013, 1.0),
+        (Disturbances(sensor_delay=0.013), 0.013, 1.0),
+        (Disturbances(excitation_gain=0.2), 0.0, 1.2),
+        (Disturbances(sensor_gain=-0.1), 0.0, 0.9),
     ],
 )
-def test_recordings_are_those_of_the_linear_answer(meddling, late, gain):
+def test_recordings_are_those_of_the_linear_answer(disturbances, late, gain):
     machine = rig()
-    seen = moved(machine, Hidden(), meddling, np.random.default_rng(0))
+    seen = simulate_machine(machine, Hidden(), disturbances, np.random.default_rng(0))
     wanted = sum(answer(machine.time - late, *tone) for tone in machine.signal.tones)
     assert np.max(np.abs(seen - gain * wanted)) < 1e-4 * np.ptp(wanted)
 
 
 def test_harmonic_of_the_drive_acts_and_is_not_recorded():
     machine = rig()
-    seen = moved(machine, Hidden(), Meddling(harmonic=(6.0, 2.0 * OMEGA, 0.7)), np.random.default_rng(0))
+    seen = simulate_machine(machine, Hidden(), Disturbances(harmonic=(6.0, 2.0 * OMEGA, 0.7)), np.random.default_rng(0))
     wanted = sum(answer(machine.time, *tone) for tone in (*machine.signal.tones, (6.0, 2.0 * OMEGA, 0.7)))
     assert np.max(np.abs(seen - wanted)) < 1e-4 * np.ptp(wanted)
 
@@ -278,15 +278,15 @@ def test_lags_are_those_of_the_linear_answer():
         np.real(a / (800.0 - 2.0 * w**2 + 8.0j * w) / (1.0 + 1.0j * w * time) * np.exp(1j * (w * machine.time + p)))
         for a, w, p in machine.signal.tones
     )
-    for meddling in (Meddling(actuator_time=time), Meddling(sensor_time=time)):
-        seen = moved(machine, Hidden(), meddling, np.random.default_rng(0))
+    for disturbances in (Disturbances(actuator_time=time), Disturbances(sensor_time=time)):
+        seen = simulate_machine(machine, Hidden(), disturbances, np.random.default_rng(0))
         assert np.max(np.abs(seen - wanted)) < 1e-3 * np.ptp(wanted)
 
 
 def test_sensor_can_show_velocity_and_acceleration():
     machine = rig()
     for order, channel in enumerate(("position", "velocity", "acceleration")):
-        seen = moved(replace(machine, channel=channel), Hidden(), Meddling(), np.random.default_rng(0))
+        seen = simulate_machine(replace(machine, channel=channel), Hidden(), Disturbances(), np.random.default_rng(0))
         wanted = sum(
             np.real((1j * w) ** order * a / (800.0 - 2.0 * w**2 + 8.0j * w) * np.exp(1j * (w * machine.time + p)))
             for a, w, p in machine.signal.tones
@@ -296,7 +296,7 @@ def test_sensor_can_show_velocity_and_acceleration():
 
 def test_drive_is_cut_above_its_limit_and_in_its_dead_zone():
     signal, t = BlindDrive(((10.0, 5.0, 0.0),)), np.linspace(0.0, 3.0, 3001)
-    value, slope = Meddling(limit=6.0, dead=2.0).drive(signal, t)
+    value, slope = Disturbances(limit=6.0, dead=2.0).distort_drive(signal, t)
     assert np.abs(value).max() == pytest.approx(4.0)
     assert (value == 0.0).mean() == pytest.approx(2.0 / math.pi * math.asin(0.2), abs=0.01)
     assert not slope[(value == 0.0) | (np.abs(value) == np.abs(value).max())].any()

@@ -38,7 +38,7 @@ from lostmotion_plugins.terms.lag import ActuatorLag, SensorLag, apply_lag
 from lostmotion_plugins.terms.play import Backlash, EndStop
 from lostmotion_plugins.terms.sensor import PositionRipple, SensorGain
 from lostmotion_plugins.terms.viscous import QuadraticDamping
-from lostmotion_trials.blind.bound import alike, spelled
+from lostmotion_trials.blind.bound import are_equivalent, complete_parameters
 from lostmotion_trials.blind.mechanisms import TABLE
 from lostmotion_trials.blind.simulator import BlindDrive
 
@@ -291,9 +291,9 @@ def test_each_is_named_in_a_recording_by_another_integrator(library, tmp_path, n
     gain = 340.0 if name != "hidden_mode" else 3000.0
     row = library.work((name, "position", "multisine", 1, gain, 1500))
     (truth,) = row["truth"]
-    found = [entry for entry in row["found"] if alike(entry["mechanism"], name)]
+    found = [entry for entry in row["found"] if are_equivalent(entry["mechanism"], name)]
     assert found, json.dumps(row["found"])
-    known = spelled(
+    known = complete_parameters(
         {k: v for k, v in truth.items() if k not in ("name", "at")},
         row["machine"]["values"],
         BlindDrive(row["machine"]["signal"]["tones"]),

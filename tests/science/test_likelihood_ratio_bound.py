@@ -4,7 +4,7 @@ import pytest
 
 from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import default
-from lostmotion_trials.blind.bound import yardstick
+from lostmotion_trials.blind.bound import compute_bound
 from lostmotion_trials.blind.commitment import Blind, conceal_case, open_sealed, publish
 from lostmotion_trials.blind.judging import score_case
 from lostmotion_trials.blind.pilot import Effect
@@ -20,7 +20,7 @@ def concealed_in(folder, blind, number=0):
 def test_nominal_model_finds_its_best_fit_without_half_of_the_forces(tmp_path):
     """Friction of half of the drive: from the truth itself the nominal fit stops a million below its maximum."""
     prepared, truth = concealed_in(tmp_path, Blind(11, 1500, ("coulomb_friction",)))
-    found = yardstick(prepared, truth.machine, truth.effects, None)
+    found = compute_bound(prepared, truth.machine, truth.effects, None)
     assert found.status == ("ok",)
     assert 100.0 < found.gains[0] < 600.0
 
@@ -28,7 +28,7 @@ def test_nominal_model_finds_its_best_fit_without_half_of_the_forces(tmp_path):
 def test_gain_grows_with_what_is_left_out(tmp_path):
     """An effect of no size gains nothing but chance."""
     prepared, truth = concealed_in(tmp_path, Blind(3, 1500, clean=True))
-    found = yardstick(prepared, truth.machine, [Effect("offset_force", "", {"force": 0.0})], None)
+    found = compute_bound(prepared, truth.machine, [Effect("offset_force", "", {"force": 0.0})], None)
     assert 0.0 <= found.gains[0] < 8.0
 
 

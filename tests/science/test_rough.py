@@ -7,10 +7,10 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from lostmotion_trials.blind import imperfect, simulator
-from lostmotion_trials.blind.hiding import hidden_in
+from lostmotion_trials.blind.hiding import convert_effects
 from lostmotion_trials.blind.imperfect import KINDS, draw_effect, draw_machine, draw_world, simulate_imperfect
 from lostmotion_trials.blind.mechanisms import Pilot
-from lostmotion_trials.blind.simulator import Meddling, moved
+from lostmotion_trials.blind.simulator import Disturbances, simulate_machine
 from lostmotion_trials.integrators.hidden import BOUC_WEN, DAHL, LUGRE, Body, Hidden, move
 from lostmotion_trials.integrators.imperfect import CELLS, REACH, Flaws, _read, move_rough
 
@@ -149,9 +149,9 @@ def test_half_the_step_moves_it_less_than_the_noise(kind, name, monkeypatch):
     monkeypatch.setattr(simulator, "SETTLING_PERIODS", 0)
     rng = np.random.default_rng([3, KINDS.index(kind)])
     rig = draw_machine(kind, rng, 500)
-    pilot = Pilot(rig, moved(rig, Hidden(), Meddling(), rng))
+    pilot = Pilot(rig, simulate_machine(rig, Hidden(), Disturbances(), rng))
     world = draw_world(kind, pilot, rng)
-    hidden = hidden_in(rig, (draw_effect(name, pilot, rng),))
+    hidden = convert_effects(rig, (draw_effect(name, pilot, rng),))
     coarse = simulate_imperfect(rig, hidden, world, rng)
     monkeypatch.setattr(imperfect, "STEPS_PER_RATE", 0.5 * imperfect.STEPS_PER_RATE)
     fine = simulate_imperfect(rig, hidden, world, rng)

@@ -23,7 +23,7 @@ class Fields:
 
     file: str
     place: str
-    values: Mapping[str, Any]
+    values: Mapping[str, Any]  # as TOML has them: each is checked when it is read
 
     def only(self, known: Iterable[str]) -> Fields:
         """Return the table itself; raise `CaseError` for a key that is not among `known`."""

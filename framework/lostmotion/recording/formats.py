@@ -172,7 +172,7 @@ def _read_h5(path: Path) -> Table:
     check_hdf5(path)
     with h5py.File(path, "r") as file:
         if "_NCProperties" not in file.attrs:
-            held: dict[str, Any] = {}
+            held: dict[str, Any] = {}  # data sets of h5py, which has no types
             file.visititems(lambda name, item: held.update({name: item} if _is_numeric(item) else {}))
             units = {name: _unit_of(item.attrs) for name, item in held.items()}
             return _make_table({name: item[()] for name, item in held.items()}, units)
@@ -212,14 +212,14 @@ def _unit_of(attributes: Any) -> str:
     return word.strip() if isinstance(word, str) else ""
 
 
-def _make_table(content: Mapping[str, Any], units: Mapping[str, str] | None = None) -> Table:
+def _make_table(content: Mapping[str, object], units: Mapping[str, str] | None = None) -> Table:
     """Return the table of some arrays; the unit of a two-dimensional array is that of its columns."""
     columns = dict(_flatten_all(content))
     known = {name: (units or {}).get(name) or (units or {}).get(name.rpartition("[")[0], "") for name in columns}
     return Table(columns, {name: unit for name, unit in known.items() if unit})
 
 
-def _flatten_all(content: Mapping[str, Any]) -> Iterator[tuple[str, Array]]:
+def _flatten_all(content: Mapping[str, object]) -> Iterator[tuple[str, Array]]:
     for name, value in content.items():
         yield from _flatten(name, value)
 

@@ -1,4 +1,4 @@
-"""What any method does with a series: checks, delay vectors, sampling, spectra, sections, decays, hits, cycles."""
+"""Common operations on a series: checks, delay vectors, sampling, spectra, sections, decays, hits, cycles."""
 
 from lostmotion.signals.decay import Decay, decay_of, decays_of
 from lostmotion.signals.impacts import Hit, hits_of, note_hits, note_overload, onsets_of, overloaded

@@ -17,32 +17,32 @@ Array = NDArray[np.float64]
 FEWEST_CYCLES = 4
 FEWEST_SAMPLES = 32
 LOUD = 3.0
-"""A cycle is kept while its amplitude is so many times the noise."""
+"""A cycle is used while its amplitude exceeds this multiple of the noise."""
 FALL, CLIMB = 0.1, 0.25
-"""The least fall of the log amplitude of a decay, and the share of this fall that the amplitude may rise again."""
+"""The least fall of the log amplitude of a decay, and the share of this fall by which it may rise again."""
 SURE = 5.0
-"""Standard errors by which the amplitude must fall."""
+"""The amplitude must fall by this many standard errors."""
 REACH = 2.0
 """Half the width (periods) of the windows in which sines are fitted."""
 FIRST = 16.0
-"""Periods at the start of a decay in which other modes are looked for: most of them die early."""
+"""The number of periods at the start in which other modes are searched: most of them decay early."""
 OTHER = 0.05
-"""A line of this share of the height of the dominating one is another mode."""
+"""A line with at least this share of the height of the dominating one is another mode."""
 CLOSEST = 0.1
-"""Share of its frequency by which a mode must be away from its neighbours."""
+"""The least distance of a mode from its neighbours, as a share of its frequency."""
 FINEST = 1e-9
-"""Share of the largest amplitude below which all is rounding."""
+"""Values below this share of the largest amplitude are rounding errors."""
 STARTS = (1.0, 1.15, 0.87, 1.3, 0.75, 1.5, 0.65)
-"""Multiples of the frequency of the whole at which the first cycle is sought: stiffness may change a lot."""
+"""Multiples of the overall frequency at which the first cycle is fitted: the stiffness may change strongly."""
 SAME = 0.3
-"""Logarithm of the ratio of two frequencies up to which they may be the same mode at two amplitudes."""
+"""The largest log ratio of two frequencies that may belong to the same mode at two amplitudes."""
 HARMONICS = 3
 UNEXPLAINED = 0.1
-"""Share of the amplitude that may be left over beside a single mode."""
+"""The largest residual of a single mode, as a share of the amplitude."""
 ONSET = 3
-"""Cycles before the largest one whose windows may hold part of it."""
+"""The number of cycles before the largest one whose windows may contain part of it."""
 MOST = 2000
-"""Cycles that are looked at: of more, one in two or more."""
+"""The greatest number of cycles that are fitted; of more cycles, every second one or fewer."""
 STEPS, PRECISION = 30, 1e-8
 
 
@@ -66,12 +66,12 @@ class Decay:
 
     @property
     def damping_ratio(self) -> Array:
-        """Return the share (cycles,) of the critical damping of a viscous oscillator with these decrements."""
+        """The damping ratio (cycles,) of a viscous oscillator with these decrements."""
         return np.asarray(self.decrement / np.sqrt(4.0 * math.pi**2 + self.decrement**2))
 
 
 class _Window(NamedTuple):
-    """Where a sine is fitted: middle and half width (s), and the power of the cosine with which weights fall off."""
+    """The window of a fitted sine: middle and half width (s), and the power of the cosine of its weights."""
 
     middle: float
     reach: float
@@ -94,71 +94,73 @@ class _Cycle(NamedTuple):
 def decay_of(
     values: ArrayLike, dt: float, *, noise: float | None = None, near: float | None = None, most: int = MOST
 ) -> Decay | None:
-    """Return the decay of the dominating mode in the readings (n,), taken every `dt` s, or None where there is none.
+    """Return the decay of the dominating mode in the readings (n,), sampled every `dt` s, or None where there is none.
 
-    Position, velocity and acceleration will do alike; samples that are NaN are left out. The readings should begin
-    with the decay; cycles before the largest one are dropped. What is asked of a decay: four cycles or more with an
+    Readings may be position, velocity or acceleration; samples that are NaN are left out. They should begin with the
+    decay; cycles before the largest one are dropped. The conditions of a decay are: four cycles or more with an
     amplitude above three times the `noise` (standard deviation, in the unit of the readings; estimated from the
     spectrum about the mode in the second half of the readings where it is not given), whose amplitude falls by 10 % or
-    more and by 5 standard errors, and on its way never rises again by more than a quarter of that fall (logarithms).
-    It must begin at once, and stay within the noise once it is there. Of more than `most` cycles some are passed over.
-    So noise, a steady vibration and the beat of two modes are none. A resonance that noise drives may fall for a while
-    by chance, and then looks like a decay. `near` (Hz) asks for the mode next to a frequency, not for the
+    more and by 5 standard errors, and never rises again by more than a quarter of that fall (logarithms). The decay
+    must begin suddenly, and remain within the noise at its end. Of more than `most` cycles some are skipped. So noise,
+    a steady vibration and the beat of two modes are no decays. A resonance under random excitation may decrease for a
+    while by chance, and is then taken for a decay. `near` (Hz) selects the mode next to a frequency in place of the
     dominating one.
 
     Method: a sine with an exponential envelope and an offset is fitted by least squares to windows of four periods
-    about the middle of each cycle (Gauss-Newton, Hann weights), so neither an offset nor a body that comes to rest
-    disturbs it; harmonics are fitted along, so the amplitude is that of the fundamental. Where that leaves more than
-    noise there are other modes; then windows are symmetric and longer, so that their taper separates the modes, and the
-    first and last cycles are lost. A Hilbert transform, averaged over as many periods, does worse: its decrements
-    scatter twice as much in the middle of a noisy decay, and are useless within two cycles of the ends, where its
-    amplitude is off by several per cent (Feldman, Mech. Syst. Signal Process. 25, 2011, 735, on these end effects).
-    Standard errors leave out what other modes do. Readings of velocity and acceleration of a nonlinear oscillator have
-    other decrements than its position, since the factor between the amplitudes is the frequency, which changes.
+    about the middle of each cycle (Gauss-Newton, Hann weights), so neither an offset nor the end of the motion has an
+    effect; harmonics are fitted too, so the amplitude is that of the fundamental. Residuals above the noise indicate
+    other modes; then windows are symmetric and longer, so that their taper separates the modes, and the first and last
+    cycles are lost. A Hilbert transform, averaged over as many periods, is less accurate: its decrements scatter twice
+    as much in the middle of a noisy decay, and are useless within two cycles of the ends, where its amplitude has
+    errors of several per cent (Feldman, Mech. Syst. Signal Process. 25, 2011, 735, on these end effects). Standard
+    errors do not include the effect of other modes. Readings of velocity and acceleration of a nonlinear oscillator
+    have other decrements than its position, since the factor between the amplitudes is the frequency, which changes.
     """
-    readings = _checked(values, dt)
+    readings = _check_readings(values, dt)
     there = np.isfinite(readings)
     if np.count_nonzero(there) < FEWEST_SAMPLES or not np.ptp(readings[there]) > 0.0:
         return None
     rest = float(np.mean(readings[there][-(np.count_nonzero(there) // 4) :]))
     filled = np.interp(np.arange(readings.size), np.flatnonzero(there), readings[there]) - rest
-    lines = _lines(*_spectrum(filled * _fading(filled.size, 0), dt), 1.5 / (filled.size * dt))
-    overall = _dominating(lines, near)
+    lines = _find_lines(*_padded_spectrum(filled * _make_weights(filled.size, 0), dt), 1.5 / (filled.size * dt))
+    overall = _find_dominating(lines, near)
     if overall is None:
         return None
-    level = _noise(filled, dt, overall) if noise is None else float(noise)
-    end = _rests(filled, level, max(2, round(1.0 / (overall * dt))))
+    level = _estimate_noise(filled, dt, overall) if noise is None else float(noise)
+    end = _find_end(filled, level, max(2, round(1.0 / (overall * dt))))
     hop = math.ceil(end * dt * overall / max(most, 1))
-    cycles = _alone((readings - rest)[:end], dt, overall, hop)
-    if not _explained(cycles, level):
-        cycles = list(_beside((readings - rest)[:end], dt, *_neighbours(filled, dt, overall, lines), hop=hop))
-    return _accepted(cycles, level)
+    cycles = _fit_single_mode((readings - rest)[:end], dt, overall, hop)
+    if not _is_explained(cycles, level):
+        cycles = list(
+            _fit_separated_mode((readings - rest)[:end], dt, *_find_neighbours(filled, dt, overall, lines), hop=hop)
+        )
+    return _accept_decay(cycles, level)
 
 
 def decays_of(values: ArrayLike, dt: float, starts: Sequence[int], *, near: float | None = None) -> tuple[Decay, ...]:
     """Return the decays that begin at the sample numbers `starts` and end where the next one begins.
 
-    Times count from the first sample of the readings (n,). A stretch that holds no decay is left out.
+    Times count from the first sample of the readings (n,). A part without a decay is left out.
     """
-    readings = _checked(values, dt)
+    readings = _check_readings(values, dt)
     ends = [*starts[1:], readings.size]
     found = []
     for start, end in zip(starts, ends, strict=True):
         if not 0 <= start < end <= readings.size:
             raise DataError(
-                f"a decay is to go from sample {start} to {end} of {readings.size}: give rising sample numbers within"
+                f"a decay is given from sample {start} to {end} of {readings.size}: give rising numbers in range"
             )
         decay = decay_of(readings[start:end], dt, near=near)
         if decay is not None:
-            found.append(_later(decay, start * dt))
+            found.append(_shift_times(decay, start * dt))
     return tuple(found)
 
 
-def _later(decay: Decay, by: float) -> Decay:
+def _shift_times(decay: Decay, by: float) -> Decay:
     return Decay(**{**decay.__dict__, "time": decay.time + by})
 
 
-def _checked(values: ArrayLike, dt: float) -> Array:
+def _check_readings(values: ArrayLike, dt: float) -> Array:
     readings = np.array(values, dtype=np.float64)
     if readings.ndim != 1:
         raise DataError(f"the readings have {readings.ndim} dimensions {readings.shape}: give one channel, shape (n,)")
@@ -168,43 +170,43 @@ def _checked(values: ArrayLike, dt: float) -> Array:
     return readings
 
 
-def _fading(size: int, rise: int) -> Array:
-    """Return weights (size,) that rise over some samples and then fall to nothing."""
+def _make_weights(size: int, rise: int) -> Array:
+    """Return weights (size,) that rise over some samples and then fall to zero."""
     up, down = np.arange(rise) / max(rise, 1), np.arange(size - rise) / (size - rise)
     return np.concatenate([np.sin(0.5 * np.pi * up) ** 2, np.cos(0.5 * np.pi * down) ** 2])
 
 
-def _spectrum(x: Array, dt: float) -> tuple[Array, Array]:
+def _padded_spectrum(x: Array, dt: float) -> tuple[Array, Array]:
     """Return frequencies (Hz) and heights of the spectrum of `x`, padded to four times its length."""
     size = 4 * x.size
     return np.asarray(np.fft.rfftfreq(size, dt)), np.asarray(np.abs(np.fft.rfft(x, size)))
 
 
-def _lines(frequency: Array, height: Array, lowest: float) -> Array:
-    """Return frequency and height (lines, 2) of the peaks from a frequency on, without side lobes of higher ones."""
+def _find_lines(frequency: Array, height: Array, lowest: float) -> Array:
+    """Return frequency and height (lines, 2) of the peaks above a frequency, without side lobes of higher ones."""
     peaks, _ = signal.find_peaks(height, prominence=0.5 * OTHER * float(height[frequency >= lowest].max(initial=0.0)))
     peaks = peaks[frequency[peaks] >= lowest]
     return np.column_stack([frequency[peaks], height[peaks]])
 
 
-def _dominating(lines: Array, near: float | None) -> float | None:
-    """Return the frequency (Hz) of the highest line, of all or of those next to a frequency, or None without one."""
+def _find_dominating(lines: Array, near: float | None) -> float | None:
+    """Return the frequency (Hz) of the highest line, of all lines or of those near a frequency, or None."""
     asked = lines if near is None else lines[(lines[:, 0] > 0.8 * near) & (lines[:, 0] < 1.25 * near)]
     return float(asked[np.argmax(asked[:, 1]), 0]) if len(asked) else None
 
 
-def _neighbours(x: Array, dt: float, overall: float, lines: Array) -> tuple[float, float, float]:
+def _find_neighbours(x: Array, dt: float, overall: float, lines: Array) -> tuple[float, float, float]:
     """Return the frequency (Hz) of a mode in the first periods of `x`, the distance (Hz) and height of other modes.
 
-    Far modes are found in the whole spectrum; close ones only in the first periods, for there a frequency that
-    changes with the amplitude makes no second line.
+    Distant modes are found in the whole spectrum; close ones only in the first periods, in which a frequency that
+    changes with the amplitude causes no second line.
     """
     strength = lines[np.argmin(np.abs(lines[:, 0] - overall)), 1]
     far = lines[np.abs(np.log2(lines[:, 0] / overall)) > 1.0] / np.array([1.0, strength])
     piece = x[: max(FEWEST_SAMPLES, round(FIRST / (overall * dt)))]
-    weights = _fading(piece.size, piece.size // 5)
+    weights = _make_weights(piece.size, piece.size // 5)
     centred = piece - np.average(piece, weights=weights)
-    early = _lines(*_spectrum(centred * weights, dt), 1.5 / (piece.size * dt))
+    early = _find_lines(*_padded_spectrum(centred * weights, dt), 1.5 / (piece.size * dt))
     own = early[np.abs(np.log(early[:, 0] / overall)) < SAME]
     if not len(own):
         return overall, CLOSEST * overall, 1.0
@@ -216,10 +218,10 @@ def _neighbours(x: Array, dt: float, overall: float, lines: Array) -> tuple[floa
     return float(first), max(apart, CLOSEST * first), float(np.max(others[:, 1], initial=1.0))
 
 
-def _noise(x: Array, dt: float, about: float) -> float:
-    """Return the standard deviation of white noise as dense as what lies beside a frequency, late in `x`.
+def _estimate_noise(x: Array, dt: float, about: float) -> float:
+    """Return the standard deviation of white noise with the spectral density beside a frequency, late in `x`.
 
-    The median does not see lines of other modes.
+    The median is robust against lines of other modes.
     """
     late = x[x.size // 2 :]
     frequency, density = signal.periodogram(late, 1.0 / dt, window="hann", detrend="linear")
@@ -230,8 +232,8 @@ def _noise(x: Array, dt: float, about: float) -> float:
     return math.sqrt(float(np.median(density[beside])) / math.log(2.0) * 0.5 / dt)
 
 
-def _rests(x: Array, noise: float, period: int) -> int:
-    """Return the sample number from which on nothing moves any more: one period never has more than the noise."""
+def _find_end(x: Array, noise: float, period: int) -> int:
+    """Return the sample at which the motion ends: later, the motion in a period never exceeds the noise."""
     if x.size <= period:
         return x.size
     windows = np.lib.stride_tricks.sliding_window_view(x, period)
@@ -240,13 +242,13 @@ def _rests(x: Array, noise: float, period: int) -> int:
     return x.size if last == moving.size else last + 1
 
 
-def _alone(x: Array, dt: float, overall: float, hop: int) -> list[_Cycle]:
-    """Return what is fitted about the middle of every `hop`-th cycle of `x` (n,) if there is one mode.
+def _fit_single_mode(x: Array, dt: float, overall: float, hop: int) -> list[_Cycle]:
+    """Return the sines fitted around the middle of every `hop`-th cycle of `x` (n,) for a single mode.
 
     NaN marks lost samples.
     """
     window = _Window(0.5 / overall, REACH / overall, 2)
-    tried = (_cycle(x, dt, window, complex(0.0, 2.0 * math.pi * overall * factor)) for factor in STARTS)
+    tried = (_fit_cycle(x, dt, window, complex(0.0, 2.0 * math.pi * overall * factor)) for factor in STARTS)
     firsts = [cycle for cycle in tried if cycle is not None]
     if not firsts:
         return []
@@ -254,7 +256,7 @@ def _alone(x: Array, dt: float, overall: float, hop: int) -> list[_Cycle]:
     found, centre = [], math.pi / exponent.imag
     while centre < x.size * dt:
         period = 2.0 * math.pi / exponent.imag
-        cycle = _cycle(x, dt, _Window(centre, REACH * period, 2), exponent)
+        cycle = _fit_cycle(x, dt, _Window(centre, REACH * period, 2), exponent)
         if cycle is not None and 0.7 < cycle.exponent.imag / exponent.imag < 1.4:
             exponent = cycle.exponent
             found.append(cycle)
@@ -262,17 +264,19 @@ def _alone(x: Array, dt: float, overall: float, hop: int) -> list[_Cycle]:
     return found
 
 
-def _explained(cycles: list[_Cycle], noise: float) -> bool:
-    """Return whether a single mode leaves nothing but noise in the cycles that are loud enough."""
+def _is_explained(cycles: list[_Cycle], noise: float) -> bool:
+    """Return whether a single mode explains the cycles above the noise."""
     loud = [cycle for cycle in cycles if cycle.amplitude > LOUD * noise]
     left = [cycle.rest < max(UNEXPLAINED * cycle.amplitude, 2.0 * noise) for cycle in loud]
     return len(left) >= FEWEST_CYCLES and float(np.mean(left)) > 0.75
 
 
-def _beside(x: Array, dt: float, first: float, apart: float, height: float, *, hop: int) -> Iterator[_Cycle]:
-    """Yield what is fitted about the middle of every `hop`-th cycle of `x` (n,), beside modes at a distance (Hz).
+def _fit_separated_mode(
+    x: Array, dt: float, first: float, apart: float, height: float, *, hop: int
+) -> Iterator[_Cycle]:
+    """Yield the sines fitted around the middle of every `hop`-th cycle of `x` (n,), with other modes `apart` (Hz).
 
-    The windows are symmetric and so long that their taper separates the modes: the longer the higher the others are.
+    The windows are symmetric, and long enough for their taper to separate the modes: longer for higher other modes.
     """
     wanted = 3.0 * height**0.3 / apart
     exponent, centre = complex(0.0, 2.0 * math.pi * first), 0.5 / first
@@ -280,17 +284,17 @@ def _beside(x: Array, dt: float, first: float, apart: float, height: float, *, h
         period = 2.0 * math.pi / exponent.imag
         reach = min(max(REACH * period, wanted), centre, x.size * dt - centre)
         if reach >= 0.999 * max(period, 2.0 / apart):
-            cycle = _cycle(x, dt, _Window(centre, reach, 4), exponent)
+            cycle = _fit_cycle(x, dt, _Window(centre, reach, 4), exponent)
             if cycle is not None and abs(cycle.exponent.imag / (2.0 * math.pi) - first) > 0.5 * apart:
-                return  # another mode has outlived this one
+                return  # another mode dominates from here on
             if cycle is not None:
                 exponent = cycle.exponent
                 yield cycle
         centre += hop * 2.0 * math.pi / exponent.imag
 
 
-def _cycle(x: Array, dt: float, window: _Window, exponent: complex) -> _Cycle | None:
-    """Return the damped sine that fits best within a window, or None where none does."""
+def _fit_cycle(x: Array, dt: float, window: _Window, exponent: complex) -> _Cycle | None:
+    """Return the damped sine with the best fit in a window, or None where the fit fails."""
     low = max(0, math.ceil((window.middle - window.reach) / dt))
     high = min(x.size, math.floor((window.middle + window.reach) / dt) + 1)
     seen = low + np.flatnonzero(np.isfinite(x[low:high]))
@@ -302,7 +306,7 @@ def _cycle(x: Array, dt: float, window: _Window, exponent: complex) -> _Cycle | 
     count = min(HARMONICS, math.ceil(0.5 * period / dt) - 1)
     turn = exponent * period
     for _ in range(STEPS):
-        table = _columns(s, turn, count)
+        table = _make_columns(s, turn, count)
         weighted = table * weights[:, None]
         found = np.linalg.lstsq(weighted.T @ table, weighted.T @ x[seen], rcond=1e-13)[0]
         amplitude, slope = complex(*found[:2]), complex(*found[2:4])
@@ -313,11 +317,11 @@ def _cycle(x: Array, dt: float, window: _Window, exponent: complex) -> _Cycle | 
         if abs(step) < PRECISION:
             break
     rest = math.sqrt(float(np.average((x[seen] - table @ found) ** 2, weights=weights)))
-    errors = _errors(table, weights, amplitude) / np.array([1.0, period, period])
+    errors = _standard_errors(table, weights, amplitude) / np.array([1.0, period, period])
     return _Cycle(window.middle, abs(amplitude), turn / period, rest, errors)
 
 
-def _columns(s: Array, turn: complex, count: int) -> Array:
+def _make_columns(s: Array, turn: complex, count: int) -> Array:
     """Return the real part of (1, i, s, i s) exp(turn s), one, and the same of harmonics: columns (n, 3 + 2 count)."""
     wave = np.exp(turn * s)
     parts = [wave.real, -wave.imag, s * wave.real, -s * wave.imag, np.ones_like(s)]
@@ -326,8 +330,8 @@ def _columns(s: Array, turn: complex, count: int) -> Array:
     return np.column_stack(parts)
 
 
-def _errors(table: Array, weights: Array, amplitude: complex) -> Array:
-    """Return the standard errors (3,) of amplitude, growth and turning under white noise of standard deviation one."""
+def _standard_errors(table: Array, weights: Array, amplitude: complex) -> Array:
+    """Return the standard errors (3,) of amplitude, growth and frequency for white noise of standard deviation one."""
     inverse = np.linalg.pinv((table * weights[:, None]).T @ table)
     covariance = inverse @ ((table * weights[:, None] ** 2).T @ table) @ inverse
     along, across = amplitude / abs(amplitude), 1j * amplitude / abs(amplitude)
@@ -338,17 +342,19 @@ def _errors(table: Array, weights: Array, amplitude: complex) -> Array:
     return np.asarray(np.sqrt(np.maximum(np.einsum("ij,jk,ik->i", rows, covariance, rows), 0.0)))
 
 
-def _accepted(cycles: list[_Cycle], noise: float) -> Decay | None:
-    """Return the decay from the largest cycle to the last one above the noise, or None where this is no decay."""
+def _accept_decay(cycles: list[_Cycle], noise: float) -> Decay | None:
+    """Return the decay from the largest cycle to the last one above the noise, or None where it is not a decay."""
     if len(cycles) < FEWEST_CYCLES:
         return None
     sizes = np.array([cycle.amplitude for cycle in cycles])
     first = int(np.argmax(sizes))
     quiet = np.flatnonzero(sizes[first:] <= max(LOUD * noise, FINEST * sizes[first]))
     kept = cycles[first : first + int(quiet[0]) if quiet.size else None]
-    if len(kept) < max(FEWEST_CYCLES, first) or not _once(sizes / sizes[first], first, len(kept), noise / sizes[first]):
+    if len(kept) < max(FEWEST_CYCLES, first) or not _is_single_decay(
+        sizes / sizes[first], first, len(kept), noise / sizes[first]
+    ):
         return None
-    decay = _collected(kept, noise)
+    decay = _collect_cycles(kept, noise)
     size = np.log(decay.amplitude)
     error = math.hypot(*(decay.amplitude_error / decay.amplitude)[[0, -1]])
     fall = float(size[0] - size[-1])
@@ -357,14 +363,14 @@ def _accepted(cycles: list[_Cycle], noise: float) -> Decay | None:
     return decay if falls else None
 
 
-def _once(sizes: Array, first: int, count: int, noise: float) -> bool:
-    """Return whether sizes (over the largest one) come up at once, and stay down when they are down."""
+def _is_single_decay(sizes: Array, first: int, count: int, noise: float) -> bool:
+    """Return whether amplitudes (over the largest one) rise suddenly, and remain small after the decay."""
     early, later = sizes[: max(0, first - ONSET)], sizes[first + count :]
     sudden = bool(np.all(early < 0.3) or np.all(early > 0.8))
     return sudden and float(np.mean(later > max(2.0 * LOUD * noise, 1e-6))) < 0.1 if later.size else sudden
 
 
-def _collected(cycles: list[_Cycle], noise: float) -> Decay:
+def _collect_cycles(cycles: list[_Cycle], noise: float) -> Decay:
     exponents = np.array([cycle.exponent for cycle in cycles])
     errors = noise * np.array([cycle.errors for cycle in cycles])
     decrement = -2.0 * np.pi * exponents.real / exponents.imag

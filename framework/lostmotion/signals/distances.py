@@ -1,8 +1,8 @@
-"""How far apart two clouds of points lie: energy distance, with a test by exchanging stretches of time.
+"""The energy distance between two sets of points, with a permutation test of blocks in time.
 
 Szekely, Rizzo, J. Statistical Planning and Inference 143 (2013) 1249-1272: 2 E|X - Y| - E|X - X'| - E|Y - Y'| is zero
-only where both clouds have the same distribution. It is a quadratic form in the distances, so clouds that were looked
-at together (at several phases of a drive, say) are compared by the mean of their distances.
+only where both sets have the same distribution. It is a quadratic form in the distances, so sets of points at several
+phases of a drive are compared by the mean of their distances.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 BLOCKS = 40
-"""Stretches of each cloud that are exchanged whole: neighbours in time are not independent."""
+"""The number of blocks of each set that are permuted as a whole: neighbours in time are not independent."""
 
 
 def distances(points: Array) -> Array:
@@ -31,9 +31,9 @@ def energy_distance(table: Array, first: NDArray[np.intp], second: NDArray[np.in
 
 
 def same_chance(table: Array, first: int, rng: np.random.Generator, *, draws: int = 199) -> float:
-    """Return how often clouds of one distribution lie this far apart: the p-value of the first `first` points.
+    """Return the p-value for equal distributions of the first `first` points and the others.
 
-    Stretches of consecutive points are exchanged between the clouds.
+    Blocks of consecutive points are permuted between both sets.
     """
     n = len(table)
     sizes = (first, n - first)

@@ -1,7 +1,7 @@
-"""Sampling against the drive: found where it keeps step with the drive, and moved to a grid that does not.
+"""Detection of sampling that is commensurate with the drive, and resampling to an incommensurate grid.
 
-At a whole number of samples a period, a recording of a driven machine is a stack of Poincare sections. Neighbours at
-small distances then come from the same phase, and a slope read there is the dimension of the section, not of the flow.
+With an integer number of samples per period, a recording of a driven machine is a set of Poincare sections. Neighbours
+at small distances then have the same phase, and the slope there is the dimension of the section, not of the flow.
 """
 
 from __future__ import annotations
@@ -17,18 +17,18 @@ from lostmotion.errors import DataError
 
 Array = NDArray[np.float64]
 GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
-"""The fraction that is farthest from all fractions with small denominators."""
+"""The golden ratio, the number that is farthest from all fractions with small denominators."""
 MOST = 8
 """Sections up to this many periods apart count as the same phase."""
 TOLERANCE = 1e-3
-"""A period this close (samples) to a fraction keeps step with the sampling, however long the recording is."""
+"""A period this close (samples) to a fraction is commensurate, for any length of the recording."""
 FEWEST = 4.0
-"""Samples a period below which a series cannot be interpolated."""
+"""The least number of samples per period for interpolation."""
 DEGREE = 5
 
 
 class Locked(NamedTuple):
-    """A sampling that keeps step with a drive: `samples` in every `periods`, but for `off` samples a period."""
+    """A commensurate sampling: `samples` in every `periods` of the drive, with an error of `off` samples per period."""
 
     samples: int
     periods: int
@@ -40,10 +40,10 @@ class Locked(NamedTuple):
 
 
 def commensurate(period: float, dt: float, n: int, *, most: int = MOST) -> Locked | None:
-    """Return how `n` samples every `dt` s keep step with a drive of `period` s, or None where they do not.
+    """Return how `n` samples every `dt` s are commensurate with a drive of `period` s, or None where they are not.
 
-    They do when the phases at which the drive is seen repeat after at most `most` periods: the drift in all of the
-    recording is less than the distance between two of these phases, or a period is within 1e-3 samples of a fraction.
+    They are when the sampled phases of the drive repeat after at most `most` periods: the drift over the recording is
+    smaller than the distance of two of these phases, or the period is within 1e-3 samples of a fraction.
     """
     if not (math.isfinite(period) and math.isfinite(dt) and period > 0.0 and dt > 0.0):
         raise DataError(f"the period is {period:g} s and the sampling step {dt:g} s: both must be positive")
@@ -59,17 +59,17 @@ def commensurate(period: float, dt: float, n: int, *, most: int = MOST) -> Locke
 
 
 def golden_step(period: float, dt: float) -> float:
-    """Return a step (s) a little longer than `dt` at which no multiple of the drive's period falls on the grid."""
+    """Return a step (s) a little longer than `dt` so that no multiple of the drive period is on the grid."""
     each = period / dt
     if each < FEWEST:
         raise DataError(
-            f"{each:.3g} samples a period are too few to interpolate between, and {FEWEST:g} are wanted: sample faster"
+            f"{each:.3g} samples per period are too few for interpolation, and {FEWEST:g} are wanted: sample faster"
         )
     return period / (math.floor(each - GOLDEN) + GOLDEN if each % 1.0 != GOLDEN else each)
 
 
 def resampled(x: Array, dt: float, step: float) -> Array:
-    """Return the series `x` (n,), sampled every `dt` s, at multiples of `step` s: by a spline of degree 5."""
+    """Return the series `x` (n,), sampled every `dt` s, at multiples of `step` s, by a spline of degree 5."""
     if not step > 0.0:
         raise DataError(f"the step is {step:g} s: give a positive one")
     if len(x) <= DEGREE:
@@ -81,7 +81,7 @@ def resampled(x: Array, dt: float, step: float) -> Array:
 
 
 def unlocked(x: Array, dt: float, period: float) -> tuple[Array, float, Locked | None]:
-    """Return series, step (s) and what was found: resampled where the sampling keeps step with the drive."""
+    """Return series, step (s) and the finding; the series is resampled where the sampling is commensurate."""
     found = commensurate(period, dt, len(x))
     if found is None or period / dt < FEWEST:
         return x, dt, found

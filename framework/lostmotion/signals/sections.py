@@ -1,4 +1,4 @@
-"""Sections of a motion: at a phase of its drive, at a level it crosses; and how nearly it returns after k periods."""
+"""Sections of a motion at a phase of its drive or at a level, and the deviation of its return after k periods."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from lostmotion.errors import DataError
 
 Array = NDArray[np.float64]
 HYSTERESIS = 0.1
-"""Share of the standard deviation by which a series must fall below a level before it can cross it again."""
+"""A series must fall below a level by this share of its standard deviation before it can cross it again."""
 
 
 class Section(NamedTuple):
@@ -30,38 +30,38 @@ class Section(NamedTuple):
 
 
 def stroboscopic(x: Array, dt: float, period: float, *, phase: float = 0.0, lag: int = 1) -> Section:
-    """Return x(t) and x(t + lag) once a period, at a `phase` in [0, 1) of it, counted from the first sample of `x`.
+    """Return x(t) and x(t + lag) once per period, at a `phase` in [0, 1) from the first sample of `x`.
 
-    Where a period is no whole number of samples, values come from a cubic spline.
+    Where a period is not an integer number of samples, values are interpolated by a cubic spline.
     """
     _require_period(x, dt, period)
     last = (len(x) - 1 - lag) * dt
     if lag < 0 or last < phase * period:
         raise DataError(f"a lag of {lag} samples leaves nothing of {len(x)} samples: choose a shorter one")
-    # Without the margin rounding would now and then lose the last point.
+    # Without this margin, rounding could lose the last point.
     count = math.floor((last / period - phase % 1.0) * (1.0 + 1e-12) + 1e-9) + 1
     time = (phase % 1.0 + np.arange(max(count, 0), dtype=np.float64)) * period
-    return Section(time, _at(x, time / dt), _at(x, time / dt + lag))
+    return Section(time, _interpolate(x, time / dt), _interpolate(x, time / dt + lag))
 
 
 def poincare(x: Array, *, dt: float, lag: int, level: float | None = None) -> Section:
     """Return x(t + lag) and x(t + 2 lag) at the times when `x` crosses a level upwards: a section of delay space.
 
-    The level is the mean unless given. A series must fall a tenth of its standard deviation below the level before it
-    can cross it again, so that noise makes no crossings of its own.
+    The default level is the mean. A series must fall a tenth of its standard deviation below the level before it can
+    cross it again, so that noise causes no additional crossings.
     """
     if lag < 1 or len(x) <= 2 * lag + 1:
         raise DataError(f"a lag of {lag} samples leaves nothing of {len(x)} samples: give one from 1 to {len(x) // 3}")
     plane = float(np.mean(x)) if level is None else level
-    where = _crossings(x[: len(x) - 2 * lag] - plane, HYSTERESIS * float(np.std(x)))
-    return Section(where * dt, _at(x, where + lag), _at(x, where + 2 * lag))
+    where = _find_crossings(x[: len(x) - 2 * lag] - plane, HYSTERESIS * float(np.std(x)))
+    return Section(where * dt, _interpolate(x, where + lag), _interpolate(x, where + 2 * lag))
 
 
 def return_spread(x: Array, dt: float, period: float, *, most: int = 16, noise: float = 0.0) -> Array:
     """Return the rms of x(t + k period) - x(t) over that of x, for k = 1 ... `most`: (most,), NaN where x is too short.
 
-    A motion that repeats itself every k periods has a spread near 0 at k and its multiples; stretches that have nothing
-    in common have one of sqrt 2. Measurement noise of standard deviation `noise` is taken off in the squares.
+    A motion that repeats every k periods has a spread near 0 at k and its multiples; uncorrelated parts have a spread
+    of sqrt 2. Measurement noise of standard deviation `noise` is subtracted in the squares.
     """
     _require_period(x, dt, period)
     centred = x - np.mean(x)
@@ -77,35 +77,35 @@ def return_spread(x: Array, dt: float, period: float, *, most: int = 16, noise: 
 
 
 def _mean_square(x: Array, spline: CubicSpline, shift: float, white: float) -> float:
-    """Return the mean square of x(t + shift) - x(t), less what white noise of variance `white` adds to it."""
+    """Return the mean square of x(t + shift) - x(t), minus the contribution of white noise of variance `white`."""
     rows = len(x) - math.ceil(shift - 1e-9)
     if rows < shift or rows < 2:
         return math.nan
     split = shift - math.floor(shift)
     difference = spline(np.minimum(np.arange(rows) + shift, len(x) - 1)) - x[:rows]
-    return float(difference @ difference) / rows - white * (1.0 + _passed(split))
+    return float(difference @ difference) / rows - white * (1.0 + _noise_share(split))
 
 
-def _passed(split: float) -> float:
-    """Return the share of white noise that a cubic spline lets through at a place between two samples."""
+def _noise_share(split: float) -> float:
+    """Return the share of the variance of white noise after cubic spline interpolation between two samples."""
     impulse = np.zeros(41)
     impulse[20] = 1.0
     weights = CubicSpline(np.arange(41), impulse)(np.arange(1, 40) + split)
     return float(weights @ weights)
 
 
-def _crossings(height: Array, drop: float) -> Array:
-    """Return where (samples, not whole ones) a series rises through zero, having been `drop` below it in between."""
+def _find_crossings(height: Array, drop: float) -> Array:
+    """Return where (fractional samples) a series rises through zero after it was below -`drop`."""
     rising = np.flatnonzero((height[:-1] < 0.0) & (height[1:] >= 0.0))
     below = np.concatenate([[0], np.cumsum(height < -drop)])
-    # Of several rises with no fall between them the first one counts.
+    # Of several rises without a fall between them, the first one counts.
     fresh = np.diff(below[rising + 1], prepend=0) > 0
     kept = rising[fresh]
     return kept + height[kept] / (height[kept] - height[kept + 1])
 
 
-def _at(x: Array, where: Array) -> Array:
-    """Return the series at places between its samples, by a cubic spline; at whole ones the samples themselves."""
+def _interpolate(x: Array, where: Array) -> Array:
+    """Return the series at fractional samples by a cubic spline; at integer ones the samples themselves."""
     nearest = np.rint(where)
     if where.size == 0 or float(np.max(np.abs(where - nearest))) < 1e-9:
         return x[nearest.astype(np.intp)]

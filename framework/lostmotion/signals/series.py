@@ -1,4 +1,4 @@
-"""A series as numbers: checked, centred, and laid out as delay vectors."""
+"""Checks and centring of a series, and its delay vectors."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from lostmotion.errors import DataError
 
 Array = NDArray[np.float64]
 LEAST = 200
-"""Fewer samples than this are refused: no method here says anything about them."""
+"""The least number of samples: no method gives a result for fewer."""
 
 
 def checked(values: ArrayLike, *, least: int = LEAST) -> Array:
-    """Return the series (n,) in double precision with its mean taken off, or raise a `DataError`.
+    """Return the series (n,) in double precision without its mean, or raise a `DataError`.
 
-    The mean is taken off before anything else, so that a huge offset (an encoder that counts from 1e9) costs no more
-    digits than the recording has lost already.
+    The mean is subtracted first, so that a large offset (an encoder that counts from 1e9) causes no further loss of
+    precision.
     """
     raw = np.asarray(values)
     if np.iscomplexobj(raw):
@@ -24,11 +24,11 @@ def checked(values: ArrayLike, *, least: int = LEAST) -> Array:
     try:
         x = raw.astype(np.float64)
     except (TypeError, ValueError) as err:
-        raise DataError(f"the series holds something that is no number ({err}): give a list of numbers") from err
+        raise DataError(f"the series contains something that is not a number ({err}): give a list of numbers") from err
     if x.ndim != 1:
         raise DataError(f"the series has {x.ndim} dimensions {x.shape}: give one channel, with shape (n,)")
     if len(x) < least:
-        raise DataError(f"the series has {len(x)} samples, and {least} are wanted at least: record longer")
+        raise DataError(f"the series has {len(x)} samples, and at least {least} are wanted: record longer")
     if not np.isfinite(x).all():
         bad = int((~np.isfinite(x)).sum())
         first = int(np.argmin(np.isfinite(x)))
@@ -47,6 +47,6 @@ def delay_vectors(x: Array, lag: int, dim: int) -> Array:
     rows = len(x) - (dim - 1) * lag
     if rows < 1:
         raise DataError(
-            f"{len(x)} samples hold no delay vector of dimension {dim} and lag {lag}: record longer, or lower one"
+            f"{len(x)} samples contain no delay vector of dimension {dim} and lag {lag}: record longer, or lower one"
         )
     return np.stack([x[k * lag : k * lag + rows] for k in range(dim)], axis=1)

@@ -13,24 +13,24 @@ from lostmotion.errors import DataError
 
 Array = NDArray[np.float64]
 SEGMENTS = 16
-"""Pieces of the series whose phases are compared: a line goes on from one to the next, a hump of noise does not."""
+"""The number of pieces whose phases are compared: the phase of a line is continuous between them, noise is not."""
 FALSE_ALARM = 1e-3
 CHANCE_MEMORY = 0.3
-"""Correlation of successive amplitudes that 16 independent ones may show by chance."""
+"""The correlation of successive amplitudes that 16 independent ones may have by chance."""
 CANDIDATES = 8
-WORTH_A_LOOK = 10.0
-"""A peak is fitted where agreement is at most so many times likelier by chance than that of a line."""
+FITTED = 10.0
+"""A peak is fitted when its chance probability is at most this many times that of a line."""
 SKIRT, AROUND = 2.5, (6.0, 24.0)
-"""What is left beside a line (bins), and where it is compared with the background (bins)."""
+"""The distance (bins) of residuals beside a line, and the range (bins) of the background."""
 STANDS_OUT = 3.0
-"""By this the rest beside a line may exceed the background: a line under noise does so in one record of 400."""
+"""Residuals beside a line may exceed the background by this factor, as in one record of 400 for a line with noise."""
 WANDERS = 3e-4
-"""Share of the power of a line (rad^2 of its phase) that may stand out beside it: the wow of a drive is no hump."""
+"""The share of the power of a line (rad^2 of its phase) that is allowed beside it, as from the wow of a drive."""
 FEWEST_CYCLES = 3.0
 STEPS = 12
 CHUNK = 4096
 PRECISION = 1e-8
-"""Share of the width of a spectral line at which the search for its middle ends."""
+"""The accuracy of the frequency of a line, as a share of its width."""
 UNEXPLAINED = 0.2
 MOST_DIVISIONS = 6
 
@@ -43,10 +43,10 @@ class Spectrum(NamedTuple):
 
 
 class Line(NamedTuple):
-    """A periodic component: its period and standard error (s), its share of the variance, and how it keeps its phase.
+    """A periodic component: its period and standard error (s), its share of the variance, and its coherence.
 
-    `coherence` is 1 when all segments agree about amplitude and phase; `chance` is the probability that noise with a
-    smooth spectrum shows such agreement anywhere.
+    `coherence` is 1 when all segments agree in amplitude and phase; `chance` is the probability of such agreement at
+    any frequency for noise with a smooth spectrum.
     """
 
     period: float
@@ -59,32 +59,32 @@ class Line(NamedTuple):
 def spectrum(x: Array, dt: float, *, segments: int = 1) -> Spectrum:
     """Return the power spectral density of `x` (n,) under a Hann taper: of the whole series, or Welch's mean.
 
-    `segments` pieces overlap by half (Welch, IEEE Trans. Audio Electroacoust. 15, 1967, 70): more of them show less
-    scatter and less detail.
+    The segments overlap by half (Welch, IEEE Trans. Audio Electroacoust. 15, 1967, 70): with more of them, scatter and
+    resolution are lower.
     """
     if segments < 1:
-        raise DataError(f"{segments} segments are no spectrum: ask for 1 or more")
+        raise DataError(f"{segments} segments give no spectrum: ask for 1 or more")
     length = max(8, 2 * len(x) // (segments + 1))
     frequency, density = signal.welch(x, 1.0 / dt, window="hann", nperseg=min(length, len(x)), detrend="constant")
     return Spectrum(frequency, density)
 
 
 def fundamental(x: Array, dt: float) -> Line | None:
-    """Return the strongest line in the spectrum of `x` (n,), or None where no component keeps its phase.
+    """Return the strongest line in the spectrum of `x` (n,), or None where no component has a constant phase.
 
-    A peak is a line if its complex amplitudes in 16 successive pieces agree better than those of noise would at the
-    best of all frequencies in one series of a thousand, and if it is no wider than the taper: with a sinusoid taken
-    off, nothing may stand out beside it, as it does where the phase wanders. The line of a subharmonic or harmonic may
-    be the strongest. A motion whose phase wanders by less than a tenth of a radian in all of the series, as that of
-    Roessler's equations may in a hundred cycles, cannot be told from a line.
+    A peak is a line if its complex amplitudes in 16 successive pieces agree better than those of noise at the best of
+    all frequencies in one series of a thousand, and if it is no wider than the taper: after subtraction of a sinusoid,
+    the residuals beside it must be as small as the background, which they are not where the phase drifts. A subharmonic
+    or harmonic may be the strongest line. A motion whose phase drifts by less than a tenth of a radian over the series,
+    as that of Roessler's equations may in a hundred cycles, cannot be distinguished from a line.
     """
     centred = x - x.mean()
     if len(x) < 4 * SEGMENTS or not centred.any():
         return None
-    for guess in _peaks(centred, dt):
-        if _chance(_aligned(_amplitudes(centred, guess * dt)), len(x)) > WORTH_A_LOOK * FALSE_ALARM:
+    for guess in _find_peaks(centred, dt):
+        if _chance(_align_pieces(_piece_amplitudes(centred, guess * dt)), len(x)) > FITTED * FALSE_ALARM:
             continue
-        line = line_at(centred, dt, _sharpened(centred, dt, guess, harmonics=1))
+        line = line_at(centred, dt, _refine_frequency(centred, dt, guess, harmonics=1))
         if line is not None:
             return line
     return None
@@ -93,8 +93,8 @@ def fundamental(x: Array, dt: float) -> Line | None:
 def refined_period(u: Array, dt: float) -> float | None:
     """Return the period (s) of a measured excitation `u` (n,), or None where it is not periodic.
 
-    Non-linear least squares on the fundamental and its harmonics together. A line that explains too little is tried as
-    a harmonic of a longer period, up to six times its own.
+    It is found by nonlinear least squares on the fundamental and its harmonics together. A line that explains too
+    little is tried as a harmonic of a longer period, up to six times its own.
     """
     centred = u - u.mean()
     line = fundamental(u, dt)
@@ -104,17 +104,17 @@ def refined_period(u: Array, dt: float) -> float | None:
         frequency = 1.0 / (line.period * divisions)
         if frequency * len(u) * dt < FEWEST_CYCLES:
             return None
-        if _unexplained(centred, frequency * dt) > 2.0 * UNEXPLAINED:
+        if _unexplained_share(centred, frequency * dt) > 2.0 * UNEXPLAINED:
             continue
-        frequency = _sharpened(centred, dt, frequency, harmonics=_count(frequency, dt, 3 * divisions))
-        if _unexplained(centred, frequency * dt) <= UNEXPLAINED:
+        frequency = _refine_frequency(centred, dt, frequency, harmonics=_count_harmonics(frequency, dt, 3 * divisions))
+        if _unexplained_share(centred, frequency * dt) <= UNEXPLAINED:
             return 1.0 / frequency
     return None
 
 
-def _unexplained(x: Array, turns: float) -> float:
-    """Return the share of the standard deviation of `x` (n,) that twelve harmonics leave over."""
-    return float(np.std(x - _fitted(x, turns, _count(turns, 1.0, 12))) / np.std(x))
+def _unexplained_share(x: Array, turns: float) -> float:
+    """Return the share of the standard deviation of `x` (n,) that twelve harmonics do not explain."""
+    return float(np.std(x - _fit_harmonics(x, turns, _count_harmonics(turns, 1.0, 12))) / np.std(x))
 
 
 def without_harmonics(
@@ -130,32 +130,32 @@ def without_harmonics(
         raise DataError(f"the period is {period:g} s and the sampling step {dt:g} s: give one of more than two steps")
     if len(x) * dt < 2.0 * period * divisions:
         raise DataError(
-            f"{len(x) * dt:g} s hold fewer than two periods of {divisions * period:g} s: record longer, or keep the "
+            f"{len(x) * dt:g} s contain fewer than two periods of {divisions * period:g} s: record longer, or keep the "
             "harmonics in"
         )
     base = 1.0 / (period * divisions)
-    number = _count(base, dt, harmonics * divisions)
-    removed = _fitted(x, base * dt, number)
+    number = _count_harmonics(base, dt, harmonics * divisions)
+    removed = _fit_harmonics(x, base * dt, number)
     return x - removed, removed
 
 
-def _count(frequency: float, dt: float, most: int) -> int:
+def _count_harmonics(frequency: float, dt: float, most: int) -> int:
     """Return how many multiples of a frequency (Hz) lie below the Nyquist frequency, at most `most`."""
     return max(1, min(most, math.ceil(0.5 / (frequency * dt) - 1e-9) - 1))
 
 
-def _peaks(x: Array, dt: float) -> list[float]:
-    """Return the frequencies (Hz) of the highest peaks that hold three cycles or more, the highest first."""
+def _find_peaks(x: Array, dt: float) -> list[float]:
+    """Return the frequencies (Hz) of the highest peaks with at least three cycles, the highest first."""
     frequency, density = spectrum(x, dt)
     bins = np.arange(1, len(density) - 1)
     tops = bins[(density[1:-1] >= density[:-2]) & (density[1:-1] > density[2:])]
     tops = tops[tops >= FEWEST_CYCLES]
     found = tops[np.argsort(density[tops])[::-1][:CANDIDATES]]
-    return [float((k + _offset(density[k - 1 : k + 2])) * frequency[1]) for k in found]
+    return [float((k + _peak_offset(density[k - 1 : k + 2])) * frequency[1]) for k in found]
 
 
-def _offset(three: Array) -> float:
-    """Return where between bins the peak lies, from a parabola through the logarithms of three densities."""
+def _peak_offset(three: Array) -> float:
+    """Return the position of a peak between bins, from a parabola through the logarithms of three densities."""
     low, middle, high = np.log(np.maximum(three, 1e-300))
     bend = low - 2.0 * middle + high
     return float(0.5 * (low - high) / bend) if bend < 0.0 else 0.0
@@ -163,49 +163,49 @@ def _offset(three: Array) -> float:
 
 def line_at(x: Array, dt: float, frequency: float) -> Line | None:
     """Return the line at a frequency (Hz), or None where the phases of the pieces do not agree."""
-    pieces = _amplitudes(x, frequency * dt)
+    pieces = _piece_amplitudes(x, frequency * dt)
     chance = _chance(pieces, len(x))
     if chance > FALSE_ALARM:
         return None
-    part = _fitted(x, frequency * dt, 1)
-    if _wanders(x - part, frequency * dt, float(part @ part) / len(x)):
+    part = _fit_harmonics(x, frequency * dt, 1)
+    if _has_phase_drift(x - part, frequency * dt, float(part @ part) / len(x)):
         return None
     share, spread = float(part @ part) / float(x @ x), _phase_error(pieces, len(x) * dt) / frequency**2
     return Line(1.0 / frequency, spread, share, _coherence(pieces), chance)
 
 
 def _coherence(pieces: NDArray[np.complex128]) -> float:
-    """Return 1 where all complex amplitudes are the same, and about 1/16 where they have nothing in common."""
+    """Return the coherence: 1 for equal complex amplitudes, about 1/16 for independent ones."""
     squares = float(np.sum(np.abs(pieces) ** 2))
     return float(np.abs(pieces.sum()) ** 2 / (SEGMENTS * squares)) if squares > 0.0 else 0.0
 
 
 def _chance(pieces: NDArray[np.complex128], n: int) -> float:
-    """Return how likely it is that `n` samples of noise show such agreement at the best of all frequencies."""
+    """Return the probability of such agreement for `n` samples of noise at the best of all frequencies."""
     # The agreement of independent Gaussian amplitudes has the distribution Beta(1, number - 1).
-    return float(min(1.0, 0.5 * n * max(0.0, 1.0 - _coherence(pieces)) ** (_independent(pieces) - 1.0)))
+    return float(min(1.0, 0.5 * n * max(0.0, 1.0 - _coherence(pieces)) ** (_count_independent(pieces) - 1.0)))
 
 
-def _aligned(pieces: NDArray[np.complex128]) -> NDArray[np.complex128]:
-    """Return the amplitudes at that frequency within a bin of the guess where they agree best."""
+def _align_pieces(pieces: NDArray[np.complex128]) -> NDArray[np.complex128]:
+    """Return the amplitudes at the frequency within a bin of the guess at which they agree best."""
     turns = np.linspace(-1.0, 1.0, 41)[:, None] * (np.arange(SEGMENTS) / SEGMENTS)
     turned = pieces * np.exp(-2j * np.pi * turns)
     return np.asarray(turned[int(np.argmax(np.abs(turned.sum(axis=1))))])
 
 
-def _wanders(rest: Array, turns: float, power: float) -> bool:
-    """Return whether more than the background is left beside a line of that power which was taken off."""
+def _has_phase_drift(rest: Array, turns: float, power: float) -> bool:
+    """Return whether the residuals beside a subtracted line of a given power exceed the background."""
     frequency, density = spectrum(rest, 1.0)
     bins = np.arange(1, len(density))
     away = np.abs(bins - turns * len(rest))
     near, around = density[bins[away <= SKIRT]], density[bins[(away > AROUND[0]) & (away <= AROUND[1])]]
-    # The median of exponentially distributed densities is ln 2 of their mean; another line does not move it.
+    # The median of exponentially distributed densities is ln 2 times their mean, and is robust against other lines.
     background = float(np.median(around)) / math.log(2.0) if len(around) else math.inf
     over = float(np.sum(near - background) * frequency[1])
     return over > WANDERS * power and float(np.mean(near)) > STANDS_OUT * background
 
 
-def _amplitudes(x: Array, turns: float) -> NDArray[np.complex128]:
+def _piece_amplitudes(x: Array, turns: float) -> NDArray[np.complex128]:
     """Return the complex amplitude of the component with `turns` cycles per sample in each of 16 pieces of `x`."""
     length = len(x) // SEGMENTS
     pieces = x[: length * SEGMENTS].reshape(SEGMENTS, length)
@@ -215,8 +215,8 @@ def _amplitudes(x: Array, turns: float) -> NDArray[np.complex128]:
     return np.asarray(begins * (pieces @ wave.real + 1j * (pieces @ wave.imag)))
 
 
-def _independent(pieces: NDArray[np.complex128]) -> float:
-    """Return how many of the amplitudes count: those of a narrow resonance wander slowly, and are worth fewer."""
+def _count_independent(pieces: NDArray[np.complex128]) -> float:
+    """Return the effective number of independent amplitudes, which is smaller for a narrow resonance."""
     left = pieces - pieces.mean()
     power = float(np.sum(np.abs(left) ** 2))
     memory = float(np.real(np.vdot(left[:-1], left[1:]))) / power if power > 0.0 else 0.0
@@ -234,7 +234,7 @@ def _phase_error(pieces: NDArray[np.complex128], duration: float) -> float:
     return scatter / (2.0 * math.pi * math.sqrt(float(times @ times)))
 
 
-def _sharpened(x: Array, dt: float, guess: float, *, harmonics: int) -> float:
+def _refine_frequency(x: Array, dt: float, guess: float, *, harmonics: int) -> float:
     """Return the frequency (Hz) near a guess at which harmonics fit best: Gauss-Newton, amplitudes projected out."""
     turns, width = guess * dt, 0.5 / len(x)
     for number in dict.fromkeys((1, harmonics)):
@@ -248,14 +248,14 @@ def _sharpened(x: Array, dt: float, guess: float, *, harmonics: int) -> float:
 
 
 def _newton_step(x: Array, turns: float, number: int) -> float:
-    """Return the change of `turns` (cycles per sample) that the residual of a fit of harmonics asks for."""
-    coefficients = _coefficients(x, turns, number)
+    """Return the Gauss-Newton step of `turns` (cycles per sample) for a fit of harmonics."""
+    coefficients = _fit_coefficients(x, turns, number)
     size = len(coefficients)
     gram, right = np.zeros((size + 1, size + 1)), np.zeros(size + 1)
     centre = 0.5 * (len(x) - 1)
     for first in range(0, len(x), CHUNK):
-        waves = _waves(first, min(first + CHUNK, len(x)), turns, number)
-        slope = _slope(waves, coefficients, number) * (np.arange(first, first + len(waves)) - centre)
+        waves = _make_waves(first, min(first + CHUNK, len(x)), turns, number)
+        slope = _phase_derivative(waves, coefficients, number) * (np.arange(first, first + len(waves)) - centre)
         table = np.column_stack([waves, slope])
         gram += table.T @ table
         right += table.T @ (x[first : first + CHUNK] - waves @ coefficients)
@@ -264,26 +264,26 @@ def _newton_step(x: Array, turns: float, number: int) -> float:
     return float(solved[-1] / scale[-1])
 
 
-def _slope(waves: Array, coefficients: Array, number: int) -> Array:
+def _phase_derivative(waves: Array, coefficients: Array, number: int) -> Array:
     """Return the derivative by phase of the fitted waves, (rows,)."""
     order = 2.0 * np.pi * np.arange(1, number + 1)
     cosines, sines = coefficients[1 : number + 1], coefficients[number + 1 :]
     return np.asarray(waves[:, number + 1 :] @ (-order * cosines) + waves[:, 1 : number + 1] @ (order * sines))
 
 
-def _waves(first: int, last: int, turns: float, number: int) -> Array:
+def _make_waves(first: int, last: int, turns: float, number: int) -> Array:
     """Return one, cosines and sines (rows, 2 number + 1) of the multiples of `turns` cycles per sample."""
     once = np.exp(2j * np.pi * turns * np.arange(first, last))
     powers = np.cumprod(np.broadcast_to(once[:, None], (len(once), number)), axis=1)
     return np.hstack([np.ones((len(once), 1)), powers.real, powers.imag])
 
 
-def _coefficients(x: Array, turns: float, number: int, weights: Array | None = None) -> Array:
-    """Return mean, cosine and sine amplitudes (2 number + 1,) that fit `x` best, its samples weighted or all alike."""
+def _fit_coefficients(x: Array, turns: float, number: int, weights: Array | None = None) -> Array:
+    """Return mean, cosine and sine amplitudes (2 number + 1,) of a fit to `x`, with optional weights."""
     size = 2 * number + 1
     gram, right = np.zeros((size, size)), np.zeros(size)
     for first in range(0, len(x), CHUNK):
-        waves = _waves(first, min(first + CHUNK, len(x)), turns, number)
+        waves = _make_waves(first, min(first + CHUNK, len(x)), turns, number)
         weighted = waves if weights is None else waves * weights[first : first + CHUNK, None]
         gram += weighted.T @ waves
         right += weighted.T @ x[first : first + CHUNK]
@@ -291,9 +291,9 @@ def _coefficients(x: Array, turns: float, number: int, weights: Array | None = N
     return np.asarray(solved, dtype=np.float64)
 
 
-def _fitted(x: Array, turns: float, number: int) -> Array:
+def _fit_harmonics(x: Array, turns: float, number: int) -> Array:
     """Return the sum (n,) of the harmonics of `turns` cycles per sample in `x`, without the mean."""
-    coefficients = _coefficients(x, turns, number, signal.windows.hann(len(x) + 2)[1:-1])
+    coefficients = _fit_coefficients(x, turns, number, signal.windows.hann(len(x) + 2)[1:-1])
     coefficients[0] = 0.0
     chunks = range(0, len(x), CHUNK)
-    return np.concatenate([_waves(k, min(k + CHUNK, len(x)), turns, number) @ coefficients for k in chunks])
+    return np.concatenate([_make_waves(k, min(k + CHUNK, len(x)), turns, number) @ coefficients for k in chunks])

@@ -15,7 +15,8 @@ Indices = NDArray[np.int64] | NDArray[np.int32]
 MOST_BOXES = 1000
 """At most so many boxes on each side: with more boxes, visiting them costs more than they save."""
 PHASE_RADIUS = 0.4
-"""Neighbours of a driven machine have drive phases within this angle (rad): an eighth of a period in total."""
+"""Neighbours of a driven machine have drive phases within this angle (rad): an eighth of a period in total. Chosen by
+experience; no measurement recorded."""
 SLICES = 64
 """Pieces of work for the threads: many, since boxes are filled unevenly."""
 

@@ -22,17 +22,20 @@ FIRST_DIMS, FIRST_PAIRS = 8, 20_000_000
 NEAR_PAIRS = 6_000_000
 """Close pairs that are counted completely."""
 WANTED_EFOLDS = 4.5
-"""The delay is chosen such that the correlation sum falls by so much (natural logarithm) over the delay window."""
+"""The delay is chosen such that the correlation sum falls by so much (natural logarithm) over the delay window. Chosen
+by experience; no measurement recorded."""
 FIRST_EXCESS = 0.6
-"""The final rate is usually this share of the first estimate, which is too high."""
+"""The final rate is usually this share of the first estimate, which is too high. Chosen by experience; no measurement
+recorded."""
 LEAST_PAIRS = 300
-"""Pairs within the smallest radius."""
+"""Pairs within the smallest radius. Chosen by experience; no measurement recorded."""
 LARGEST_SHARE = 0.1
-"""The largest radius, as a share of the range of the series."""
+"""The largest radius, as a share of the range of the series. Chosen by experience; no measurement recorded."""
 ABOVE_NOISE = 4.0
-"""The smallest radius in standard deviations of the noise."""
+"""The smallest radius in standard deviations of the noise. Chosen by experience; no measurement recorded."""
 MOST_RISE = 0.25
-"""A larger increase of the slope over radius with each dimension is due to noise."""
+"""A larger increase of the slope over radius with each dimension is due to noise. Chosen by experience; no measurement
+recorded."""
 
 
 @dataclass(frozen=True)

@@ -26,9 +26,11 @@ from lostmotion_plugins.quantifiers.noise import EXCESS, RADIUS, estimate_noise_
 
 __all__ = ["CorrelationDimension", "CorrelationEntropy"]
 OTHER_DELAYS = (0.7, 1.4)
-"""Other delays that are tried, as shares of the given one; the differences of the results count as an error."""
+"""Other delays that are tried, as shares of the given one; the differences of the results count as an error. Chosen by
+experience; no measurement recorded."""
 MOST_BEND = 0.25
-"""With a larger bend, as a share of the slope, there is no scaling region."""
+"""With a larger bend, as a share of the slope, there is no scaling region. Chosen by experience; no measurement
+recorded."""
 MOST_TILT = 0.2
 """With a larger change of the slope from one end of the plateau to the other, as a share of the slope, there is no
 plateau: the interval of a dimension is seldom wider, so a larger change would look like another dimension."""
@@ -36,13 +38,16 @@ MOST_SCATTER = 0.15
 """With a larger scatter of the local slopes within the plateau, as a share of the slope, there is no plateau. On flows,
 maps and tori of known dimension they scatter by 0.02 to 0.14: `python benchmarks/verdicts.py --set wide --figures`."""
 WIDER_SHARE = 0.2
-"""The largest radius as a share of the range, where noise or few pairs leave too little below the usual share."""
+"""The largest radius as a share of the range, where noise or few pairs leave too little below the usual share. Chosen
+by experience; no measurement recorded."""
 MOST_RISE_FAR = 0.25
-"""The largest increase with each dimension at these radii, where weak noise has no effect yet."""
+"""The largest increase with each dimension at these radii, where weak noise has no effect yet. Chosen by experience; no
+measurement recorded."""
 MOST_RISE = 0.12
-"""The largest increase with each dimension on a plateau."""
+"""The largest increase with each dimension on a plateau. Chosen by experience; no measurement recorded."""
 ABOVE_NOISE = 4.0
-"""Where noise is found, the smallest radius in standard deviations of the noise."""
+"""Where noise is found, the smallest radius in standard deviations of the noise. Chosen by experience; no measurement
+recorded."""
 NOISE_DIMENSION = float(EXCESS[0] * RADIUS[0] ** 2)
 """The slope that noise adds with one unnecessary coordinate, at a radius of one standard deviation; it falls with the
 square of the radius. It counts as an error, since noise increases the slope well before it causes a visible bend."""

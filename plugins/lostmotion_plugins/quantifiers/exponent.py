@@ -36,22 +36,25 @@ Gather = Callable[[States, int, float], Pairs]
 Behind = tuple[States, Spread, Curves]
 UNIT = "1/s"
 MOST_PHASE_DRIFT = 0.05
-"""Samples by which the drive phase may drift over the record before the record is resampled."""
+"""Samples by which the drive phase may drift over the record before the record is resampled. Chosen by experience; no
+measurement recorded."""
 OTHERS_SHARE = 0.3
 """Share of the references that are used for the other embeddings."""
 LEAST_SAMPLES = 500
-"""A shorter record is refused."""
+"""A shorter record is refused. Chosen by experience; no measurement recorded."""
 LEAST_WINDOWS = 10
-"""A record must be at least so many delay windows and Theiler windows long."""
+"""A record must be at least so many delay windows and Theiler windows long. Chosen by experience; no measurement
+recorded."""
 PERIODIC_SHARE = 0.2
-"""Without a scaling region, a motion may be periodic where points one drive period apart differ by less than this
-share of the motion."""
+"""Without a scaling region, a motion may be periodic where points one drive period apart differ by less than this share
+of the motion. Chosen by experience; no measurement recorded."""
 UNSEEN_EFOLDS = 0.35
-"""Growth by fewer e-folds, over all the time for which pairs are followed, cannot be told from no growth."""
+"""Growth by fewer e-folds, over all the time for which pairs are followed, cannot be told from no growth. Chosen by
+experience; no measurement recorded."""
 BRIEF_EFOLDS = 0.65
 """Growth over fewer e-folds may be that of noise with a long correlation time, which gave 0.35 to 0.65 in 48 tries."""
 MOST_NOISY = 0.5
-"""With a larger share of pairs within the noise no exponent is read."""
+"""With a larger share of pairs within the noise no exponent is read. Chosen by experience; no measurement recorded."""
 
 
 def refuse(status: str, says: str, kept: tuple[Mapping[str, Array], Mapping[str, float]] | None = None) -> Estimate:

@@ -16,14 +16,16 @@ from lostmotion_plugins.quantifiers.divergence import Indices
 from lostmotion_plugins.quantifiers.exponent import UNIT, refuse, refuse_short
 
 LEAST_PIECES = 10
-"""The least number of pieces of the chain for an interval."""
+"""The least number of pieces of the chain for an interval. Chosen by experience; no measurement recorded."""
 MOST_REPEATS = 0.5
-"""With a larger share of exact repeats, a record is periodic within the resolution of its sensor."""
+"""With a larger share of exact repeats, a record is periodic within the resolution of its sensor. Chosen by experience;
+no measurement recorded."""
 MOST_DISTANCE = 0.5
-"""Pieces that end at a larger share of the rms distance have saturated, and no exponent is read."""
+"""Pieces that end at a larger share of the rms distance have saturated, and no exponent is read. Chosen by experience;
+no measurement recorded."""
 JUMP, SUDDEN = 0.1, 0.3
 """Growth is due to noise where it exceeds `JUMP` e-folds in the first half of a piece and the second half adds less
-than the share `SUDDEN` of it."""
+than the share `SUDDEN` of it. Chosen by experience; no measurement recorded."""
 REMARK = "For reference: replacing neighbours turns their direction, and the interval does not include this bias."
 
 

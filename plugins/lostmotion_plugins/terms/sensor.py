@@ -15,9 +15,11 @@ from lostmotion_plugins.terms.drive import FAR_DELAYS
 from lostmotion_plugins.terms.periodic import PITCH_RANGE, TYPICAL_PITCH
 
 _LEAST_DIFFERENCES = 30
-"""At least so many differences of successive samples must be small multiples of the step."""
+"""At least so many differences of successive samples must be small multiples of the step. Chosen by experience; no
+measurement recorded."""
 _LATTICE_TOLERANCE = 0.01
-"""So far 99 % of these differences may lie from a whole multiple of the step, as a share of the step."""
+"""So far 99 % of these differences may lie from a whole multiple of the step, as a share of the step. Chosen by
+experience; no measurement recorded."""
 _FAR_OFFSETS = (-4.0, -2.0, -1.0, -0.5, 0.5, 1.0, 2.0, 4.0)
 """Offsets in amplitudes that are tried beside the score test, which sees small ones only.
 

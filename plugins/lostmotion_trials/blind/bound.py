@@ -1,7 +1,7 @@
-"""The likelihood-ratio bound of a blind trial: the result that a fit of the true model reaches on a recording.
+"""The likelihood-ratio bound of a blind trial: the result of a fit of the true model to a recording.
 
 Nominal and true model are fitted with the likelihood of the diagnosis, starting at the truth. The gain of the true
-terms is the logarithm of the likelihood ratio, and no test is more powerful than the likelihood-ratio test.
+terms is the logarithm of the likelihood ratio. No test is more powerful than the likelihood-ratio test.
 """
 
 from __future__ import annotations
@@ -29,13 +29,13 @@ from lostmotion_trials.blind.pilot import Effect
 from lostmotion_trials.blind.sealed import SealedMachine
 from lostmotion_trials.blind.simulator import BlindDrive, BlindMachine
 
-ALIKE: tuple[frozenset[str], ...] = (
+EQUIVALENT: tuple[frozenset[str], ...] = (
     frozenset({"excitation_delay", "sensor_delay"}),
     frozenset({"excitation_gain", "sensor_gain"}),
     frozenset({"dahl_friction", "lugre_friction", "bouc_wen_hysteresis"}),
     frozenset({"actuator_lag", "sensor_lag"}),
 )
-"""Mechanisms that no recording of this kind can distinguish: either name is right."""
+"""Mechanisms that no recording of this kind can distinguish: each name of a set counts as correct."""
 SKIPPED = ("sensor_quantisation", "unknown")
 """Mechanisms without a likelihood."""
 WARM_STARTS = (0.0, 3.0, 2.0 * math.log(300.0))
@@ -43,17 +43,17 @@ WARM_STARTS = (0.0, 3.0, 2.0 * math.log(300.0))
 fit of a model that lacks a term converges from a distant start."""
 
 
-def alike(one: str, other: str) -> bool:
-    """Return whether two names count as one."""
-    return one == other or any({one, other} <= same for same in ALIKE)
+def are_equivalent(one: str, other: str) -> bool:
+    """Return whether two names are equal or count as the same mechanism."""
+    return one == other or any({one, other} <= same for same in EQUIVALENT)
 
 
 @dataclass(frozen=True)
-class Yardstick:
-    """The result of the true model: the gain of each effect (NaN where no term models it), with a status.
+class LikelihoodBound:
+    """The result of the true model: the gain in log-likelihood of each effect (NaN without a term), with a status.
 
-    `nrmse` is its error on held-out data over the horizon of the diagnosis, and `margin` by how much log-likelihood it
-    is better than the model that was found; NaN where either could not be fitted.
+    `nrmse` is its error on held-out data over the horizon of the diagnosis. `margin` is its log-likelihood minus that
+    of the model that was found. They are NaN if a model could not be fitted.
     """
 
     gains: tuple[float, ...]
@@ -62,10 +62,10 @@ class Yardstick:
     margin: float = math.nan
 
 
-def yardstick(
+def compute_bound(
     prepared: Prepared, machine: SealedMachine, effects: Sequence[Effect], said: Diagnosis | None
-) -> Yardstick:
-    """Return what the true model of a case reaches, over the horizon of a diagnosis if there is one."""
+) -> LikelihoodBound:
+    """Return the result of the true model of a case, with its held-out error if there is a diagnosis."""
     train, held = split_heldout(prepared.observations)
     system = System(prepared.model, prepared.terms)
     problem = _start_at_truth(make_problem(system, prepared.case, train, jobs=1), machine)
@@ -84,22 +84,24 @@ def yardstick(
     ]
     known = all(key or effect.mechanism == "random_force" for key, effect in zip(keys, effects, strict=True))
     if said is None or not known:
-        return Yardstick(tuple(gains), tuple(status))
+        return LikelihoodBound(tuple(gains), tuple(status))
     margin = _measure_margin(full, problem, said.found) if acting else math.nan
     error = _predict_heldout(polish_fit(full), prepared, held, said.fit)
-    return Yardstick(tuple(gains), tuple(status), error, margin)
+    return LikelihoodBound(tuple(gains), tuple(status), error, margin)
 
 
 def add_library_names(effect: Effect, machine: BlindMachine) -> Effect:
-    """Return an effect whose parameters have all further names that they have in the library."""
-    return replace(effect, parameters=spelled(effect.parameters, machine.values, machine.signal))
+    """Return an effect with its parameters under all further names of the library."""
+    return replace(effect, parameters=complete_parameters(effect.parameters, machine.values, machine.signal))
 
 
-def spelled(truth: Mapping[str, float], values: Mapping[str, float], signal: BlindDrive) -> dict[str, float]:
-    """Return the parameters of an effect with all further names they have in the library.
+def complete_parameters(
+    truth: Mapping[str, float], values: Mapping[str, float], signal: BlindDrive
+) -> dict[str, float]:
+    """Return the parameters of an effect under all further names of the library.
 
-    `values` are those of the machine. A wave of an amplitude and a phase (rad) has a cosine and a sine; one of the
-    drive is a share of that. A hidden mass is a share of the moving one, and of a drive that is cut all is lost.
+    `values` are those of the machine. A wave with amplitude and phase (rad) also has a cosine and a sine part; a wave
+    of the drive is a share of the drive. A hidden mass is a share of the moving mass. The share of a cut drive is 1.
     """
     if "mass" in truth:
         return {**truth, "mass_ratio": truth["mass"] / values["m"]}
@@ -109,9 +111,9 @@ def spelled(truth: Mapping[str, float], values: Mapping[str, float], signal: Bli
         return dict(truth)
     phase = truth["phase"]
     if "pitch" in truth:
-        sized = next(name for name in ("wave", "size", "force") if name in truth)
-        phase -= 0.5 * math.pi if sized == "force" else 0.0
-        return {**truth, "phase": phase, **_split_wave(truth[sized], phase)}
+        size_name = next(name for name in ("wave", "size", "force") if name in truth)
+        phase -= 0.5 * math.pi if size_name == "force" else 0.0
+        return {**truth, "phase": phase, **_split_wave(truth[size_name], phase)}
     drive = math.hypot(*(tone[0] for tone in signal.tones))
     depth = truth["depth"] if "depth" in truth else truth["amplitude"] / drive
     return {**truth, "share": depth, **_split_wave(depth, phase)}
@@ -123,7 +125,7 @@ def _split_wave(size: float, phase: float) -> dict[str, float]:
 
 
 def _measure_margin(full: Fit, problem: Problem, found: Sequence[Mechanism]) -> float:
-    """Return by how much log-likelihood the true model is better than one with what was found in place of it."""
+    """Return the log-likelihood of the true model minus that of a model with the found mechanisms instead."""
     keys = {find_key(problem.system, entry.mechanism, entry.at): entry for entry in found}
     if None in keys or set(keys) == set(full.problem.active):
         return math.nan
@@ -132,25 +134,26 @@ def _measure_margin(full: Fit, problem: Problem, found: Sequence[Mechanism]) -> 
 
 
 def find_key(system: System, mechanism: str, at: str) -> str | None:
-    """Return the term that stands for a mechanism at a place, or one that equals it; None where there is none."""
-    same = [t for t in system.terms if alike(t.name, mechanism) and at in ("", t.at)]
+    """Return the key of the term of a mechanism at a place, or of an equivalent term; None if there is none."""
+    same = [t for t in system.terms if are_equivalent(t.name, mechanism) and at in ("", t.at)]
     usable = [t for t in same if not t.marked]
     return next((key_of(t) for t in sorted(usable, key=lambda t: t.name != mechanism)), None)
 
 
 def _find_status(effect: Effect, key: str | None) -> str:
+    """Return "ok", or why an effect has no gain."""
     if key or effect.mechanism == "random_force":
         return "ok"
     return "no likelihood" if effect.mechanism in SKIPPED else "no term"
 
 
 def _gain_without_term(fit: Fit, effect: Effect) -> float:
-    """Return the gain of what is no term: a random force beyond the usual."""
+    """Return the gain of an effect without a term: of a random force above the usual level; otherwise NaN."""
     return compute_random_force_gain(fit) if effect.mechanism == "random_force" else math.nan
 
 
 def _start_at_truth(problem: Problem, machine: SealedMachine) -> Problem:
-    """Return the problem with the true values, and the usual noise, as its start."""
+    """Return the problem with the true values and the usual noise as its start."""
     free = []
     for f in problem.free:
         if f.level == NOISE:
@@ -164,11 +167,12 @@ def _start_at_truth(problem: Problem, machine: SealedMachine) -> Problem:
 
 
 def _clip(value: float, low: float, high: float) -> float:
+    """Return the value limited to the range from `low` to `high`."""
     return min(max(value, low), high)
 
 
 def _fit_terms(problem: Problem, acting: Mapping[str, Mapping[str, float]]) -> Fit:
-    """Return the best fit with these terms, begun at the truth with several random forces."""
+    """Return the best fit with these terms, started at the truth with several levels of the random force."""
     for key, parameters in acting.items():
         problem = _add_term(problem, key, parameters)
     fits = [maximise(problem, raise_random_force(problem, problem.start, by)) for by in WARM_STARTS]
@@ -178,13 +182,13 @@ def _fit_terms(problem: Problem, acting: Mapping[str, Mapping[str, float]]) -> F
 
 
 def _add_term(problem: Problem, key: str, truth: Mapping[str, float]) -> Problem:
-    """Return the problem with one more term, begun at its true parameters where it has them."""
+    """Return the problem with one more term, started at its true parameters where they are known."""
     _, slots = find_term(problem, key)
     return join_term(problem, key, {s.key: truth[s.param.name] for s in slots if s.param.name in truth})
 
 
 def _predict_heldout(fit: Fit, prepared: Prepared, held: Sequence[Observation], said: HeldOutScores) -> float:
-    """Return the error of free runs of a fit on held-out data, over the horizon that a diagnosis chose."""
+    """Return the error (NRMSE) of free runs of a fit on held-out data over the horizon of a diagnosis."""
     pieces = cut_heldout(prepared.observations, held)
     observation = pieces[0].observation
     unit_time, number = said.horizon_unit_time, said.after.horizon
@@ -195,10 +199,11 @@ def _predict_heldout(fit: Fit, prepared: Prepared, held: Sequence[Observation], 
 
 
 def is_covered(interval: Interval, truth: float, *, turn: bool = False) -> bool:
-    """Return whether an interval holds a truth; with `turn` it is an angle in rad."""
+    """Return whether an interval contains the truth; with `turn` it is an angle in rad, compared modulo 2 pi."""
     at = _choose_turn(truth, interval.median) if turn else truth
     return bool(interval.low <= at <= interval.high)
 
 
 def _choose_turn(angle: float, near: float) -> float:
+    """Return the angle (rad) plus the whole turns that bring it nearest to another angle."""
     return angle + 2.0 * math.pi * round((near - angle) / (2.0 * math.pi))

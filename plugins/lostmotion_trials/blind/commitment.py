@@ -20,7 +20,7 @@ from lostmotion.contracts import Array
 from lostmotion.errors import DataError
 from lostmotion.provenance import digest
 from lostmotion.storage import folder_for, load_json, save_json
-from lostmotion_trials.blind.hiding import hidden_in
+from lostmotion_trials.blind.hiding import convert_effects
 from lostmotion_trials.blind.imperfect import (
     CYCLE,
     IMPACTS,
@@ -34,7 +34,7 @@ from lostmotion_trials.blind.imperfect import (
 )
 from lostmotion_trials.blind.mechanisms import NAMES, SPRUNG, TABLE, Effect, Pilot, draw_sized_effect
 from lostmotion_trials.blind.sealed import ConcealedCase, Seal, SealedMachine, SealedTruth
-from lostmotion_trials.blind.simulator import USUAL, BlindMachine, Meddling, draw_rig, moved
+from lostmotion_trials.blind.simulator import EXCITATION_NOISE, BlindMachine, Disturbances, draw_rig, simulate_machine
 from lostmotion_trials.blind.writing import write_case
 from lostmotion_trials.integrators.hidden import Hidden
 
@@ -46,10 +46,11 @@ PLAIN, COLOURED, OUTLIERS = "plain", "coloured", "outliers"
 VARIANTS: Mapping[str, float] = {PLAIN: 0.6, COLOURED: 0.2, OUTLIERS: 0.2}
 """The measurement noise of clean cases: white; AR(1); white with outliers. All other cases have white noise."""
 TOUCHES = (0.05, 0.98)
-"""A machine with a gap must be in contact for a share of time between these."""
+"""A machine with a gap must be in contact for a share of time between these. Chosen by experience; no measurement
+recorded."""
 RUNAWAY = 4.0
 """Another machine is drawn where the hidden effects increase the motion by more than this factor, as a softening spring
-may do."""
+may do. Chosen by experience; no measurement recorded."""
 TRIES = 2000
 """Machines that are drawn until one fits."""
 AGAIN = "conceal into another folder, or begin with --fresh"
@@ -102,9 +103,10 @@ def conceal_case(blind: Blind, out: Path, number: int) -> ConcealedCase:
     rig, (effects, motion, world) = _draw_machine(names, rng, draw, fill)
     if world:
         response, noise = record_imperfect(rig, motion, world, rng)
-        excitation = rig.signal.value(rig.time) + USUAL * rig.signal.amplitude * rng.standard_normal(len(motion))
+        noise_size = EXCITATION_NOISE * rig.signal.amplitude
+        excitation = rig.signal.value(rig.time) + noise_size * rng.standard_normal(len(motion))
     else:
-        excitation, response, noise = _record(rig, motion, hidden_in(rig, effects)[1].step, variant, rng)
+        excitation, response, noise = _record(rig, motion, convert_effects(rig, effects)[1].step, variant, rng)
     stated = world.stated if world else {}
     write_case(rig, (excitation, response), place, title=f"Blind case {format_case_name(number)}", stated=stated)
     truth = SealedTruth(
@@ -191,8 +193,8 @@ def _draw_machine(
         if not all(TABLE[name].fits(rig) if name in TABLE else rig.model in SPRUNG for name in names):
             continue
         with suppress(DataError):
-            pilot = Pilot(rig, moved(rig, Hidden(), Meddling(), rng))
-            if "x0" in rig.values and not TOUCHES[0] < float(np.mean(np.abs(pilot.touching))) < TOUCHES[1]:
+            pilot = Pilot(rig, simulate_machine(rig, Hidden(), Disturbances(), rng))
+            if "x0" in rig.values and not TOUCHES[0] < float(np.mean(np.abs(pilot.contact_sign))) < TOUCHES[1]:
                 continue
             filled = fill(pilot)
             if float(np.std(filled[1])) < RUNAWAY * float(np.std(pilot.q)):
@@ -202,13 +204,13 @@ def _draw_machine(
 
 def _fill_perfect(names: Sequence[str], rng: np.random.Generator, pilot: Pilot) -> Filled:
     effects = tuple(draw_sized_effect(name, pilot, rng) for name in names)
-    return effects, moved(pilot.rig, *hidden_in(pilot.rig, effects), rng), None
+    return effects, simulate_machine(pilot.rig, *convert_effects(pilot.rig, effects), rng), None
 
 
 def _fill_imperfect(names: Sequence[str], kind: str, rng: np.random.Generator, pilot: Pilot) -> Filled:
     world = draw_world(kind, pilot, rng)
     effects = tuple(draw_effect(name, pilot, rng) for name in names)
-    return effects, simulate_imperfect(pilot.rig, hidden_in(pilot.rig, effects), world, rng), world
+    return effects, simulate_imperfect(pilot.rig, convert_effects(pilot.rig, effects), world, rng), world
 
 
 def _is_possible(name: str, kind: str) -> bool:
@@ -237,7 +239,7 @@ def _record(
     shown = truth + noise * white
     if step:
         shown = step * np.round(shown / step)
-    return clean + USUAL * rig.signal.amplitude * rng.standard_normal(len(truth)), shown, noise
+    return clean + EXCITATION_NOISE * rig.signal.amplitude * rng.standard_normal(len(truth)), shown, noise
 
 
 def _filter_ar1(white: Array, memory: float) -> Array:

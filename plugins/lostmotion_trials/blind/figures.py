@@ -34,19 +34,19 @@ CAPTIONS = {
 }
 
 
-def draw_detection(told: ProofSummary) -> Figure:
+def draw_detection(summary: ProofSummary) -> Figure:
     """Return the share of effects that were named, over their size, with the limit of the likelihood-ratio test."""
     figure = style.make_figure(3.6)
     axes = figure.subplots()
-    limit = told.limit
+    limit = summary.limit
     axes.plot(limit.gain, limit.informed, color=EDGE, linestyle=(0, (5, 3)), label="likelihood-ratio limit")
     many = f"the same, one of {limit.candidates} candidates"
     axes.plot(limit.gain, limit.one_of_many, color=EDGE, linestyle=(0, (1, 2)), label=many)
-    bins = [row for row in told.detection if row.counts.rate.of]
-    centres = np.array([_find_centre(row, told.sizes) for row in bins])
+    bins = [row for row in summary.detection if row.counts.rate.of]
+    centres = np.array([_find_centre(row, summary.sizes) for row in bins])
     _draw_banded(axes, centres, [row.counts.rate for row in bins])
-    sizes = np.clip(np.array(told.sizes, dtype=float).reshape(-1, 2), SMALLEST, None)
-    hit = np.array([named for _, named in told.sizes], dtype=bool)
+    sizes = np.clip(np.array(summary.sizes, dtype=float).reshape(-1, 2), SMALLEST, None)
+    hit = np.array([named for _, named in summary.sizes], dtype=bool)
     for chosen, at, colour in ((hit, 1.06, style.AFTER), (~hit, -0.06, style.BEFORE)):
         axes.plot(np.minimum(sizes[chosen, 0], LARGEST), np.full(int(chosen.sum()), at), "|", color=colour, alpha=0.7)
     axes.plot([27.0, 150.0], [0.80, 0.95], "s", color=EDGE, markerfacecolor="none", markersize=7, label="targets")
@@ -75,11 +75,11 @@ def _draw_banded(axes: Axes, places: Array, rows: Sequence[Rate]) -> None:
         axes.annotate(f"{row.hits}/{row.of}", (x, y), (6, -3), textcoords="offset points", fontsize=8)
 
 
-def draw_reliability(told: ProofSummary) -> Figure:
+def draw_reliability(summary: ProofSummary) -> Figure:
     """Return the share of mechanisms that were present, over the probability that was stated."""
     figure = style.make_figure(3.6)
     axes = figure.subplots()
-    rows = [row for row in told.reliability if row.rate.of]
+    rows = [row for row in summary.reliability if row.rate.of]
     axes.plot([0.0, 1.0], [0.0, 1.0], color=EDGE, linewidth=0.8, linestyle=(0, (3, 2)))
     _draw_banded(axes, np.array([row.stated for row in rows]), [row.rate for row in rows])
     axes.set_xlim(-0.04, 1.12)
@@ -89,11 +89,11 @@ def draw_reliability(told: ProofSummary) -> Figure:
     return figure
 
 
-def draw_heldout(told: ProofSummary) -> Figure:
+def draw_heldout(summary: ProofSummary) -> Figure:
     """Return the errors of found models over those of the true ones, in order."""
     figure = style.make_figure(2.6)
     axes = figure.subplots()
-    ratios = np.array(told.heldout.ratios)
+    ratios = np.array(summary.heldout.ratios)
     axes.axhspan(1.0 / 1.05, 1.05, color=style.SHADE, zorder=0)
     axes.plot(np.arange(1, len(ratios) + 1), ratios, "o", color=style.AFTER, markersize=3.5)
     if max(ratios.max(), 1.0 / ratios.min()) > WIDE:

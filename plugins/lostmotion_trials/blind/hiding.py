@@ -1,4 +1,4 @@
-"""What is hidden in a machine, in the terms of the integrator that moves it."""
+"""Converts hidden effects to the parameters of the integrator that simulates the machine."""
 
 from __future__ import annotations
 
@@ -7,13 +7,14 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from lostmotion_trials.blind.mechanisms import Effect
-from lostmotion_trials.blind.simulator import BlindMachine, Meddling
+from lostmotion_trials.blind.simulator import BlindMachine, Disturbances
 from lostmotion_trials.integrators.hidden import BOUC_WEN, DAHL, LUGRE, Hidden
 
 Numbers = Mapping[str, float]
 
 
-def _set_memory(kind: float, p: Numbers, place: float) -> dict[str, float]:
+def _make_memory_friction(kind: float, p: Numbers, place: float) -> dict[str, float]:
+    """Return the parameters of friction with a memory state."""
     return {
         "memory": kind,
         "memory_force": p["force"],
@@ -29,9 +30,9 @@ _INSIDE: Mapping[str, Callable[[Numbers, float, float], dict[str, float]]] = {
     "stribeck_friction": lambda p, place, _w: {
         "friction": p["force"], "excess": p["excess"], "velocity": p["velocity"], "friction_place": place,
     },
-    "dahl_friction": lambda p, place, _w: _set_memory(DAHL, p, place),
-    "lugre_friction": lambda p, place, _w: _set_memory(LUGRE, p, place),
-    "bouc_wen_hysteresis": lambda p, place, _w: _set_memory(BOUC_WEN, p, place),
+    "dahl_friction": lambda p, place, _w: _make_memory_friction(DAHL, p, place),
+    "lugre_friction": lambda p, place, _w: _make_memory_friction(LUGRE, p, place),
+    "bouc_wen_hysteresis": lambda p, place, _w: _make_memory_friction(BOUC_WEN, p, place),
     "viscous_damping": lambda p, place, _w: {"drag": p["coefficient"], "drag_place": place},
     "quadratic_damping": lambda p, place, _w: {"square": p["coefficient"], "square_place": place},
     "contact_damping": lambda p, _place, _w: {"contact_drag": p["coefficient"]},
@@ -80,7 +81,7 @@ _INSIDE: Mapping[str, Callable[[Numbers, float, float], dict[str, float]]] = {
     },
     "drag that grows with position": lambda p, _place, _w: {"mixed": p["coefficient"]},
 }  # fmt: skip
-_OUTSIDE: Mapping[str, Callable[[Meddling, Numbers, float], Meddling]] = {
+_OUTSIDE: Mapping[str, Callable[[Disturbances, Numbers, float], Disturbances]] = {
     "excitation_harmonic": lambda m, p, w: replace(m, harmonic=(p["amplitude"], p["ratio"] * w, p["phase"])),
     "excitation_delay": lambda m, p, _w: replace(m, excitation_delay=p["delay"]),
     "excitation_gain": lambda m, p, _w: replace(m, excitation_gain=p["error"]),
@@ -96,10 +97,10 @@ _OUTSIDE: Mapping[str, Callable[[Meddling, Numbers, float], Meddling]] = {
 }
 
 
-def hidden_in(rig: BlindMachine, effects: Sequence[Effect]) -> tuple[Hidden, Meddling]:
-    """Return what the integrator is told of the effects: what acts on the body, and what meddles around it."""
+def convert_effects(rig: BlindMachine, effects: Sequence[Effect]) -> tuple[Hidden, Disturbances]:
+    """Return the effects as parameters of the integrator: forces on the body, and errors of drive and sensor."""
     inside: dict[str, float] = {}
-    outside = Meddling()
+    outside = Disturbances()
     for effect in effects:
         name, omega = effect.what or effect.mechanism, rig.signal.omega
         if name in _INSIDE:

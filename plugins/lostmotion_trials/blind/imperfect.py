@@ -1,8 +1,9 @@
-"""Machines of an imperfect world: beside what is hidden each has the flaws of real rigs, which no term describes.
+"""Machines with the flaws of real rigs, which no term describes, in addition to the hidden mechanism.
 
-Small smooth forces over position, velocity, phase or time; friction whose level follows a random curve over the speed;
-a foot that gives way; a far mode in what the sensor shows; known values that are slightly wrong; a sensor that is bent;
-noise with a memory, mains hum and a quantised reading. What is hidden has its size as a share of the force of inertia.
+The flaws are: small smooth forces over position, velocity, phase or time; friction whose level follows a random curve
+over the speed; a compliant foot; a higher mode in the sensor reading; known values that are slightly wrong; a
+non-linear sensor; coloured noise, mains hum and a quantised reading. The size of the hidden mechanism is a share of the
+force of inertia.
 """
 
 from __future__ import annotations
@@ -22,12 +23,12 @@ from lostmotion_trials.blind.simulator import (
     CYCLE_SAMPLES,
     BlindDrive,
     BlindMachine,
-    Meddling,
+    Disturbances,
     bound_pace,
-    drawn_log,
+    draw_log_uniform,
+    draw_parameters,
     find_start,
     simulate_pieces,
-    sized,
     wide_prior,
 )
 from lostmotion_trials.integrators.hidden import Hidden
@@ -36,15 +37,17 @@ from lostmotion_trials.integrators.imperfect import CELLS, REACH, Flaws, move_ro
 CYCLE, MULTISINE, SWEEP, STEPS, IMPACTS = "cycle", "multisine", "sweep", "steps", "impacts"
 KINDS = (CYCLE, MULTISINE, SWEEP, STEPS, IMPACTS)
 STEPS_PER_RATE = 0.003
-"""Steps times the fastest rate: a fifth of those of a final fit."""
+"""Integration step times the fastest rate: a fifth of that of a final fit."""
 LEAST_SAMPLES = 1500
+"""Least length of a recording, unless the trial allows fewer samples."""
 EFFECT_SIZES = (0.02, 0.3)
-"""The force of what is hidden over that of inertia, both rms; of an error of a sensor over the motion."""
+"""Range of the hidden force over the force of inertia (rms), or of a sensor error over the motion."""
 SMOOTH_SIZES = (0.005, 0.05)
-"""The rms of all smooth forces together over the amplitude of the drive, or of the force of inertia if that is less."""
+"""Range of the rms of all smooth forces together over the amplitude of the drive, or of the inertia force if less."""
 WAVES = 4
+"""Waves of a random function."""
 FITTED = 1.0 - DEFAULT.heldout.share
-"""The share of a recording that a diagnosis fits."""
+"""The share of a recording that a diagnosis fits; the rest is held out."""
 Curve = tuple[tuple[float, float], ...]
 """Cosine and sine of each wave of a random function."""
 
@@ -53,53 +56,51 @@ Curve = tuple[tuple[float, float], ...]
 class Blemish:
     """A small smooth force."""
 
-    over: str = described("what it runs over: position, velocity, phase or time")
+    over: str = described("argument of the force: position, velocity, phase or time")
     rms: float = described("its root mean square", unit="N")
     waves: Curve = described("cosine and sine of each wave of its random function")
 
 
 @dataclass(frozen=True)
 class World:
-    """The flaws of one rig; of the noise all sizes are in deviations of it."""
+    """The flaws of one rig; sizes of noise, hum and step are in standard deviations of the measurement noise."""
 
     kind: str = described("kind of the drive")
     smooth: tuple[Blemish, ...] = described("small smooth forces")
     friction: Curve = described("waves of the random curve of the level of friction over the speed")
-    flaws: Mapping[str, float] = described(
-        "scales of the motion, the foot that gives way and the far mode, in SI units"
+    flaws: Mapping[str, float] = described("scales of the motion, the compliant foot and the higher mode, in SI units")
+    stated: Mapping[str, float] = described("each known value in the case over its true value")
+    bend: tuple[float, float] = described(
+        "even and odd non-linearity of the sensor at its largest reading, as a share of that"
     )
-    stated: Mapping[str, float] = described("what the case says of each known value, over the truth")
-    bend: tuple[float, float] = described("even and odd bend of the sensor at its largest reading, as a share of that")
-    slow: float = described("share of the noise that has a memory")
-    memory: float = described("memory of that noise per sample")
+    slow: float = described("share of the noise variance that is correlated in time")
+    memory: float = described("correlation of that noise from one sample to the next")
     hum: float = described("amplitude of the hum")
     hum_pace: float = described("angular frequency of the hum", unit="rad/s")
     step: float = described("quantisation of the readings")
-    curves: Mapping[str, tuple[float, ...]] = described(
-        "tables that the integrator reads, by what they run over", default={}
-    )
+    curves: Mapping[str, tuple[float, ...]] = described("tables of the integrator, by their argument", default={})
 
 
 def draw_machine(kind: str, rng: np.random.Generator, most: int) -> BlindMachine:
-    """Return a machine of random size under a drive of a kind, with recordings of `most` samples at most."""
+    """Return a machine with random parameters under a drive of a kind, with at most `most` samples."""
     gapped = 0.55 if kind == IMPACTS else 0.45
     joint = 0.0 if kind == IMPACTS else 0.3
     names, weights = ["lin_backlash", "robot_joint", "linear_oscillator"], [gapped, joint, 1.0 - gapped - joint]
     model = str(rng.choice(names, p=weights))
-    natural, mass = drawn_log(rng, 5.0, 300.0), drawn_log(rng, 0.05, 50.0)
-    values, amplitude = sized(model, mass, natural, rng)
+    natural, mass = draw_log_uniform(rng, 5.0, 300.0), draw_log_uniform(rng, 0.05, 50.0)
+    values, amplitude = draw_parameters(model, mass, natural, rng)
     if model == "lin_backlash" and kind in (IMPACTS, STEPS):
         values["k1"] = float(rng.uniform(0.03, 0.2)) * values["k0"]
-    ratio = drawn_log(rng, *((0.12, 0.5) if model == "robot_joint" else (0.2, 1.2)))
-    samples = round(drawn_log(rng, min(LEAST_SAMPLES, most), most))
-    period = max(drawn_log(rng, 25.0, 100.0), CYCLE_SAMPLES / ratio)
+    ratio = draw_log_uniform(rng, *((0.12, 0.5) if model == "robot_joint" else (0.2, 1.2)))
+    samples = round(draw_log_uniform(rng, min(LEAST_SAMPLES, most), most))
+    period = max(draw_log_uniform(rng, 25.0, 100.0), CYCLE_SAMPLES / ratio)
     rate = period * ratio * natural / (2.0 * math.pi)
     signal = _draw_signal(kind, amplitude, ratio * natural, (natural, samples / rate), rng)
     top = max((w for _, w, _ in signal.tones), default=0.0) / (ratio * natural)
     rate *= max(1.0, CYCLE_SAMPLES * top / period)
     estimated = ("c", "k") if model == "linear_oscillator" else ("c", "x0")
     priors = {name: wide_prior(values[name], rng) for name in estimated}
-    return BlindMachine(model, values, estimated, signal, rate, samples, drawn_log(rng, 0.002, 0.03), priors)
+    return BlindMachine(model, values, estimated, signal, rate, samples, draw_log_uniform(rng, 0.002, 0.03), priors)
 
 
 def _draw_signal(
@@ -133,23 +134,24 @@ def _draw_signal(
 
 
 def draw_world(kind: str, pilot: Pilot, rng: np.random.Generator) -> World:
-    """Return the flaws of a rig whose motion with nothing hidden is that of the pilot."""
+    """Return random flaws of a rig whose motion without a hidden mechanism is that of the pilot."""
     rig, body = pilot.rig, pilot.rig.body
     offered = ["position", "velocity", "time", *(["phase"] if kind == CYCLE else [])]
     overs = [str(o) for o in rng.choice(offered, size=int(rng.integers(1, 4)), replace=False)]
     drive = math.inf if rig.based else rig.signal.amplitude
-    whole = drawn_log(rng, *SMOOTH_SIZES) * min(drive, math.sqrt(2.0) * pilot.inertial) / math.sqrt(len(overs))
+    reference = min(drive, math.sqrt(2.0) * pilot.inertial_force)
+    whole = draw_log_uniform(rng, *SMOOTH_SIZES) * reference / math.sqrt(len(overs))
     stiff = body.k + body.k0
     pace = math.sqrt(stiff / body.m)
-    foot = stiff * drawn_log(rng, 50.0, 500.0)
+    foot = stiff * draw_log_uniform(rng, 50.0, 500.0)
     flaws = {
         "position": _measure_scale(pilot.q),
         "velocity": _measure_scale(pilot.v),
         "foot": foot,
         "foot_drag": foot * float(rng.uniform(0.03, 0.1)) / pace,
         "far_pace": float(rng.uniform(6.0, 15.0)) * pace,
-        "far_loss": drawn_log(rng, 0.005, 0.03),
-        "far_compliance": drawn_log(rng, 0.001, 0.01) / stiff,
+        "far_loss": draw_log_uniform(rng, 0.005, 0.03),
+        "far_compliance": draw_log_uniform(rng, 0.001, 0.01) / stiff,
     }
     known = [name for name, value in rig.values.items() if name not in rig.estimated and value]
     smooth = tuple(Blemish(over, whole, _draw_waves(rng)) for over in overs)
@@ -158,29 +160,29 @@ def draw_world(kind: str, pilot: Pilot, rng: np.random.Generator) -> World:
         smooth=smooth,
         friction=_draw_waves(rng),
         flaws=flaws,
-        stated={name: 1.0 + float(rng.choice([-1.0, 1.0])) * drawn_log(rng, 0.001, 0.01) for name in known},
+        stated={name: 1.0 + float(rng.choice([-1.0, 1.0])) * draw_log_uniform(rng, 0.001, 0.01) for name in known},
         bend=(float(rng.uniform(-0.005, 0.005)), float(rng.uniform(-0.005, 0.005))),
         slow=float(rng.uniform(0.1, 0.8)),
         memory=float(rng.uniform(0.3, 0.9)),
-        hum=drawn_log(rng, 0.1, 1.0),
+        hum=draw_log_uniform(rng, 0.1, 1.0),
         hum_pace=float(rng.uniform(0.1, 2.5)) * rig.rate,
-        step=drawn_log(rng, 0.1, 2.0),
+        step=draw_log_uniform(rng, 0.1, 2.0),
     )
     return replace(made, curves=_tabulate_curves(made, pilot, rng))
 
 
 def _measure_scale(moved: Array) -> float:
-    """Return the scale of a motion: its deviation, or where it has peaks, as behind a hit, 0.4 of the largest."""
+    """Return the scale of a motion: its standard deviation, or 0.4 of the largest value if more (after a hit)."""
     return max(float(np.std(moved)), 0.4 * float(np.max(np.abs(moved))))
 
 
 def _draw_waves(rng: np.random.Generator) -> Curve:
-    """Return the waves of a random smooth function, the faster the smaller."""
+    """Return the waves of a random smooth function; the amplitude falls with the order."""
     return tuple(tuple((rng.standard_normal(2) / k).tolist()) for k in range(1, WAVES + 1))
 
 
 def _evaluate_waves(waves: Curve, angle: Array) -> Array:
-    """Return a random function at angles: half a wave of the slowest over pi."""
+    """Return a random function at angles (rad); pi is half a wavelength of the slowest wave."""
     rows = (a * np.cos(k * angle) + b * np.sin(k * angle) for k, (a, b) in enumerate(waves, start=1))
     return np.asarray(sum(rows), dtype=float)
 
@@ -202,9 +204,10 @@ def _tabulate_curves(world: World, pilot: Pilot, rng: np.random.Generator) -> di
 
 
 def _scale_curve(raw: Array, z: Array, seen: Array, rms: float) -> Array:
-    """Return a curve over `z` of this rms along what was seen, without the straight line in it.
+    """Return the curve over `z` without its straight line, scaled to this rms along the motion `seen` (samples,).
 
-    A constant is an offset and a slope a stiffness or a damping: these have names.
+    The straight line is removed because terms of the library describe it: a constant is an offset, a slope a stiffness
+    or a damping.
     """
     along = np.interp(seen, z, raw)
     line = np.linalg.lstsq(np.column_stack([np.ones_like(seen), seen]), along, rcond=None)[0]
@@ -214,21 +217,21 @@ def _scale_curve(raw: Array, z: Array, seen: Array, rms: float) -> Array:
 
 
 def simulate_imperfect(
-    rig: BlindMachine, hidden: tuple[Hidden, Meddling], world: World, rng: np.random.Generator
+    rig: BlindMachine, hidden: tuple[Hidden, Disturbances], world: World, rng: np.random.Generator
 ) -> Array:
-    """Return what the sensor shows (samples,) before its noise, after the machine has settled."""
-    inside, meddling = hidden
+    """Return the readings (samples,) of the sensor before its noise, after the machine has settled."""
+    inside, disturbances = hidden
     curves = np.array([world.curves[name] for name in ("position", "velocity", "friction")])
     flaws, state = Flaws(**world.flaws), np.zeros(9)
     state[0] = find_start(rig)
 
     def follow(force: Array, base: Array, clock: tuple[float, float], every: int) -> Array:
-        told = (force, base, rig.body, inside, flaws, curves, state, clock, every)
-        return np.asarray(move_rough(*told)[:, 0])  # type: ignore[no-untyped-call]
+        arguments = (force, base, rig.body, inside, flaws, curves, state, clock, every)
+        return np.asarray(move_rough(*arguments)[:, 0])  # type: ignore[no-untyped-call]
 
     fastest = max(bound_pace(rig), 0.4 * world.flaws["far_pace"])
     return simulate_pieces(
-        rig, meddling, rng, fastest / STEPS_PER_RATE, follow, partial(_compute_timed_force, world, rig)
+        rig, disturbances, rng, fastest / STEPS_PER_RATE, follow, partial(_compute_timed_force, world, rig)
     )
 
 
@@ -246,9 +249,9 @@ def _compute_timed_force(world: World, rig: BlindMachine, t: Array) -> Array:
 
 
 def _evaluate_over_time(waves: Curve, share: Array) -> Array:
-    """Return a random function at shares of a recording, without a mean in the part that is fitted nor behind it.
+    """Return a random function at shares of a recording, with zero mean in the fitted part and in the held-out part.
 
-    A straight line with these means is taken out: a constant force has a name.
+    A straight line with these means is subtracted, because a term of the library describes a constant force.
     """
     parts = ((0.0, FITTED), (FITTED, 1.0))
     means = [float(np.mean(_evaluate_waves(waves, math.pi * np.linspace(a, b, 2001)))) for a, b in parts]
@@ -257,7 +260,7 @@ def _evaluate_over_time(waves: Curve, share: Array) -> Array:
 
 
 def record_imperfect(rig: BlindMachine, truth: Array, world: World, rng: np.random.Generator) -> tuple[Array, float]:
-    """Return the response (samples,) as the acquisition shows it, and the deviation of its noise."""
+    """Return the recorded response (samples,) and the standard deviation of its noise."""
     from scipy.signal import lfilter
 
     clean = rig.signal.value(rig.time)
@@ -275,15 +278,15 @@ def record_imperfect(rig: BlindMachine, truth: Array, world: World, rng: np.rand
 
 
 def draw_effect(name: str, pilot: Pilot, rng: np.random.Generator) -> Effect:
-    """Return a mechanism of a random size among those that matter beside flaws: its force over that of inertia."""
+    """Return a mechanism of a random size; its force is a share of the force of inertia (`EFFECT_SIZES`)."""
     what = str(rng.choice(list(UNKNOWN))) if name == "unknown" else ""
     mechanism = UNKNOWN[what] if what else TABLE[name]
-    at = str(rng.choice(mechanism.spots(pilot.rig)))
+    at = str(rng.choice(mechanism.find_places(pilot.rig)))
     draft = mechanism.plan(pilot, at, rng)
     if name in NOISY:
         return Effect(name, at, draft.parameters(NOISY[name](pilot, float(rng.random()))))
-    share = drawn_log(rng, *EFFECT_SIZES)
-    reference = float(np.std(pilot.q)) if draft.shown else pilot.inertial
-    size = share * reference / max(float(np.sqrt(np.mean(draft.felt**2))), 1e-300)
+    share = draw_log_uniform(rng, *EFFECT_SIZES)
+    reference = float(np.std(pilot.q)) if draft.on_sensor else pilot.inertial_force
+    size = share * reference / max(float(np.sqrt(np.mean(draft.force**2))), 1e-300)
     size *= rng.choice([-1.0, 1.0]) if mechanism.signed else 1.0
     return Effect(name, at, draft.parameters(float(size)), what)

@@ -14,7 +14,14 @@ from lostmotion.registry import Registry
 from lostmotion.results import Interval
 from lostmotion.results.diagnosis import Candidate, Confusion, Diagnosis, HeldOutScores, Mechanism
 from lostmotion.storage import load_result
-from lostmotion_trials.blind.bound import ALIKE, Yardstick, add_library_names, alike, is_covered, yardstick
+from lostmotion_trials.blind.bound import (
+    EQUIVALENT,
+    LikelihoodBound,
+    add_library_names,
+    are_equivalent,
+    compute_bound,
+    is_covered,
+)
 from lostmotion_trials.blind.commitment import open_sealed
 from lostmotion_trials.blind.mechanisms import TABLE
 from lostmotion_trials.blind.pilot import Effect
@@ -56,12 +63,12 @@ def score_case(out: Path, registry: Registry, number: int) -> JudgedCase:
     bound_status = None
     try:
         prepared = prepare(place / "case.toml", registry)
-        best = yardstick(prepared, truth.machine, truth.effects, answer)
+        best = compute_bound(prepared, truth.machine, truth.effects, answer)
         places = len(prepared.model.interfaces)
     except PlaceError:
         raise
     except (LostMotionError, ArithmeticError, ValueError) as err:
-        best = Yardstick((math.nan,) * len(truth.effects), ("failed",) * len(truth.effects))
+        best = LikelihoodBound((math.nan,) * len(truth.effects), ("failed",) * len(truth.effects))
         bound_status, places = " ".join(str(err).split()), 2 if truth.machine.model == "robot_joint" else 1
     each = zip(truth.effects, best.gains, best.status, strict=True)
     effects = tuple(_assume_missed(effect, gain, status) for effect, gain, status in each)
@@ -90,12 +97,12 @@ def _score_imperfect(answer: Diagnosis | None, truth: SealedTruth, kind: str) ->
     """
     several = truth.machine.model == "robot_joint"
     effects = tuple(_assume_missed(effect, math.nan, "no true model") for effect in truth.effects)
-    told = partial(
+    make_row = partial(
         JudgedCase, case=truth.case, model=truth.machine.model, variant=truth.variant, margin=math.nan, kind=kind,
         heldout=None,
     )  # fmt: skip
     if answer is None:
-        return told(verdict=FAILED, answer=HeldAgainst(tuple(replace(e, sure=False) for e in effects)), sure=())
+        return make_row(verdict=FAILED, answer=HeldAgainst(tuple(replace(e, sure=False) for e in effects)), sure=())
     against = _compare_answer(answer, effects, truth.machine, several=several)
     named = [entry for entry in answer.found if entry.mechanism not in VAGUE]
     stated = [entry for entry in named if entry.probability > SURE and entry.state == "named"]
@@ -108,7 +115,7 @@ def _score_imperfect(answer: Diagnosis | None, truth: SealedTruth, kind: str) ->
         stated=tuple(_list_stated(answer.ranking, effects, several=several, rough=True)),
     )
     risen = answer.fit.after.nrmse - answer.fit.before.nrmse
-    return told(verdict=answer.verdict, answer=against, sure=sure, worse=risen)
+    return make_row(verdict=answer.verdict, answer=against, sure=sure, worse=risen)
 
 
 def is_same_kind(effect: Effect, entry: Named, *, several: bool) -> bool:
@@ -162,7 +169,7 @@ def names_effect(effect: Effect, entry: Named, *, several: bool) -> bool:
     """Return whether an entry names an effect, at its place where there are several and it has one."""
     at = effect.at if entry.at is None else entry.at
     here = not several or not effect.at or at in (effect.at, "drive", "sensor")
-    return here and alike(effect.mechanism, entry.mechanism)
+    return here and are_equivalent(effect.mechanism, entry.mechanism)
 
 
 def _format_name(entry: Mechanism) -> str:
@@ -234,7 +241,7 @@ def _list_stated(
     for row in ranking:
         name = row.mechanism
         if name not in (*VAGUE, "nothing_missing"):
-            kin = next((min(names) for names in ALIKE if name in names), name)
+            kin = next((min(names) for names in EQUIVALENT if name in names), name)
             place = row.at if row.at in ("ground", "base") else ""
             shares.setdefault(("rub" if rough and name in FRICTION_TERMS else kin, place), []).append(row)
     there = is_present if rough else _is_at_work
@@ -246,7 +253,7 @@ def _is_at_work(effects: Sequence[Effect], entry: Named, *, several: bool) -> bo
     return any(names_effect(effect, entry, several=several) for effect in effects)
 
 
-def _judge_heldout(fit: HeldOutScores, best: Yardstick) -> HeldOutJudged | None:
+def _judge_heldout(fit: HeldOutScores, best: LikelihoodBound) -> HeldOutJudged | None:
     """Return the errors on held-out data of nominal, found and true model, and the share of what can be won."""
     before, after, true = fit.before.nrmse, fit.after.nrmse, best.nrmse
     if not all(map(math.isfinite, (before, after, true))):

@@ -64,23 +64,23 @@ def write_proof(folder: Path) -> Path:
 
 def render(proof: Proof) -> str:
     """Return the page as one self-contained HTML text."""
-    told = proof.summary
+    summary = proof.summary
     with style.use_style():
-        parts = _list_figures(told)
+        parts = _list_figures(summary)
         drawn = [
             DrawnSection(name, title, style.embed_figure(figure, name), CAPTIONS[name]) for name, title, figure in parts
         ]
-    states = [row.state for row in told.targets]
+    states = [row.state for row in summary.targets]
     return load_template("page.html.j2", __package__).render(
         title=proof.title,
         badge=_choose_badge(states),
         passes="missed" not in states and "met" in states,
-        answer=[typeset(part) for part in told.says],
-        world=IMPERFECT if told.sure else "",
+        answer=[typeset(part) for part in summary.says],
+        world=IMPERFECT if summary.sure else "",
         figures=drawn,
-        targets=_list_targets(told.targets),
-        tables=[table for table in _list_tables(told) if table.rows],
-        lists=[(title, lines) for title, lines in _list_cases(told) if lines],
+        targets=_list_targets(summary.targets),
+        tables=[table for table in _list_tables(summary) if table.rows],
+        lists=[(title, lines) for title, lines in _list_cases(summary) if lines],
         provenance=json.dumps(to_plain(proof.provenance), indent=2, ensure_ascii=False),
     )
 
@@ -92,14 +92,14 @@ def _choose_badge(states: list[str]) -> str:
     return "Targets met" if tried and set(tried) == {"met"} else "Not decided"
 
 
-def _list_figures(told: ProofSummary) -> Iterator[tuple[str, str, Figure]]:
+def _list_figures(summary: ProofSummary) -> Iterator[tuple[str, str, Figure]]:
     """Yield name, heading and drawing of each figure that has something to show."""
-    if told.sizes:
-        yield "detection", "How small may an effect be?", draw_detection(told)
-    if any(row.rate.of for row in told.reliability):
-        yield "reliability", "Are stated probabilities right?", draw_reliability(told)
-    if told.heldout.ratios:
-        yield "heldout", "Is the found model as good as the true one?", draw_heldout(told)
+    if summary.sizes:
+        yield "detection", "How small may an effect be?", draw_detection(summary)
+    if any(row.rate.of for row in summary.reliability):
+        yield "reliability", "Are stated probabilities right?", draw_reliability(summary)
+    if summary.heldout.ratios:
+        yield "heldout", "Is the found model as good as the true one?", draw_heldout(summary)
 
 
 def _make_plain_cells(*cells: str) -> list[tuple[str, bool]]:
@@ -132,28 +132,28 @@ def _format_wanted(row: Target) -> str:
     return f"{percent(row.at_least)} to {percent(row.at_most)}"
 
 
-def _list_tables(told: ProofSummary) -> Iterator[Listed]:
+def _list_tables(summary: ProofSummary) -> Iterator[Listed]:
     """Yield the tables below the figures."""
-    yield _list_sure(told.sure)
+    yield _list_sure(summary.sure)
     outcomes = ["Confused", "Noticed", "Misnamed", "Missed"]
     note = (
         "Confused: the diagnosis lists the truth among the mechanisms that it cannot distinguish from the named one."
         " Noticed: called unknown, or a random force. Misnamed: something else was named; in brackets how often that"
         " fits as well, to within 3 in log-likelihood. Without a term in the library an effect has no gain."
     )
-    bins = [row for row in told.detection if row.counts.rate.of]
+    bins = [row for row in summary.detection if row.counts.rate.of]
     rows = [
         _make_plain_cells(_format_size(row), *_format_rate(row.counts.rate), *_format_outcomes(row.counts))
         for row in bins
     ]
     yield Listed("By size", ["Gain", "Named", "Share, 95 % band", *outcomes], rows, note)
-    yield _list_mechanisms(told, outcomes, note)
-    rows = [_make_plain_cells(row.noise, *_format_rate(row.rate)) for row in told.alarms if row.rate.of]
-    title = "False sure names on machines that hide nothing" if told.sure else "False alarms on clean cases"
+    yield _list_mechanisms(summary, outcomes, note)
+    rows = [_make_plain_cells(row.noise, *_format_rate(row.rate)) for row in summary.alarms if row.rate.of]
+    title = "False sure names on machines that hide nothing" if summary.sure else "False alarms on clean cases"
     yield Listed(title, ["Measurement noise", "Cases", "Share, 95 % band"], rows, "")
     rows = [
         _make_plain_cells(_format_parameter(row.name), *_format_rate(row.rate), percent(row.median_relative_error))
-        for row in told.coverage
+        for row in summary.coverage
         if row.rate.of
     ]
     head = ["Parameter", "Truths inside", "Share, 95 % band", "Median error"]
@@ -164,7 +164,7 @@ def _list_tables(told: ProofSummary) -> Iterator[Listed]:
         "For parameters of a mechanism: cases with white noise in which it was named exactly. For parameters of the"
         " machine: cases with white noise in which everything was named exactly.",
     )
-    rows = [_make_plain_cells(to_words(row.truth), to_words(row.answer), str(row.cases)) for row in told.confusion]
+    rows = [_make_plain_cells(to_words(row.truth), to_words(row.answer), str(row.cases)) for row in summary.confusion]
     yield Listed("What was taken for what", ["Truth", "Answer", "Times"], rows, "")
 
 
@@ -187,11 +187,11 @@ def _list_sure(counts: Sequence[SureCount]) -> Listed:
     return Listed("Names stated with more than 0.95", head, rows, note)
 
 
-def _list_mechanisms(told: ProofSummary, outcomes: list[str], note: str) -> Listed:
+def _list_mechanisms(summary: ProofSummary, outcomes: list[str], note: str) -> Listed:
     """Return the table of outcomes by mechanism; in an imperfect world none has a gain or a true model."""
     head = ["Named", "Share, 95 % band"]
-    counts = [(row, [*_format_rate(row.counts.rate), *_format_outcomes(row.counts)]) for row in told.mechanisms]
-    if told.sure:
+    counts = [(row, [*_format_rate(row.counts.rate), *_format_outcomes(row.counts)]) for row in summary.mechanisms]
+    if summary.sure:
         rows = [_make_plain_cells(to_words(row.mechanism), *cells) for row, cells in counts]
         return Listed("By mechanism", ["Mechanism", *head, *outcomes], rows, note.partition("; in brackets")[0] + ".")
     rows = [
@@ -217,12 +217,12 @@ def _format_parameter(name: str) -> str:
     return f"{to_words(mechanism)}, {parameter}" if dot else name
 
 
-def _list_cases(told: ProofSummary) -> Iterator[tuple[str, list[str]]]:
+def _list_cases(summary: ProofSummary) -> Iterator[tuple[str, list[str]]]:
     """Yield the lists of single cases at the end of the page."""
-    yield "Every effect that was not named", [_describe_miss(one, rough=bool(told.sure)) for one in told.misses]
-    yield "Everything that was named and is not there", [_describe_alarm(one) for one in told.false_alarms]
-    yield "Cases without a diagnosis", [f"{one.case}: {sentence(one.says)}" for one in told.failed]
-    yield "Cases without a true model", [f"{one.case}: {sentence(one.says)}" for one in told.unmeasured]
+    yield "Every effect that was not named", [_describe_miss(one, rough=bool(summary.sure)) for one in summary.misses]
+    yield "Everything that was named and is not there", [_describe_alarm(one) for one in summary.false_alarms]
+    yield "Cases without a diagnosis", [f"{one.case}: {sentence(one.says)}" for one in summary.failed]
+    yield "Cases without a true model", [f"{one.case}: {sentence(one.says)}" for one in summary.unmeasured]
 
 
 def _describe_miss(one: Miss, *, rough: bool) -> str:

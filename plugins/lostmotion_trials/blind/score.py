@@ -1,4 +1,4 @@
-"""What the cases of a blind trial say together: rates with their bands, coverage, confusions, targets."""
+"""Summarises the cases of a blind trial: rates with their confidence intervals, coverage, confusions, targets."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.stats import beta, chi2, ncx2
 
-from lostmotion_trials.blind.bound import alike
+from lostmotion_trials.blind.bound import are_equivalent
 from lostmotion_trials.blind.commitment import PLAIN
 from lostmotion_trials.blind.judging import FLAWS, HIT, MISNAMED, OUTCOMES, VAGUE
 from lostmotion_trials.blind.results import (
@@ -41,18 +41,24 @@ from lostmotion_trials.blind.results import (
 from lostmotion_trials.blind.sentences import write_sentences
 
 GAIN_EDGES = (0.0, 5.0, 15.0, 50.0, 150.0, 500.0, math.inf)
-"""Edges of the bins of effect size, in log-likelihood that the true terms gain."""
+"""Edges of the bins of effect size: gain in log-likelihood of the true terms."""
 MOST_ALARMS = 0.02
-"""False alarms that a clean recording may raise."""
+"""Target: at most this share of clean recordings has a false alarm. Set by choice; no measurement recorded."""
 STATED_EDGES = (0.0, 0.01, 0.05, 0.2, 0.5, 0.8, 0.95, 0.99, 1.0)
+"""Edges of the bins of the stated probability, narrow near 0 and 1."""
 COVERAGE_LIMITS = (0.90, 0.98)
+"""Target: the share of truths that the 95 % intervals contain lies between these. Set by choice; no measurement
+recorded."""
 CLOSE_RATIO, LEAST_CLOSE = 1.05, 0.9
-"""The found model may err on held-out data by so much more than the true one, in this share of cases at the least."""
+"""Target: the held-out error of the found model is at most 1.05 times that of the true one in 90 % of the cases. Set by
+choice; no measurement recorded."""
 SURE_LEVEL = 0.95
+"""Level of the confidence intervals of rates, and the target share of sure names that are present."""
 EQUAL_MARGIN = 3.0
-"""What was named in error cannot be told from the truth if that is better by less than this in log-likelihood."""
+"""A wrong model cannot be distinguished from the true one whose log-likelihood is higher by less than this: a
+likelihood ratio of exp(3) = 20. Chosen by experience; no measurement recorded."""
 LEAST_TRIES = 20
-"""With fewer tries a target is not said to be met."""
+"""With fewer tries a target is not said to be met. Chosen by experience; no measurement recorded."""
 
 
 class HiddenEffect(NamedTuple):
@@ -63,7 +69,7 @@ class HiddenEffect(NamedTuple):
 
 
 def summarise(rows: Sequence[JudgedCase], failed: Sequence[DiagnosedCase]) -> ProofSummary:
-    """Return what a blind trial found, from what became of each case."""
+    """Return the summary of a blind trial from the judged cases and the cases that failed."""
     lost = {row.case for row in failed}
     effects = [HiddenEffect(effect, row) for row in rows for effect in row.answer.effects]
     clean = [row for row in rows if not row.answer.effects and row.case not in lost]
@@ -91,7 +97,7 @@ def summarise(rows: Sequence[JudgedCase], failed: Sequence[DiagnosedCase]) -> Pr
 
 
 def estimate_rate(hits: int, of: int) -> Rate:
-    """Return a share with its exact 95 % band (Clopper, Pearson 1934); no share of nothing."""
+    """Return a rate with its exact 95 % interval (Clopper, Pearson 1934); NaN without tries."""
     if not of:
         return Rate(0, 0, math.nan, math.nan, math.nan)
     tail = 0.5 * (1.0 - SURE_LEVEL)
@@ -101,34 +107,37 @@ def estimate_rate(hits: int, of: int) -> Rate:
 
 
 def _count_bin(effects: Sequence[HiddenEffect], low: float, high: float) -> SizeBin:
-    """Return what became of the effects with gains from `low` to below `high`."""
+    """Return the outcomes of the effects with gains from `low` to below `high`."""
     return SizeBin(low, high, _count_outcomes([e for e in effects if low <= e.effect.gain < high]))
 
 
 def _count_outcomes(effects: Sequence[HiddenEffect]) -> Outcomes:
+    """Return the number of effects of each outcome, and of wrong names that are nearly as likely as the truth."""
     found = Counter(e.outcome for e, _ in effects)
     close = sum(e.outcome == MISNAMED and of.margin < EQUAL_MARGIN for e, of in effects)
     return Outcomes(estimate_rate(found[HIT], len(effects)), {name: found[name] for name in OUTCOMES}, close)
 
 
 def _compute_limit(rows: Sequence[JudgedCase]) -> LikelihoodLimit:
-    """Return the chance of the likelihood-ratio test, which knows what to look for, to notice an effect.
+    """Return the power of the likelihood-ratio test over the gain, for one known term and for one of many terms.
 
-    At a gain of g twice the log of the ratio is a non-central chi-square of one degree of freedom about 2 g (Wilks).
+    At a gain of g, twice the log of the ratio has a non-central chi-square distribution with one degree of freedom and
+    non-centrality 2 g (Wilks).
     """
     candidates = int(np.median([len(row.answer.stated) for row in rows if row.answer.stated] or [1]))
     gain = np.geomspace(0.3, 2000.0, 81)
-    told, many = (ncx2.sf(chi2.isf(share, 1), 1, 2.0 * gain) for share in (MOST_ALARMS, MOST_ALARMS / candidates))
-    return LikelihoodLimit(tuple(gain.tolist()), tuple(told.tolist()), tuple(many.tolist()), candidates, MOST_ALARMS)
+    shares = (MOST_ALARMS, MOST_ALARMS / candidates)
+    one, many = (tuple(ncx2.sf(chi2.isf(share, 1), 1, 2.0 * gain).tolist()) for share in shares)
+    return LikelihoodLimit(tuple(gain.tolist()), one, many, candidates, MOST_ALARMS)
 
 
 def _take_median(values: Sequence[float]) -> float:
-    """Return the median, NaN of nothing."""
+    """Return the median, or NaN without values."""
     return float(np.median(values)) if values else math.nan
 
 
 def _count_mechanisms(effects: Sequence[HiddenEffect]) -> Iterator[MechanismCounts]:
-    """Yield one row for each mechanism that was hidden."""
+    """Yield the counts of each mechanism that was hidden."""
     for name in sorted({e.mechanism for e, _ in effects}):
         own = [e for e in effects if e.effect.mechanism == name]
         gains = [e.gain for e, _ in own if not math.isnan(e.gain)]
@@ -137,19 +146,19 @@ def _count_mechanisms(effects: Sequence[HiddenEffect]) -> Iterator[MechanismCoun
 
 
 def _count_confusion(rows: Sequence[JudgedCase]) -> list[ConfusionCount]:
-    """Return how often each answer was given to each truth; of several effects each counts."""
+    """Return how often each answer was given for each truth; every effect of a case counts."""
     pairs: Counter[tuple[str, str]] = Counter()
     for row in rows:
         for truth in [e.mechanism for e in row.answer.effects] or ["nothing"]:
             named, false = ({name.partition("@")[0] for name in own} for own in (row.answer.named, row.answer.false))
-            like = {name for name in named if alike(name, truth)}
+            like = {name for name in named if are_equivalent(name, truth)}
             other = named - set(FLAWS) if row.sure is not None else false
             pairs.update((truth, answer) for answer in (named & {truth} or like or other or {"nothing"}))
     return [ConfusionCount(t, a, n) for (t, a), n in sorted(pairs.items())]
 
 
 def _count_reliability(stated: Sequence[tuple[float, float]]) -> Iterator[ReliabilityBin]:
-    """Yield for each range of stated probability how often the mechanism was at work."""
+    """Yield for each range of the stated probability how often the mechanism was present."""
     for low, high in pairwise(STATED_EDGES):
         own = [(p, at) for p, at in stated if low <= p < high or p == high == 1.0]
         mean = float(np.mean([p for p, _ in own])) if own else math.nan
@@ -157,18 +166,19 @@ def _count_reliability(stated: Sequence[tuple[float, float]]) -> Iterator[Reliab
 
 
 def _count_coverage(found: Sequence[JudgedParameter]) -> list[CoverageRow]:
-    """Return how many truths the 95 % intervals hold, and how far medians are off: all together, then one by one."""
+    """Return the coverage of the 95 % intervals and the error of the medians: of all parameters, then of each."""
     names = sorted({one.name for one in found})
     return [_count_covered("all", found), *(_count_covered(n, [one for one in found if one.name == n]) for n in names)]
 
 
 def _count_covered(name: str, found: Sequence[JudgedParameter]) -> CoverageRow:
+    """Return the coverage of the 95 % intervals of some parameters and the median relative error of their medians."""
     errors = [abs(one.relative_error) for one in found if not math.isnan(one.relative_error)]
     return CoverageRow(name, estimate_rate(sum(one.inside for one in found), len(found)), _take_median(errors))
 
 
 def _count_heldout(found: Sequence[HeldOutJudged]) -> HeldOutCounts:
-    """Return what was won on held-out data, over what the true model wins, and how near the errors come to its own."""
+    """Return the improvement on held-out data over that of the true model, and the ratio of the errors."""
     shares = [one.share for one in found if not math.isnan(one.share)]
     ratios = [one.ratio for one in found]
     return HeldOutCounts(
@@ -182,9 +192,9 @@ def _count_heldout(found: Sequence[HeldOutJudged]) -> HeldOutCounts:
 
 
 def _count_alarms(clean: Sequence[JudgedCase]) -> list[AlarmCount]:
-    """Return false alarms on clean cases: all together, then by the kind of measurement noise.
+    """Return false alarms on clean cases: of all cases, then by the kind of measurement noise.
 
-    In an imperfect world each machine lacks something and has noise of its own kind: an alarm is a false sure name.
+    In an imperfect world each machine has flaws and its own kind of noise: an alarm is a sure name that is false.
     """
     rough = any(row.sure is not None for row in clean)
     kinds = [] if rough else sorted({row.variant for row in clean})
@@ -194,9 +204,9 @@ def _count_alarms(clean: Sequence[JudgedCase]) -> list[AlarmCount]:
 
 
 def _count_sure(rows: Sequence[JudgedCase]) -> Iterator[SureCount]:
-    """Yield for each kind of drive in an imperfect world how many of the sure names are there, and what was named.
+    """Yield for each kind of drive in an imperfect world how many sure names are present and how many were named.
 
-    Without machines of such a world there are no rows.
+    There are no rows if the trial has no machines with flaws.
     """
     kinds = sorted({str(row.kind) for row in rows})
     groups = [("all", rows), *((kind, [row for row in rows if row.kind == kind]) for kind in kinds)] if rows else []
@@ -215,6 +225,7 @@ def _count_sure(rows: Sequence[JudgedCase]) -> Iterator[SureCount]:
 
 
 def _make_miss(effect: JudgedEffect, of: JudgedCase) -> Miss:
+    """Return the row of an effect that was not named."""
     return Miss(
         case=of.case,
         mechanism=effect.mechanism,
@@ -230,14 +241,15 @@ def _make_miss(effect: JudgedEffect, of: JudgedCase) -> Miss:
 
 
 def _make_alarm(row: JudgedCase) -> FalseAlarm:
+    """Return the row of a case with names that are not present."""
     truth = tuple(e.mechanism for e in row.answer.effects)
     return FalseAlarm(row.case, f"cases/{row.case}", truth, row.answer.false)
 
 
 def _judge_targets(found: ProofSummary, effects: Sequence[HiddenEffect]) -> list[Target]:
-    """Return what a diagnosis should reach, what it reached, and whether that is as it should be.
+    """Return the targets of a diagnosis, the rates that were reached, and whether each target is met.
 
-    In an imperfect world no model is true and no effect has a gain: what counts are the names that were sure.
+    In an imperfect world no model is true and no effect has a gain: the targets concern the sure names only.
     """
     if found.sure:
         return [
@@ -255,12 +267,13 @@ def _judge_targets(found: ProofSummary, effects: Sequence[HiddenEffect]) -> list
 
 
 def _count_named(effects: Iterable[HiddenEffect], low: float, high: float) -> Rate:
+    """Return the rate of named effects among those with gains above `low` up to `high`."""
     own = [e for e, _ in effects if low < e.gain <= high]
     return estimate_rate(sum(e.outcome == HIT for e in own), len(own))
 
 
 def _judge_target(what: str, found: Rate, low: float, high: float) -> Target:
-    """Return a target with what was reached: "met", "missed", or "open" where it may be chance."""
+    """Return a target with its state: "met", "missed", "not tried", or "open" if the rate does not decide."""
     if not found.of:
         state = "not tried"
     elif low <= found.share <= high:

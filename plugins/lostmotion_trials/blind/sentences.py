@@ -11,15 +11,15 @@ FEW_CASES = 40
 """With fewer cases the 95 % bands are wider than any target."""
 
 
-def write_sentences(told: ProofSummary) -> list[str]:
+def write_sentences(summary: ProofSummary) -> list[str]:
     """Return the sentences that a report opens with."""
-    first = _describe_sure(told) if told.sure else (_describe_effects(told), _describe_alarms(told))
-    return [part for part in (*first, *_describe_rest(told)) if part]
+    first = _describe_sure(summary) if summary.sure else (_describe_effects(summary), _describe_alarms(summary))
+    return [part for part in (*first, *_describe_rest(summary)) if part]
 
 
-def _describe_sure(told: ProofSummary) -> Iterator[str]:
+def _describe_sure(summary: ProofSummary) -> Iterator[str]:
     """Yield the sentences on machines of an imperfect world, where no model is exactly true."""
-    every, clean = told.sure[0], told.alarms[0].rate
+    every, clean = summary.sure[0], summary.alarms[0].rate
     if every.rate.of:
         yield _describe_share("name that was", "names that were", every.rate)
     else:
@@ -46,24 +46,24 @@ def _describe_share(one: str, many: str, row: Rate) -> str:
     )
 
 
-def _describe_effects(told: ProofSummary) -> str:
-    if not told.effects:
-        return f"Nothing was hidden in {told.cases} machines."
-    strong, weak = told.targets[0].rate, told.targets[1].rate
-    named = sum(row.counts.rate.hits for row in told.mechanisms)
+def _describe_effects(summary: ProofSummary) -> str:
+    if not summary.effects:
+        return f"Nothing was hidden in {summary.cases} machines."
+    strong, weak = summary.targets[0].rate, summary.targets[1].rate
+    named = sum(row.counts.rate.hits for row in summary.mechanisms)
     tiers = [(strong, "that gain more than 50 in log-likelihood"), (weak, "that gain 15 to 50")]
     more = [f"{row.hits} of {row.of} {words}" for row, words in tiers if row.of]
     listed = f": {', '.join(more)}" if more else ""
-    return f"Of {told.effects} hidden effects {named} were named{listed}."
+    return f"Of {summary.effects} hidden effects {named} were named{listed}."
 
 
-def _describe_alarms(told: ProofSummary) -> str:
-    every = told.alarms[0].rate
+def _describe_alarms(summary: ProofSummary) -> str:
+    every = summary.alarms[0].rate
     return f"{every.hits} of {every.of} clean cases raised a false alarm." if every.of else ""
 
 
-def _describe_rest(told: ProofSummary) -> Iterator[str]:
-    covered, held = told.coverage[0].rate, told.heldout
+def _describe_rest(summary: ProofSummary) -> Iterator[str]:
+    covered, held = summary.coverage[0].rate, summary.heldout
     if covered.of:
         yield f"The 95 % intervals hold {covered.hits} of {covered.of} true parameters."
     if held.shares:
@@ -72,9 +72,9 @@ def _describe_rest(told: ProofSummary) -> Iterator[str]:
             " improvement of the true model"
             " (median)."
         )
-    if told.failed:
-        yield f"{len(told.failed)} cases could not be diagnosed: they are listed, and count as missed."
-    if told.unmeasured:
-        yield f"In {len(told.unmeasured)} cases the true model could not be fitted."
-    if told.cases < FEW_CASES:
-        yield f"With {told.cases} cases no target can be decided: use 200."
+    if summary.failed:
+        yield f"{len(summary.failed)} cases could not be diagnosed: they are listed, and count as missed."
+    if summary.unmeasured:
+        yield f"In {len(summary.unmeasured)} cases the true model could not be fitted."
+    if summary.cases < FEW_CASES:
+        yield f"With {summary.cases} cases no target can be decided: use 200."

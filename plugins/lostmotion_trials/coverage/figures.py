@@ -16,6 +16,7 @@ from lostmotion.results import Array
 from lostmotion_trials.coverage.results import BarBand, CurveBand, ParameterCheck
 
 PANELS_ACROSS = 3
+"""Panels in a row of a figure."""
 DECADE = 4.0
 """Ratio of largest to smallest truth from which the axis is logarithmic."""
 FRAME_SDS = 5.0

@@ -27,6 +27,7 @@ STEPS_PER_RATE = 0.003
 MODEL_STEPS_PER_RATE = 0.0015
 """Steps of the model's own right-hand side times its fastest rate: a tenth of those of a final fit."""
 LEAST_SUBSTEPS, MOST_SUBSTEPS = 8, 4000
+"""Bounds of the integration steps per sample."""
 MOST_STEPS = 10_000_000
 """Steps of the right-hand side in all, which is what a gigabyte holds."""
 PIECE_SAMPLES = 1000
@@ -106,7 +107,7 @@ def record_machine(system: System, full: Array, bench: Stand, drive: str, rng: n
     run = _DrivenRun(signal, bench.rate, 2 * bench.samples)
     response = _choose_mover(system)(system, full, run, of_start.uniform(-1.0, 1.0, 2))[bench.samples :]
     if not np.isfinite(response).all():
-        raise DataError(f"the simulated motion of {system.model.name} left all bounds")
+        raise DataError(f"the simulated motion of {system.model.name} diverges")
     excitation = signal.value(np.arange(bench.samples, run.samples) / bench.rate)
     loud = bench.excitation_noise * math.sqrt(2.0) * float(np.std(excitation))
     noise = bench.noise * float(np.std(response))

@@ -19,6 +19,7 @@ Ranks = NDArray[np.int64]
 DRAWS = 99
 """Thinned draws of each posterior, so that a rank takes one of 100 values."""
 MOST_BINS = 20
+"""At most so many bins of a histogram."""
 LEAST_EXPECTED = 5.0
 """The least expected number of ranks in a bin of a histogram."""
 HALVINGS = 40

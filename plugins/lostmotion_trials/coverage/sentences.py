@@ -7,9 +7,10 @@ from collections.abc import Sequence
 from lostmotion_trials.coverage.results import CalibrationSummary, ParameterCheck
 
 FEW_MACHINES = 100
-"""With fewer machines only large errors can be detected."""
+"""With fewer machines only large errors can be detected. Chosen by experience; no measurement recorded."""
 BIAS_ERRORS = 3.0
-"""Standard errors by which the mean of z must be off before a posterior is called biased."""
+"""Standard errors by which the mean of z must be off before a posterior is called biased. Chosen by experience; no
+measurement recorded."""
 
 
 def write_sentences(told: CalibrationSummary, wrong: Sequence[str]) -> tuple[str, ...]:
