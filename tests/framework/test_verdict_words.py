@@ -68,13 +68,13 @@ def test_noise_that_may_be_motion_is_doubted():
     assert note_large_noise(diagnosed([0.2])) == []
     assert note_large_noise(diagnosed([0.0], white=0.7)) == []
     assert note_large_noise(diagnosed([0.0], white=0.9))[0].startswith(
-        "The estimated noise is 90% of the held-out readings"
+        "The estimated noise is 90 % of the held-out readings"
     )
     assert note_large_noise(diagnosed([0.5]))[0].startswith(
-        "The estimated noise is autocorrelated and is 50% of the held-out readings"
+        "The estimated noise is autocorrelated and is 50 % of the held-out readings"
     )
     (only,) = note_large_noise(diagnosed([0.1, 0.9], "front", "rear"))
-    assert only.startswith("The estimated noise of rear is autocorrelated and is 90%")
+    assert only.startswith("The estimated noise of rear is autocorrelated and is 90 %")
 
 
 @pytest.mark.parametrize(("mechanism", "words"), [("random_force", "open"), ("unknown", "open"),

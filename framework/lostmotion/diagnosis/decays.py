@@ -163,7 +163,7 @@ def _describe_decay(d: SearchResult, measured: Measured, models: dict[str, list[
     opening = ""
     if len(measured) > 1:
         begun = (d.shown.begin + stretch.start) * d.shown.dt
-        opening = f"Of {len(measured)} decays, that from {begun:.4g} s has the largest range: "
+        opening = f"Of {len(measured)} decays, that from {rounded(begun, 4)} s has the largest range: "
     words = says(decay, scale.unit, factor=scale.factor)
     parts = [_compare_decays(_name_model(d, name), decay, made[widest]) for name, made in models.items()]
     compared = "; ".join(parts)
@@ -202,8 +202,8 @@ def _describe_range(values: Array, what: str, unit: str = "") -> str:
     """Return for example "a decrement of 0.094 at all amplitudes", or its first and last values during the decay."""
     middle, first, last = (float(v) for v in (np.median(values), values[0], values[-1]))
     if abs(last - first) < (LEVEL if not unit else 0.1 * LEVEL) * abs(middle):
-        return f"{what} of {middle:.3g}{unit} at all amplitudes"
-    return f"{what} that changes from {first:.3g} to {last:.3g}{unit}"
+        return f"{what} of {rounded(middle, 3)}{unit} at all amplitudes"
+    return f"{what} that changes from {rounded(first, 3)} to {rounded(last, 3)}{unit}"
 
 
 def compute_largest_error(seen: Decay, made: Decay, name: str) -> float:

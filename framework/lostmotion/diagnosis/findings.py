@@ -91,8 +91,9 @@ def explain_withheld(outcome: Outcome) -> str:
         return ""
     model = "model" if outcome.diagnosis.found else "nominal model"
     return (
-        f"The {model} is not valid: the error of its free runs over held-out data is {outcome.after.nrmse:.0%} of the"
-        f" response, and the noise is {floor:.1%}. What is missing remains open, and intervals are withheld."
+        f"The {model} is not valid: the error of its free runs over held-out data is"
+        f" {percent(outcome.after.nrmse)} of the"
+        f" response, and the noise is {percent(floor)}. What is missing remains open, and intervals are withheld."
     )
 
 

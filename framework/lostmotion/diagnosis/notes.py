@@ -69,8 +69,9 @@ def _note_ar1_noise(d: SearchResult) -> list[str]:
             share = ar1 / problem.measurement(theta, 0, i)
             whose = f" of {sensor.label}" if len(d.shown.sensors) > 1 else ""
             notes.append(
-                f"{share:.0%} of the variance of the measurement noise{whose} is autocorrelated, with a time constant"
-                f" of {lasts:.2g} s; the fit includes this."
+                f"{percent(share)} of the variance of the measurement noise{whose} is autocorrelated,"
+                " with a time constant"
+                f" of {rounded(lasts)} s; the fit includes this."
             )
     return notes
 
@@ -84,7 +85,7 @@ def note_large_noise(outcome: Outcome) -> list[str]:
         if ar1 > LOUD or share > DEAFENING:
             whose = f" of {sensor.label}" if len(d.shown.sensors) > 1 else ""
             notes.append(
-                f"The estimated noise{whose}{' is autocorrelated and' if ar1 > LOUD else ''} is {share:.0%} of the"
+                f"The estimated noise{whose}{' is autocorrelated and' if ar1 > LOUD else ''} is {percent(share)} of the"
                 " held-out readings: it may be motion that the model does not describe, such as another mode, or the"
                 " sensor may not measure what the case states (check its sign and place). In both cases the result is"
                 " not valid."
@@ -110,7 +111,8 @@ def _note_bounds(d: SearchResult) -> list[str]:
         if f.level not in LEVELS and "." not in f.parameter and not f.low + reach < at < f.high - reach:
             bound = f.value(f.low if at <= f.low + reach else f.high)
             notes.append(
-                f"{f.key} is at the bound {bound:.4g} {f.unit} of its prior: widen the prior, or check the known"
+                f"{f.key} is at the bound {rounded(bound, 4)} {f.unit} of its prior: widen the prior,"
+                " or check the known"
                 " values; the found terms may compensate for a wrong value."
             )
     return notes
@@ -124,7 +126,7 @@ def _note_large_errors(outcome: Outcome) -> list[str]:
     if far < FAR:
         return []
     return [
-        f"The error of free runs over held-out data is {far:.2g} times the measurement noise: either something is"
+        f"The error of free runs over held-out data is {rounded(far)} times the measurement noise: either something is"
         " missing that one-step errors do not show, or small errors of the state grow fast."
     ]
 
@@ -146,6 +148,7 @@ def note_unknown_position(fit: Fit, observation: Observation) -> list[str]:
     size = f"{rounded(reach)} rad" if rotation else f"{rounded(1e3 * reach)} mm"
     return [
         f"No sensor measures the position: it is known to +-{size} only (2 standard deviations, largest over the"
-        f" recording), {share:.2g} % of its amplitude. The intervals of what depends on the position, such as a gap,"
+        f" recording), {rounded(share)} % of its amplitude. The intervals of what depends on the"
+        " position, such as a gap,"
         " include this."
     ]

@@ -55,7 +55,8 @@ def _note_repeated_heldout(train: Sequence[Observation], held: Sequence[Observat
     looks = [count_cycles(o) for o, _ in again]
     cyclic = all(one is not None and one.distinct < FEW for one in looks)
     return [
-        f"{what} the motion of the fitted part ({least:.4g} % of its variance): the predictions are a test for this"
+        f"{what} the motion of the fitted part ({rounded(least, 4)} % of its variance): the"
+        " predictions are a test for this"
         f" {'cycle' if cyclic else 'motion'} only."
     ]
 
@@ -69,7 +70,8 @@ def _note_equal_cycles(observations: Sequence[Observation]) -> list[str]:
             these = f"The {looks.cycles} cycles of {observation.name}"
             notes.append(
                 f"{these} are equivalent to {looks.distinct:.1f} distinct cycles (the mean cycle is"
-                f" {100.0 * looks.share:.4g} % of the variance). More cycles like these only reduce the noise; record"
+                f" {rounded(100.0 * looks.share, 4)} % of the variance). More cycles like these only"
+                " reduce the noise; record"
                 " another level, frequency or waveform to obtain another motion."
             )
     return notes

@@ -123,7 +123,7 @@ def _describe_rival(d: SearchResult, term: Term, p: float) -> str:
     if p > d.settings.name.worth:
         return f"{sentence(_name_term(term))} has a probability of {p:.2f} after this recording."
     return (
-        f"This recording does not exclude {_name_term(term)}: its probability is {p:.2g} only because of the prior"
+        f"This recording does not exclude {_name_term(term)}: its probability is {rounded(p)} only because of the prior"
         " penalty of its further parameters."
     )
 
@@ -140,14 +140,17 @@ def _describe_proposal(d: SearchResult, term: Term, p: float, proposal: Proposal
             f"{opening} No excitation within the limits is expected to distinguish them by more than"
             f" {max(gain, 0.0):.1f} in log evidence: measure this part of the machine separately."
         )
-    against = f"{gain / repeat:.2g} times as much as a repetition" if repeat >= 1.0 else "a repetition by less than 1"
+    against = (
+        f"{rounded(gain / repeat)} times as much as a repetition" if repeat >= 1.0 else "a repetition by less than 1"
+    )
     whose = ""
     if proposal.counted == (1,):
         whose = f" if it is {_name_term(term)} (if it is not, by {rounded(max(proposal.ways[0], 0.0))})"
     if proposal.counted == (0,):
         whose = f" if it is not {_name_term(term)} (if it is, by {rounded(max(proposal.ways[1], 0.0))})"
     return (
-        f"{opening} {_describe_experiment(d, proposal)}: this should distinguish them by {gain:.2g} in log evidence"
+        f"{opening} {_describe_experiment(d, proposal)}: this should distinguish them by"
+        f" {rounded(gain)} in log evidence"
         f"{whose}, {against}."
     )
 
