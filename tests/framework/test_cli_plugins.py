@@ -148,7 +148,7 @@ def test_check_says_ok_for_each_rule(file):
 def test_check_fails_with_the_advice_and_status_1(file):
     text = run("--plugin", file("1.0"), "plugins", "check", "my_drag", status=1)
     assert "  FAIL  force_is_zero_at_null\n        the force is 1.0" in text
-    assert "Let the force be exactly 0" in " ".join(text.split())
+    assert "Return a force of exactly 0" in " ".join(text.split())
     assert "1 broken" in text
 
 

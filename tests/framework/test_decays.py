@@ -58,7 +58,7 @@ def test_an_input_that_nobody_recorded_is_said_with_its_time():
         (note,) = note_restarts(one)
         assert "t_start and t_end" in note
         assert "give it as an input" in note
-        at = float(note.partition("begins anew at ")[2].partition(" s")[0])
+        at = float(note.partition("starts again at ")[2].partition(" s")[0])
         assert at == pytest.approx(3.0, abs=0.125)
         first, second = find_stretches(one)
         assert first == (0, second.start)

@@ -239,7 +239,7 @@ def test_a_rival_is_named_with_the_experiment_that_decides(diagnosed):
     assert first.excitation.expected_log_gain == 40.0
     assert first.excitation.unit == "N"
     assert "Raise the drive to 20 N at" in first.says
-    assert first.says.endswith("this should separate them by 40 in log-likelihood, 10 times as much as a repeat.")
+    assert first.says.endswith("this should distinguish them by 40 in log evidence, 10 times as much as a repetition.")
 
 
 @pytest.mark.slow

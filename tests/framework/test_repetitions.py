@@ -30,10 +30,10 @@ def test_held_out_part_that_repeats_the_fitted_one_is_told():
     whole = observed()
     notes = note_repetitions((whole,), *parts(whole))
     assert len(notes) == 2
-    assert notes[0].startswith("The held-out part repeats the motion of the part that was fitted (")
-    assert notes[0].endswith(" % of it): that predictions hold there convinces nobody of more than that cycle.")
+    assert notes[0].startswith("The held-out part repeats the motion of the fitted part (")
+    assert notes[0].endswith(" % of its variance): the predictions are a test for this cycle only.")
     assert float(notes[0].partition("(")[2].partition(" %")[0]) > 99.5
-    assert notes[1].startswith("The 53 cycles of run 1 count as 1.0 distinct (the mean cycle is")
+    assert notes[1].startswith("The 53 cycles of run 1 are equivalent to 1.0 distinct cycles (the mean cycle is")
 
 
 def test_motion_that_does_not_repeat_has_no_note():
@@ -47,8 +47,8 @@ def test_another_recording_at_the_same_level_is_the_same_motion_and_another_leve
     same, louder = observed("run 3", seed=2), observed("run 4", level=1.5, seed=3)
     assert compute_repeated_share(train, same) > 0.995
     assert compute_repeated_share(train, louder) < 0.95
-    (note,) = [n for n in note_repetitions((), train, (same, louder)) if "convinces" in n]
-    assert note.startswith("What is held out of run 3 repeats")
+    (note,) = [n for n in note_repetitions((), train, (same, louder)) if "are a test for" in n]
+    assert note.startswith("The held-out part of run 3 repeats")
 
 
 def test_readings_that_were_not_taken_are_bridged():
@@ -79,4 +79,4 @@ def test_two_equal_blows_are_one_motion_and_no_cycle():
     whole = Observation.of("blows", x, blows[:, None], DT, "position")
     notes = note_repetitions((whole,), (whole.part(0, 1000),), (whole.part(1000, SAMPLES),))
     assert len(notes) == 1
-    assert notes[0].endswith("convinces nobody of more than that motion.")
+    assert notes[0].endswith("the predictions are a test for this motion only.")

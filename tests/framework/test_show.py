@@ -117,7 +117,7 @@ def plain(text):
     return text.replace("\N{NO-BREAK SPACE}", " ")
 
 
-@pytest.mark.parametrize(("free", "how"), [(False, "under the recorded drive"), (True, "left to itself")])
+@pytest.mark.parametrize(("free", "how"), [(False, "under the recorded drive"), (True, "without a drive")])
 def test_an_exponent_says_what_drove_the_model(free, how):
     says = sentences(from_plain(Behaviour, made.show()), not free, driven=not free)
     assert says.largest_exponent.startswith(f"Of the model {how}")

@@ -157,7 +157,7 @@ def test_what_free_parameters_cover_promises_nothing():
 @pytest.mark.parametrize(
     ("gain", "says"),
     [
-        (60.0, "that has no certain name, since Coulomb friction explains it and a smooth force explains as much"),
+        (60.0, "that cannot be named: Coulomb friction explains it, but a generic smooth force explains as much"),
         (20.0, "that no term of the library explains"),
     ],
 )

@@ -46,10 +46,10 @@ def diagnosed(slow, *names, white=0.0):
 @pytest.mark.parametrize(
     ("force", "error", "told"),
     [
-        ((2.0, 1.0), (0.2, 0.1), "force falls from 2 to 1 N (rms), and * from 20.0% to 10.0%"),
-        ((2.0, 1.0), (0.1, 0.2), "force falls from 2 to 1 N (rms), and * rises from 10.0% to 20.0%"),
-        ((1.0, 2.0), (0.1, 0.2), "force rises from 1 to 2 N (rms), and * from 10.0% to 20.0%"),
-        ((1.0, 2.0), (0.2, 0.1), "force rises from 1 to 2 N (rms), and * falls from 20.0% to 10.0%"),
+        ((2.0, 1.0), (0.2, 0.1), "force falls from 2 to 1 N (rms), and * from 20 % to 10 %"),
+        ((2.0, 1.0), (0.1, 0.2), "force falls from 2 to 1 N (rms), and * rises from 10 % to 20 %"),
+        ((1.0, 2.0), (0.1, 0.2), "force rises from 1 to 2 N (rms), and * from 10 % to 20 %"),
+        ((1.0, 2.0), (0.2, 0.1), "force rises from 1 to 2 N (rms), and * falls from 20 % to 10 %"),
     ],
 )
 def test_what_grows_is_not_said_to_fall(monkeypatch, force, error, told):
@@ -68,13 +68,13 @@ def test_noise_that_may_be_motion_is_doubted():
     assert note_large_noise(diagnosed([0.2])) == []
     assert note_large_noise(diagnosed([0.0], white=0.7)) == []
     assert note_large_noise(diagnosed([0.0], white=0.9))[0].startswith(
-        "What passes for noise is 90% of the held-out readings"
+        "The estimated noise is 90 % of the held-out readings"
     )
     assert note_large_noise(diagnosed([0.5]))[0].startswith(
-        "What passes for noise has a memory and is 50% of the held-out readings"
+        "The estimated noise is autocorrelated and is 50 % of the held-out readings"
     )
     (only,) = note_large_noise(diagnosed([0.1, 0.9], "front", "rear"))
-    assert only.startswith("What passes for noise of rear has a memory and is 90%")
+    assert only.startswith("The estimated noise of rear is autocorrelated and is 90 %")
 
 
 @pytest.mark.parametrize(("mechanism", "words"), [("random_force", "open"), ("unknown", "open"),
@@ -94,7 +94,7 @@ def test_a_sensor_that_stands_still_where_it_is_to_be_predicted_is_refused():
     """It was an error of division after minutes of work."""
     moving, still = np.arange(50.0), np.full(50, 3.0)
     _check_moving((observed(np.stack([moving, moving], axis=1), "front", "rear"),))
-    with pytest.raises(DataError, match=r"^seen: the sensor 'rear' shows one value .* held out: .* t_end"):
+    with pytest.raises(DataError, match=r"^seen: the sensor 'rear' is constant in the held-out part.* t_end"):
         _check_moving((observed(np.stack([moving, still], axis=1), "front", "rear"),))
 
 

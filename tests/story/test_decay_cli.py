@@ -84,7 +84,7 @@ def test_dry_friction_shows_as_a_decrement_that_rises_as_the_motion_dies(tmp_pat
     expected = np.interp(measured["amplitude"], after["amplitude"][::-1], after["decrement"][::-1])
     assert measured["decrement"] == pytest.approx(expected, rel=0.05)
     assert "as with dry friction" in said["decay"]["says"]
-    assert "the model with Coulomb friction follows the recorded decrement within" in said["decay"]["says"]
+    assert "the model with Coulomb friction has the recorded decrement to within" in said["decay"]["says"]
     assert said["notes"] == []
     words = words_of(page)
     assert "Free decay" in words
@@ -127,8 +127,8 @@ def test_a_hammer_test_has_a_decay_after_each_hit(tmp_path):
         assert len(starts) == 2
         assert all(hit < start < hit + 1.0 for hit, start in zip(hits, starts, strict=True))
         assert all(a["time"][-1] < b["time"][0] for a, b in pairwise(said["decay"][name]))
-    assert said["decay"]["says"].startswith("Of 2 decays, the one from ")
+    assert said["decay"]["says"].startswith("Of 2 decays, that from ")
     (note,) = said["notes"]
-    assert note.startswith("The held-out part repeats the motion of the part that was fitted (")
-    assert note.endswith("more than that motion.")
+    assert note.startswith("The held-out part repeats the motion of the fitted part (")
+    assert note.endswith("are a test for this motion only.")
     assert "2 decays, one after each hit" in words_of(page)

@@ -1,4 +1,4 @@
-"""The arrays behind a diagnosis, as they are stored and drawn."""
+"""The arrays of a diagnosis, as they are stored in `arrays.nc` and drawn in the report."""
 
 from __future__ import annotations
 
@@ -95,7 +95,7 @@ def _list_series(outcome: Outcome) -> dict[str, StoredArray]:
 
 
 def _list_further_sensors(outcome: Outcome) -> dict[str, StoredArray]:
-    """Return readings and predictions of the sensors behind the first: `response_2`, `forecast_before_2`, ..."""
+    """Return readings and predictions of the second and further sensors: `response_2`, `forecast_before_2`, ..."""
     d, time, table = outcome.diagnosis, ("time",), {}
     motion = d.after.problem.system.model.motion
     for i, sensor in enumerate(d.shown.sensors[1:], start=1):
@@ -152,13 +152,16 @@ def _list_growth(outcome: Outcome) -> dict[str, StoredArray]:
 
 
 def _list_draws(outcome: Outcome) -> dict[str, StoredArray]:
-    told = "draws of the parameters,"
+    meaning = "draws of the parameters,"
     return {
         "posterior_before": StoredArray(
-            ("draw", "parameter"), outcome.draws_before, "see parameter_unit", f"{told} nominal model"
+            ("draw", "parameter"), outcome.draws_before, "see parameter_unit", f"{meaning} nominal model"
         ),
         "posterior_after": StoredArray(
-            ("draw", "parameter_after"), outcome.draws_after, "see parameter_after_unit", f"{told} with what was found"
+            ("draw", "parameter_after"),
+            outcome.draws_after,
+            "see parameter_after_unit",
+            f"{meaning} with what was found",
         ),
     }
 
@@ -173,6 +176,6 @@ def _list_portraits(d: SearchResult, motions: Mapping[str, Array]) -> dict[str, 
         for axis, column, unit in (("x", 0, units["position"]), ("v", 1, units["velocity"])):
             table[f"portrait_{name}_{axis}"] = StoredArray(("portrait",), tail[:, column], unit, MOTION_NAMES[name])
             if points is not None:
-                told = f"{MOTION_NAMES[name]}, once each drive period"
-                table[f"section_{name}_{axis}"] = StoredArray(("section",), points[:, column], unit, told)
+                meaning = f"{MOTION_NAMES[name]}, once each drive period"
+                table[f"section_{name}_{axis}"] = StoredArray(("section",), points[:, column], unit, meaning)
     return table

@@ -1,4 +1,4 @@
-"""The recorded motion and free runs of both models as clouds of points: sections, and how far these lie apart."""
+"""Sections of the recorded motion and of free runs of both models, and the energy distances between them."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ from lostmotion.signals.distances import distances, energy_distance, same_chance
 PHASES = 4
 """Phases of the drive at which sections are taken."""
 MOST, FEWEST = 400, 16
-"""Points of a section that are compared, and fewer than which say nothing."""
+"""The largest number of points of a section that are compared, and the smallest that is sufficient."""
 
 
 @dataclass(frozen=True)
 class SectionDistance:
-    """Energy distance between two sections, in standard deviations of the motion, and the chance of so much by luck.
+    """Energy distance between two sections, in standard deviations of the motion, and its p-value.
 
     `status` is one of `results.STATUSES`; where it is not "ok" both numbers are NaN.
     """
@@ -61,10 +61,10 @@ def take_section(states: Array, period: float, phase: float = 0.0) -> Array:
 def measure_distances(
     motions: Mapping[str, Array], observation: Observation, rng: np.random.Generator
 ) -> tuple[dict[str, SectionDistance], bool]:
-    """Return how far the section of each model lies from the recorded one, and whether it is stroboscopic.
+    """Return the distance of the section of each model from the recorded one, and whether sections are stroboscopic.
 
-    "noise_floor" is the distance between the halves of the recorded one. Where nothing drives the machine evenly, the
-    points are looks at the whole orbit.
+    "noise_floor" is the distance between the halves of the recorded section. Without a periodic drive, the points are
+    samples of the whole orbit.
     """
     period = observation.period
     spacing = period or max(observation.samples / MOST, 1.0)

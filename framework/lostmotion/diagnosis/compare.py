@@ -1,4 +1,4 @@
-"""Compare: what a fit predicts of data that no fit has seen."""
+"""Predictions of held-out data: free runs and one-step predictions of a fit, and comparisons between fits."""
 
 from __future__ import annotations
 
@@ -29,16 +29,16 @@ from lostmotion.settings import DEFAULT, HeldOutSettings
 
 STARTS = 150
 REACH = 8.0
-"""Error growth is followed over this many Lyapunov times or periods."""
+"""Error growth is computed over this many Lyapunov times or periods."""
 SEGMENT = 3.0
 
 PARTS = 10
-"""Free runs are held against those of another model over so many successive parts of what was held out."""
+"""Free runs of two models are compared over this number of successive parts of the held-out data."""
 
 
 @dataclass(frozen=True)
 class HeldOutStretch:
-    """A stretch of held-out data: the recording it stands in, and the sample where it begins there."""
+    """A held-out part: its recording, and the sample at which it begins."""
 
     observation: Observation
     begin: int
@@ -46,11 +46,11 @@ class HeldOutStretch:
 
 @dataclass(frozen=True)
 class Prediction:
-    """How one model predicts held-out data: scores, error growth (steps,), forecasts (samples, sensors), innovations.
+    """Predictions of one model for held-out data: scores, error growth (steps,), forecasts (samples, sensors).
 
-    `nrmse` is the mean over the sensors, `by_sensor` that of each, over the standard deviations `scales` of what was
-    held out; error growth is that of the first. `expected_score` is the log score of a recording that the model itself
-    had made. `scores` (blocks,) are the log scores of successive blocks.
+    `nrmse` is the error of free runs divided by the standard deviations `scales` of the held-out readings, averaged
+    over the sensors; `by_sensor` has the values of each. Error growth is that of the first sensor. `expected_score` is
+    the log score that a recording simulated by the model would have. `scores` (blocks,) are those of successive blocks.
     """
 
     log_score: float
@@ -71,20 +71,20 @@ class Prediction:
 
 
 def cut_heldout(observations: Sequence[Observation], held: Sequence[Observation]) -> tuple[HeldOutStretch, ...]:
-    """Return the held-out pieces: the end of the only recording, or whole recordings after a short settling."""
+    """Return the held-out parts: the end of a single recording, or whole recordings after a short transient."""
     if len(observations) == 1:
         return (HeldOutStretch(observations[0], observations[0].samples - held[0].samples),)
     return tuple(HeldOutStretch(t, max(t.samples // 20, 5)) for t in held)
 
 
 def compute_rates(fit: Fit, observations: Sequence[Observation]) -> Array:
-    """Return how fast (1/s) near runs of a fit part under the recorded drive, (pieces,); see `growth_rates`."""
+    """Return the rates (1/s) at which neighbouring runs diverge under the recorded drive, (pieces,)."""
     problem = fit.problem.on((observations[0],))
     return compute_growth_rates(problem, fit.theta, problem.begun(fit.theta))
 
 
 def average_exponent(rates: Array) -> float:
-    """Return the largest exponent (1/s), the mean of growth rates; NaN where there are none."""
+    """Return the largest Lyapunov exponent (1/s), the mean of growth rates; NaN if there are none."""
     return float(np.mean(rates)) if len(rates) else math.nan
 
 
@@ -135,18 +135,18 @@ def compute_deviation(pieces: Sequence[HeldOutStretch], sensor: int) -> float:
 
 
 def _select_used(seen: Filtered, held: slice, sensor: int) -> tuple[Array, Array]:
-    """Return errors and variances of those held-out readings of a sensor that were taken."""
+    """Return one-step errors and variances of the held-out readings of a sensor, without missing readings."""
     there = seen.taken[held, sensor]
     return seen.errors[held, sensor][there], seen.variances[held, sensor][there]
 
 
-def _combine_p_values(told: Sequence[float]) -> float:
-    """Return the least of several p-values, corrected for their number (Bonferroni)."""
-    return min(1.0, len(told) * min(told))
+def _combine_p_values(p_values: Sequence[float]) -> float:
+    """Return the smallest of several p-values, corrected for their number (Bonferroni)."""
+    return min(1.0, len(p_values) * min(p_values))
 
 
 def _join_runs(runs: Sequence[FreeRuns]) -> FreeRuns:
-    """Return the free runs of all pieces, cut to the shortest."""
+    """Return the free runs of all parts, cut to the shortest."""
     shortest = min(r.error.shape[1] for r in runs)
     return replace(runs[0], lead=runs[0].lead[:shortest], error=np.vstack([r.error[:, :shortest] for r in runs]))
 
@@ -156,11 +156,11 @@ def _compute_nrmse(runs: FreeRuns, horizon: Horizon, scale: float) -> float:
 
 
 def is_worse(before: Prediction, after: Prediction, limits: HeldOutSettings = DEFAULT.heldout) -> bool:
-    """Return whether held-out data speak against a model: free runs err more after than before, or it scores less.
+    """Return whether a model predicts held-out data worse: free runs have a larger error, or the log score is lower.
 
-    A small rise of the error is none (`HeldOutSettings.rise`). The log score of one-step predictions may not fall by
-    its standard error, from the scatter over blocks of time, and not by `HeldOutSettings.fall` either unless the error
-    of free runs falls to a small share of what it was: a few large one-step errors make the scatter wide.
+    A small increase of the error is allowed (`HeldOutSettings.rise`). The log score of one-step predictions must not
+    fall by more than its standard error, from the scatter over blocks of time, nor by more than `HeldOutSettings.fall`,
+    unless the error of free runs falls to a small share: a few large one-step errors make the scatter large.
     """
     if after.nrmse > (1.0 + limits.rise) * before.nrmse or not math.isfinite(after.nrmse):
         return True
@@ -176,7 +176,7 @@ def is_worse(before: Prediction, after: Prediction, limits: HeldOutSettings = DE
 def compute_run_errors(fit: Fit, pieces: Sequence[HeldOutStretch], horizon: Horizon) -> Array:
     """Return the rms error (PARTS,) of free runs over a horizon, from starts in successive parts of held-out data.
 
-    Errors of several sensors are told over the deviation of each, and averaged.
+    Errors of several sensors are divided by the standard deviation of each, and averaged.
     """
     found = []
     for piece in pieces:
@@ -190,9 +190,9 @@ def compute_run_errors(fit: Fit, pieces: Sequence[HeldOutStretch], horizon: Hori
 
 
 def is_better(errors: Array, without: Array, chance: float = DEFAULT.heldout.chance) -> bool:
-    """Return whether `errors` (PARTS,) of one model are smaller than those of another by more than `chance`.
+    """Return whether `errors` (PARTS,) of one model are significantly smaller than those of another.
 
-    The paired test of Student on their logarithms, so that parts with little motion count as much as others.
+    It is a paired t test of their logarithms at the level `chance`, so parts with little motion have equal weight.
     """
     least = np.finfo(float).tiny
     more = np.log(np.maximum(without, least)) - np.log(np.maximum(errors, least))
@@ -202,7 +202,7 @@ def is_better(errors: Array, without: Array, chance: float = DEFAULT.heldout.cha
 
 
 def compute_motion_deviation(fit: Fit, pieces: Sequence[HeldOutStretch]) -> float:
-    """Return the standard deviation of the motion of the machine itself: relative to its base where that moves."""
+    """Return the standard deviation of the motion of the machine, relative to its base if the base moves."""
     first = pieces[0].observation
     relative = fit.problem.system.model.inputs[first.lead] == "base_position" and first.channel == "position"
     parts = [p.observation.response[p.begin :] - (p.observation.excitation[p.begin :] * relative) for p in pieces]
@@ -212,7 +212,7 @@ def compute_motion_deviation(fit: Fit, pieces: Sequence[HeldOutStretch]) -> floa
 def _run_freely(
     problem: Problem, fit: Fit, states: Array, piece: HeldOutStretch, horizon: Horizon
 ) -> tuple[FreeRuns, ...]:
-    """Return free runs of each sensor from starts that are spread over a held-out piece."""
+    """Return free runs of each sensor from starts that are spread over a held-out part."""
     observation = piece.observation
     left = observation.samples - piece.begin
     steps = int(min(max(REACH * horizon.unit_time / observation.dt, horizon.steps + 1), left // 2))
@@ -224,7 +224,7 @@ def _run_freely(
 def _forecast(
     problem: Problem, fit: Fit, states: Array, piece: HeldOutStretch, horizon: Horizon
 ) -> tuple[Array, Array]:
-    """Return free-running predictions (samples, sensors) over a piece, begun anew every few units of time, where."""
+    """Return free-running predictions (samples, sensors) over a part, and where they restart (samples,)."""
     observation = piece.observation
     length = max(int(SEGMENT * horizon.unit_time / observation.dt), horizon.steps, 2)
     forecast, restarts = np.full(observation.readings.shape, np.nan), np.zeros(observation.samples)
@@ -238,5 +238,5 @@ def _forecast(
 
 
 def choose_heldout_horizon(fit: Fit, pieces: Sequence[HeldOutStretch], exponent: float) -> Horizon:
-    """Return the horizon over which predictions are judged, from the exponent of the better model."""
+    """Return the horizon of predictions, from the exponent of the better model."""
     return choose_horizon(pieces[0].observation, exponent, fit.problem.scales.time)

@@ -1,7 +1,8 @@
-"""What has to be confirmed before it is named, where the model is not right in other ways too.
+"""Checks of a selection on held-out data, where the model is wrong in other ways too.
 
-There evidence grows with every sample, whatever the term; a prediction does not. So what was found must make free runs
-over held-out data better, and a flaw of a channel must be larger than acquisition systems have as a rule.
+The evidence for a term then grows with every sample, even if the term is wrong; its predictions do not improve. A found
+term must therefore make free runs over held-out data better, and a delay must be longer than is usual in acquisition
+systems.
 """
 
 from __future__ import annotations
@@ -26,43 +27,44 @@ from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import filter_recording
 from lostmotion.likelihood.problem import RANDOM
 from lostmotion.quantities import TIME
+from lostmotion.results import percent, rounded
 
 MOST_COMPARED = 3
-"""So many sets of each size are asked what they predict."""
+"""The number of sets, of each size, whose predictions are compared."""
 
 
 def find_unconfirmed(outcome: Outcome, observations: Sequence[Observation]) -> dict[str, str]:
-    """Return a sentence on each found term that is no more than likely, by key; none where the model is right else.
+    """Return a warning for each found term that held-out data do not confirm, by key; none where the model is adequate.
 
-    It is not right where a random force is left, or where smooth forces or flaws of channels promise much beside what
-    was found, each sample counting as one.
+    The model is inadequate if a random force remains, or if smooth forces or channel errors predict a large gain beside
+    the found terms (without a correction for autocorrelation).
     """
     d, selection = outcome.diagnosis, outcome.diagnosis.selection
     here = selection.fitted_sets.get(selection.chosen.problem.active)
     if here is None or _is_adequate(d, here):
         return {}
-    pieces, told = cut_heldout(observations, d.held), {}
+    pieces, warnings = cut_heldout(observations, d.held), {}
     errors = compute_run_errors(here.fit, pieces, outcome.horizon)
     for key in (key for key in d.named if key in here.terms):
         less = selection.fitted_sets.get(here.terms - {key})
         without = compute_run_errors(less.fit, pieces, outcome.horizon) if less else None
         if sentence := describe_usual_delay(d, key):
-            told[key] = sentence
+            warnings[key] = sentence
         elif without is not None and not is_better(errors, without, d.settings.heldout.chance):
-            told[key] = (
-                "The model is not right in other ways too, and free runs over held-out data are better with it in"
-                f" {int(np.sum(errors < without))} of {len(errors)} parts only (they err by"
-                f" {_compute_rms(errors):.2%} of the"
-                f" response with it and by {_compute_rms(without):.2%} without it), which is within chance."
+            warnings[key] = (
+                "The model is wrong in other ways too, and free runs over held-out data are not significantly better"
+                f" with this term: they are better in {int(np.sum(errors < without))} of {len(errors)} parts (error"
+                f" {percent(_compute_rms(errors), 3)} of the response with it,"
+                f" {percent(_compute_rms(without), 3)} without it)."
             )
-    return told
+    return warnings
 
 
 def find_better_set(outcome: Outcome, observations: Sequence[Observation]) -> Fit | None:
-    """Return the fit of another set of no more terms that predicts held-out data better than the chosen one, or None.
+    """Return the fit of another set, of no more terms, that predicts held-out data better than the chosen one, or None.
 
-    Sets of terms may explain what they were fitted to equally well where the model is not right in other ways too;
-    what they predict then decides. The best sets of each size are asked, and have to be better by more than chance.
+    Where the model is wrong in other ways too, several sets may explain the fitted data equally well; their predictions
+    then decide. The best sets of each size are compared by paired t tests (Bonferroni).
     """
     d, selection = outcome.diagnosis, outcome.diagnosis.selection
     here = selection.fitted_sets.get(selection.chosen.problem.active)
@@ -78,12 +80,12 @@ def find_better_set(outcome: Outcome, observations: Sequence[Observation]) -> Fi
 def decide_by_heldout(
     outcome: Outcome, observations: Sequence[Observation]
 ) -> tuple[Fit, Mapping[frozenset[str], float]] | None:
-    """Return the fit of a set with one more term for which held-out data decide, and what sets win there; or None.
+    """Return the fit of a set with one more term for which held-out data decide, and held-out gains of sets; or None.
 
-    On the fitted data a small smooth force without a name explains about as much as such a term. Both are asked for the
-    log score of one-step predictions of held-out data, which is added to the log odds of the fitted data: this is what
-    the posterior of all data would be, parameters left where they are. The smooth force, the learned curves and the
-    chosen set itself stand against a term, whichever scores best; so does a smooth force beside channels put right.
+    On the fitted data a small smooth force explains about as much as such a term. The log score of one-step predictions
+    of the held-out data is added to the log odds of the fitted data; the sum is the log posterior odds of all data with
+    the parameters held fixed. A set is compared with the best of: the smooth force, the smooth force with corrected
+    channels, the learned curves, and the chosen set.
     """
     d, selection = outcome.diagnosis, outcome.diagnosis.selection
     here = selection.fitted_sets.get(selection.chosen.problem.active)
@@ -111,13 +113,12 @@ def decide_by_heldout(
 
 
 def find_simplest(outcome: Outcome, observations: Sequence[Observation]) -> tuple[Fit, SimplestTerms] | None:
-    """Return the fit of the terms that are the simplest explanation, with the probability of each; None without any.
+    """Return the fit of the set of terms that is the simplest explanation, with their probabilities; None without any.
 
-    It is asked where no set is ahead of a generic smooth force. A set qualifies when no random force is left with it,
-    when its log evidence, less the penalties of its terms, exceeds that of the best learned curve, of the chosen set,
-    and of the usual errors of known values and channels, and when it predicts held-out data as well as the best of
-    them. It does not extend terms that were chosen: these stand on their own. Its terms are reported as likely: a
-    smooth force without a name explains about as much.
+    It is used where no set is better than a generic smooth force. A set qualifies if no random force remains with it,
+    if its log evidence less the prior penalties exceeds that of the best learned curve, of the chosen set, and of the
+    usual errors of known values and channels, and if it predicts held-out data as well as the best of them. It is no
+    extension of chosen terms. Its terms are reported as likely, because a smooth force explains about as much.
     """
     d, selection = outcome.diagnosis, outcome.diagnosis.selection
     here = selection.fitted_sets.get(selection.chosen.problem.active)
@@ -147,8 +148,8 @@ def _select_predicting(
 ) -> TermSet | None:
     """Return the first set that predicts held-out data better than the chosen one, and as well as a smooth force.
 
-    Its log score of one-step predictions may be behind that of the best smooth force by the `slack`; its free runs may
-    not err more than those of the present model by more than chance.
+    Its log score of one-step predictions may be lower than that of the best smooth force by `slack`; its free runs must
+    not be significantly worse than those of the present model.
     """
     d, selection = outcome.diagnosis, outcome.diagnosis.selection
     here = selection.fitted_sets[selection.chosen.problem.active]
@@ -164,9 +165,9 @@ def _select_predicting(
 
 
 def _list_simple_sets(selection: Selection, here: TermSet) -> list[TermSet]:
-    """Return the visited sets that leave no random force, without terms that are not decisive or usual in channels.
+    """Return the fitted sets without a remaining random force in which each term is decisive and no usual delay.
 
-    Neither the chosen set nor a part of it is among them, nor one that only adds to chosen terms.
+    The chosen set, its subsets and, if it has terms, its extensions are left out.
     """
     barred, settings = selection.declined | selection.withdrawn, selection.nominal.problem.settings
 
@@ -183,15 +184,15 @@ def _list_simple_sets(selection: Selection, here: TermSet) -> list[TermSet]:
 
 
 def _has_force_over_time(selection: Selection, here: TermSet) -> bool:
-    """Return whether the smooth force beside a set is one over time: nobody knows how that goes on."""
+    """Return whether the smooth force beside a set depends on time: it cannot be extrapolated to held-out data."""
     rival = selection.discrepancy_fit(here)
     return rival is not None and any(OverTime.name in key for key in rival.fit.problem.active)
 
 
 def _list_tied(selection: Selection, here: TermSet, decisive: float) -> list[TermSet]:
-    """Return the sets with one force more than a chosen one that win by evidence, and not over a smooth force.
+    """Return the sets with one more force that evidence supports, but that are not better than a smooth force.
 
-    Flaws of channels are not among them: the usual ones are a part of what stands against a name.
+    Terms of channels are left out, because usual channel errors are part of the discrepancy.
     """
     keys = [k for k in sorted(selection.tied - here.terms) if find_term(here.fit.problem, k)[0].acts == "motion"]
     more = [here.terms | {key} for key in keys]
@@ -200,7 +201,7 @@ def _list_tied(selection: Selection, here: TermSet, decisive: float) -> list[Ter
 
 
 def _score_heldout(fit: Fit, pieces: Sequence[HeldOutStretch]) -> float:
-    """Return the log score of one-step predictions of held-out data; minus infinity where a filter diverges."""
+    """Return the log score of one-step predictions of held-out data; minus infinity if a filter diverges."""
     total = 0.0
     for piece in pieces:
         seen = filter_recording(fit.problem.on((piece.observation,)), fit.theta)
@@ -209,17 +210,17 @@ def _score_heldout(fit: Fit, pieces: Sequence[HeldOutStretch]) -> float:
 
 
 def _score_corrected(right: CorrectedFit, pieces: Sequence[HeldOutStretch]) -> float:
-    """Return the log score of a smooth force where channels are put right, in the units of the readings as they are."""
+    """Return the log score of a smooth force with corrected channels, as a density of the uncorrected readings."""
     held = sum(piece.observation.samples - piece.begin for piece in pieces)
     wider = right.log_jacobian * held / right.fit.problem.samples
     return _score_heldout(right.fit, [replace(p, observation=right.correct(p.observation)) for p in pieces]) + wider
 
 
 def _list_alternatives(d: SearchResult, here: TermSet) -> list[TermSet]:
-    """Return the sets of most weight of each size up to that of a chosen one, but for this one and the empty set.
+    """Return the most probable other sets of each size up to that of the chosen one.
 
-    One that wins a small share of what the chosen one wins on the fitted data does not explain these, nor does one
-    that leaves more of a random force than the nominal model.
+    A set is left out if its gain on the fitted data is a small share of that of the chosen set, or if its random force
+    is larger than that of the nominal model.
     """
     selection, found = d.selection, list[TermSet]()
     nothing = selection.fitted_sets[frozenset()].weight
@@ -233,31 +234,31 @@ def _list_alternatives(d: SearchResult, here: TermSet) -> list[TermSet]:
 
 
 def _log_intensity(fit: Fit) -> float:
-    """Return the log level of the random force of a fit; minus infinity where it has none."""
+    """Return the log intensity of the random force of a fit; minus infinity if it has none."""
     keys = fit.problem.keys
     return float(fit.theta[keys.index(RANDOM)]) if RANDOM in keys else -math.inf
 
 
 def _is_adequate(d: SearchResult, here: TermSet) -> bool:
-    """Return whether nothing else is wrong with the model beside what was found, each sample counting as one."""
+    """Return whether the model is adequate with the found terms (without a correction for autocorrelation)."""
     if not here.terms:
         return True
     return not d.unexplained and not d.selection.expansion(here).find_best(1.0).gain > d.settings.rival.much
 
 
 def describe_usual_delay(d: SearchResult, key: str) -> str:
-    """Return a sentence on a delay that is no longer than acquisition systems have as a rule; empty for all others."""
+    """Return a warning on a delay that is usual in acquisition systems; empty for longer delays and other terms."""
     samples = _delay_in_samples(d.after, key)
     if not samples <= d.settings.rival.late:
         return ""
     return (
-        f"A delay of {samples:.2g} samples is within what acquisition systems have as a rule, and the model is not"
-        " right in other ways too."
+        f"A delay of {rounded(samples)} samples is usual in acquisition systems, and the model is"
+        " wrong in other ways too."
     )
 
 
 def _delay_in_samples(fit: Fit, key: str) -> float:
-    """Return the delay or the lag of a channel in samples; infinity for other terms."""
+    """Return the delay or the time constant of a channel in samples; infinity for other terms."""
     term, slots = find_term(fit.problem, key)
     late = [s for s in slots if s.param.dimension == TIME and s.key in fit.values]
     if term.acts == "motion" or not late:

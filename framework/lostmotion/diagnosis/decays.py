@@ -18,28 +18,30 @@ from lostmotion.likelihood.predict import observe_states, simulate_run
 from lostmotion.quantities import quantity_of, unit_of
 from lostmotion.recording.warnings import is_impulsive
 from lostmotion.report.words import choose_scale, to_words
-from lostmotion.results import percent
+from lostmotion.results import percent, rounded
 from lostmotion.results.behaviour import DecayCycles, Decays
 from lostmotion.signals.decay import Decay, decay_of
 from lostmotion.signals.impacts import hits_of, onsets_of
 from lostmotion.signals.trends import says
 
 MOST_STRETCHES, MOST_CYCLES = 10, 240
-"""So many hits are looked at, and so many cycles of all of them together: a tenth of a second or two."""
+"""The numbers of hits, and of cycles of all of them together, that are evaluated (0.1 to 0.2 s of computation)."""
 DIGITS = 5
 BOUND = 1e3
-"""A free run diverges when it exceeds so many times the largest reading."""
+"""A free run beyond this multiple of the largest reading has diverged."""
 PARTS, FEWEST = 8, 3
 """Parts of a decay in which a model is compared with the recording, and the fewest cycles of a part."""
 KNOWN, SURE, OVERLAP = 0.02, 3.0, 5
-"""Relative error up to which a part is known; errors that make a difference; cycles that share their noise."""
+"""Relative standard error up to which a part counts; standard errors of a significant difference; number of
+neighbouring cycles with common noise."""
 REACH = 1.2
-"""Ratio of amplitudes over which the ends of a decay of a model are carried on."""
+"""Ratio of amplitudes by which the ends of the decay of a model are extrapolated."""
 LEVEL, NEAR, CLOSE = 0.05, 0.15, 0.02
-"""Change of a decrement that counts as none; distances of decrement and frequency up to which a model follows."""
+"""Relative change of a decrement that counts as none; relative errors of decrement and frequency up to which a model
+agrees with the recording."""
 NONE_MEASURED = (
-    "No free decay could be measured: at least four cycles of one mode are needed, above the noise, whose amplitude"
-    " falls by 10 % or more."
+    "No free decay could be measured: this requires at least four cycles of one mode that exceed the noise and fall by"
+    " at least 10 %."
 )
 
 
@@ -51,9 +53,9 @@ class DecayStretch(NamedTuple):
 
 
 def describe_decays(d: SearchResult) -> Decays | None:
-    """Return what the recording shown says of free decays, and the models beside it; None where it holds none.
+    """Return the free decays of the shown recording and of both models; None if there are none.
 
-    Of a recording that nothing drives, but in which no decay can be measured, there is a sentence alone.
+    For an undriven recording without a measurable decay the result has a sentence only.
     """
     stretches = find_stretches(d.shown)
     most = MOST_CYCLES // max(len(stretches), 1)
@@ -69,13 +71,13 @@ def describe_decays(d: SearchResult) -> Decays | None:
         name: tuple(_list_cycles(stretch, made, d.shown) for stretch, made in pairs if made)
         for name, pairs in models.items()
     }
-    told = _describe_decay(d, measured, {name: [decay for _, decay in pairs] for name, pairs in models.items()}, unit)
+    text = _describe_decay(d, measured, {name: [decay for _, decay in pairs] for name, pairs in models.items()}, unit)
     recorded = tuple(_list_cycles(stretch, decay, d.shown) for stretch, decay in measured)
-    return Decays(told, unit, recorded, rows["before"], rows.get("after"))
+    return Decays(text, unit, recorded, rows["before"], rows.get("after"))
 
 
 def find_stretches(observation: Observation) -> tuple[DecayStretch, ...]:
-    """Return where nothing drives the machine: between onsets if no input was recorded, or between hits of a hammer."""
+    """Return the undriven stretches: between onsets if no input was recorded, or between hits of a hammer."""
     if observation.free:
         starts = sorted({0, *onsets_of(observation.response, observation.dt)})
         ends = [*starts[1:], observation.samples]
@@ -89,7 +91,7 @@ def find_stretches(observation: Observation) -> tuple[DecayStretch, ...]:
 
 
 def is_struck(observation: Observation) -> bool:
-    """Return whether one force alone drives the machine, and is that of a hammer."""
+    """Return whether the only input is the force of a hammer."""
     one = observation.driven is not None and len(observation.driven) == 1
     if not one or quantity_of(observation.driven[0]) != "force":  # type: ignore[index]
         return False
@@ -97,16 +99,18 @@ def is_struck(observation: Observation) -> bool:
 
 
 def note_restarts(observation: Observation) -> Iterator[str]:
-    """Yield a note where a vibration begins anew in a recording without any input."""
+    """Yield a note if a vibration starts again in a recording without any input."""
     if not observation.free:
         return
-    times = [f"{place * observation.dt:.4g} s" for place in onsets_of(observation.response, observation.dt) if place]
+    times = [
+        f"{rounded(place * observation.dt, 4)} s" for place in onsets_of(observation.response, observation.dt) if place
+    ]
     if times:
         where = times[0] if len(times) == 1 else f"{', '.join(times[:-1])} and {times[-1]}"
         yield (
-            f"{observation.name}: no input was recorded, yet the vibration begins anew at {where} after the start: an"
-            " input that nobody recorded acted there, and the fit takes it for missing physics. Cut the recording with"
-            " t_start and t_end, so that each piece holds one decay, or record the force and give it as an input."
+            f"{observation.name}: no input was recorded, but the vibration starts again at {where} after the start: an"
+            " unrecorded input acted there, and the fit interprets it as missing physics. Cut the recording with"
+            " t_start and t_end so that each part has one decay, or record the force and give it as an input."
         )
 
 
@@ -114,7 +118,7 @@ Measured = Sequence[tuple[DecayStretch, Decay]]
 
 
 def _measure_model(fit: Fit, observation: Observation, measured: Measured) -> list[tuple[DecayStretch, Decay | None]]:
-    """Return the decay of a free run of a model from the start of each measured one, None where it has none."""
+    """Return the decay of a free run of a model from the start of each measured decay; None if it has none."""
     problem = fit.problem.on((observation,))
     states = problem.smooth(fit.theta).states
     bound = BOUND * float(np.nanmax(np.abs(observation.response)))
@@ -131,7 +135,7 @@ def _measure_model(fit: Fit, observation: Observation, measured: Measured) -> li
 
 
 def _measure_same_mode(shown: Array, dt: float, seen: Decay, most: int) -> Decay | None:
-    """Return the decay of a run (samples,) in the mode next to the one that was measured, else in its loudest."""
+    """Return the decay of a run (samples,) in the mode closest to the measured one, or else in its strongest mode."""
     near = decay_of(shown, dt, noise=seen.noise, near=float(np.median(seen.frequency)), most=most)
     return near or decay_of(shown, dt, noise=seen.noise, most=most)
 
@@ -152,14 +156,14 @@ def _round_values(values: Array) -> tuple[float, ...]:
 
 
 def _describe_decay(d: SearchResult, measured: Measured, models: dict[str, list[Decay | None]], unit: str) -> str:
-    """Return in words how the widest of the measured decays goes, and how far the models are from it."""
+    """Return a sentence on the decay with the largest range of amplitudes, and on the errors of the models."""
     widest = max(range(len(measured)), key=lambda i: float(np.ptp(np.log(measured[i][1].amplitude))))
     stretch, decay = measured[widest]
     scale = choose_scale(float(decay.amplitude.max()), unit)
     opening = ""
     if len(measured) > 1:
         begun = (d.shown.begin + stretch.start) * d.shown.dt
-        opening = f"Of {len(measured)} decays, the one from {begun:.4g} s on goes furthest: "
+        opening = f"Of {len(measured)} decays, that from {rounded(begun, 4)} s has the largest range: "
     words = says(decay, scale.unit, factor=scale.factor)
     parts = [_compare_decays(_name_model(d, name), decay, made[widest]) for name, made in models.items()]
     compared = "; ".join(parts)
@@ -172,19 +176,21 @@ def _name_model(d: SearchResult, version: str) -> str:
     if version == "before":
         return "the nominal model"
     terms = [to_words(find_term(d.after.problem, key)[0].name) for key in d.named]
-    terms += ["what was learned"] if d.learned else []
+    terms += ["the learned curve"] if d.learned else []
     return f"the model with {' and '.join([', '.join(terms[:-1]), terms[-1]] if len(terms) > 1 else terms)}"
 
 
 def _compare_decays(who: str, seen: Decay, made: Decay | None) -> str:
-    """Return how far the decay of a model is from the recorded one."""
+    """Return a clause on the difference between the decay of a model and the recorded one."""
     if made is None:
-        return f"a free run of {who} is no decay that could be measured"
+        return f"a free run of {who} has no measurable decay"
     loss, pitch = compute_largest_error(seen, made, "decrement"), compute_largest_error(seen, made, "frequency")
     if math.isnan(loss):
-        return f"{who} shares too few amplitudes with the recording to be compared"
+        return f"{who} has too few amplitudes in common with the recording for a comparison"
     if loss < NEAR and pitch < CLOSE:
-        return f"{who} follows the recorded decrement within {percent(loss)} and the frequency within {percent(pitch)}"
+        return (
+            f"{who} has the recorded decrement to within {percent(loss)} and the frequency to within {percent(pitch)}"
+        )
     return (
         f"{who} decays with {_describe_range(made.decrement, 'a decrement')}, up to {percent(loss)} from the recorded"
         " one, and"
@@ -193,19 +199,19 @@ def _compare_decays(who: str, seen: Decay, made: Decay | None) -> str:
 
 
 def _describe_range(values: Array, what: str, unit: str = "") -> str:
-    """Return "a decrement of 0.094 at all amplitudes", or from where to where it goes as the motion dies."""
+    """Return for example "a decrement of 0.094 at all amplitudes", or its first and last values during the decay."""
     middle, first, last = (float(v) for v in (np.median(values), values[0], values[-1]))
     if abs(last - first) < (LEVEL if not unit else 0.1 * LEVEL) * abs(middle):
-        return f"{what} of {middle:.3g}{unit} at all amplitudes"
-    return f"{what} that goes from {first:.3g} to {last:.3g}{unit}"
+        return f"{what} of {rounded(middle, 3)}{unit} at all amplitudes"
+    return f"{what} that changes from {rounded(first, 3)} to {rounded(last, 3)}{unit}"
 
 
 def compute_largest_error(seen: Decay, made: Decay, name: str) -> float:
-    """Return how far a model is from the recorded `name` at most, as a share, over eight parts of the decay at most.
+    """Return the largest relative error of a model in the recorded `name`, over at most eight parts of the decay.
 
-    Only amplitudes count that both have; NaN where these are too few. Loud cycles weigh more, as the noise has it. A
-    part counts where its mean is known to 2 % (neighbouring cycles share their noise), or the model is three standard
-    errors away from it; where none does, all cycles make one part.
+    Only common amplitudes are compared; NaN if there are too few. Cycles are weighted by the squared amplitude. A part
+    counts if its mean has a standard error of at most 2 % (neighbouring cycles have common noise), or if the model is
+    three standard errors away; if no part counts, all cycles are one part.
     """
     order = np.argsort(made.amplitude)
     size = made.amplitude[order]

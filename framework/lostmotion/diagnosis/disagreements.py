@@ -1,4 +1,4 @@
-"""Where in time, at which hit and at which drive level the models disagree most, as `diagnosis.json` says it."""
+"""The times, hits and recordings with the largest one-step errors, as `diagnosis.json` states them."""
 
 from __future__ import annotations
 
@@ -26,6 +26,7 @@ from lostmotion.inference.disagreement import (
 from lostmotion.likelihood.observation import Observation
 from lostmotion.quantities import unit_of
 from lostmotion.report.words import chance
+from lostmotion.results import rounded
 from lostmotion.results.mismatch import (
     BothTrends,
     ByRecording,
@@ -44,9 +45,9 @@ EXPECTED = 1.0
 def describe_disagreement(
     d: SearchResult, rng: np.random.Generator
 ) -> tuple[DisagreementOverTime | None, ByRecording | None]:
-    """Return the disagreement over the time of the recording that is shown, and by recording where there are several.
+    """Return the disagreement over the time of the shown recording, and by recording if there are several.
 
-    None where no one-step error is finite.
+    Both are None if no one-step error is finite.
     """
     fits = {"before": d.before, "after": d.after} if d.found else {"before": d.before}
     shown = {name: compute_squares(fit, d.shown) for name, fit in fits.items()}
@@ -68,7 +69,7 @@ def compare_over_time(
     rng: np.random.Generator,
     level: float = DEFAULT.locate.level,
 ) -> DisagreementOverTime:
-    """Return the disagreement over windows of a recording (over its hits, where a hammer drives it), and a sentence.
+    """Return the disagreement in windows of a recording (after each hit, if a hammer drives it), and a sentence.
 
     `squares` holds the squared standardised one-step errors (samples,) of the models "before" and, if there is one,
     "after".
@@ -76,18 +77,18 @@ def compare_over_time(
     hits = hits_of(observation.excitation, observation.dt) if is_struck(observation) else ()
     windows = _make_windows(observation, squares, hits)
     edges = [round(float(e), 9) for e in (observation.begin + windows.edges) * observation.dt]
-    told = {name: _find_worst_window(one, windows, edges, rng, level) for name, one in squares.items()}
-    last = told.get("after", told["before"])
+    found = {name: _find_worst_window(one, windows, edges, rng, level) for name, one in squares.items()}
+    last = found.get("after", found["before"])
     return DisagreementOverTime(
         edges=tuple(edges),
         unit="s",
         windows="hits" if windows.aligned else "even",
-        before=told["before"][0],
+        before=found["before"][0],
         after=last[0],
         expected=EXPECTED,
         worst=last[1],
-        worst_before=told["before"][1],
-        says=_describe_worst({name: worst for name, (_, worst) in told.items()}, windows.aligned, len(windows)),
+        worst_before=found["before"][1],
+        says=_describe_worst({name: worst for name, (_, worst) in found.items()}, windows.aligned, len(windows)),
         peaks=Peaks(tuple(hit.peak for hit in hits), "N") if windows.aligned else None,
     )
 
@@ -106,7 +107,7 @@ def _make_windows(observation: Observation, squares: Mapping[str, Array], hits: 
 def _find_worst_window(
     squares: Array, windows: Windows, edges: Sequence[float], rng: np.random.Generator, level: float
 ) -> tuple[tuple[float, ...], WorstWindow]:
-    """Return the disagreement in each window, and the window that stands out most with its p-value."""
+    """Return the disagreement in each window, and the most significant window with its p-value."""
     means = average_windows(squares, windows)
     p = compute_window_p(squares, windows, rng)
     at = int(np.nanargmax(means)) if p is None else _find_most_significant(means, p)
@@ -122,7 +123,7 @@ def _find_most_significant(means: Array, p: Array) -> int:
 
 
 def _describe_worst(worst: Mapping[str, WorstWindow], hits: bool, count: int) -> str:
-    """Return where a model disagrees most, the last model first; an empty string where that is not beyond chance."""
+    """Return a sentence on the most significant window, of the last model first; empty if it is not significant."""
     if "after" in worst and worst["after"].beyond_chance:
         return f"The model disagrees most {_describe_place(worst['after'], hits, count)}."
     if not worst["before"].beyond_chance:
@@ -130,17 +131,16 @@ def _describe_worst(worst: Mapping[str, WorstWindow], hits: bool, count: int) ->
     if "after" not in worst:
         return f"The model disagrees most {_describe_place(worst['before'], hits, count)}."
     return (
-        f"The nominal model disagrees most {_describe_place(worst['before'], hits, count)}; with what was found no"
-        " stretch"
-        " stands out beyond chance."
+        f"The nominal model disagrees most {_describe_place(worst['before'], hits, count)}; with the found terms, no"
+        f" {'hit' if hits else 'window'} is significant."
     )
 
 
 def _describe_place(worst: WorstWindow, hits: bool, count: int) -> str:
-    ratio = f"{worst.ratio:.2g} times the variance expected, {chance(worst.p)} over {count}"
+    ratio = f"{rounded(worst.ratio)} times the variance expected, {chance(worst.p)} over {count}"
     if hits:
-        return f"after hit {worst.window + 1}, at {worst.begin:.4g} s ({ratio} hits)"
-    return f"between {worst.begin:.3g} and {worst.end:.3g} s ({ratio} windows)"
+        return f"after hit {worst.window + 1}, at {rounded(worst.begin, 4)} s ({ratio} hits)"
+    return f"between {rounded(worst.begin, 3)} and {rounded(worst.end, 3)} s ({ratio} windows)"
 
 
 def compare_by_recording(
@@ -151,9 +151,9 @@ def compare_by_recording(
     rng: np.random.Generator,
     level: float = DEFAULT.locate.level,
 ) -> ByRecording:
-    """Return one row for each recording, the first `fitted` of which went into the fit, and what goes with the level.
+    """Return one row for each recording, the first `fitted` of which were fitted, and the trend with the level.
 
-    The level of a recording is the rms of its drive about its mean, or of its response where nothing drives it.
+    The level of a recording is the rms of its drive about its mean, or of its response if nothing drives it.
     """
     levels = np.array([_compute_level(one) for one in recordings])
     first = recordings[0]
@@ -205,7 +205,7 @@ def _compute_level(observation: Observation) -> float:
 def _describe_levels(
     rows: Sequence[RecordingMismatch], when: str, p: Array | None, tends: BothTrends, level: float
 ) -> str:
-    """Return in which recording the model "before" or "after" disagrees most; empty where that is not beyond chance."""
+    """Return a sentence on the recording with the largest errors of a model; empty if it is not significant."""
     if p is None:
         return ""
     means = np.array([row.after if when == "after" else row.before for row in rows])
@@ -215,8 +215,8 @@ def _describe_levels(
     row, tend = rows[at], tends.after if when == "after" else tends.before
     model = "model" if when == "after" else "nominal model"
     said = (
-        f"Of {len(rows)} recordings the {model} disagrees most in {row.name} (level {row.level:.3g} {row.unit}"
-        f" rms, {means[at]:.2g} times the variance expected, {chance(float(p[at]))})"
+        f"Of {len(rows)} recordings the {model} disagrees most in {row.name} (level {rounded(row.level, 3)} {row.unit}"
+        f" rms, {rounded(means[at])} times the variance expected, {chance(float(p[at]))})"
     )
     if tend and tend.p <= level:
         said += f"; the disagreement {'grows' if tend.correlation > 0.0 else 'falls'} with the level ({chance(tend.p)})"

@@ -1,4 +1,4 @@
-"""The evidence for what was found, by Laplace's method and by sampling, in `diagnosis.json` and in a sentence."""
+"""The log evidence by Laplace's method and by importance sampling, in `diagnosis.json` and in a sentence."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from lostmotion.inference.evidence import sample_evidence
 from lostmotion.results.diagnosis import EvidenceCheck, SampledEvidence
 
 FEWEST = 15.0
-"""With fewer effective draws the sampled evidence says nothing."""
+"""With fewer effective draws the sampled evidence is not used."""
 APART = 3.0
 
 
 def check_evidence(diagnosis: SearchResult, rng: np.random.Generator) -> EvidenceCheck:
-    """Return the log evidence of the models before and after by both methods; nothing where nothing was found."""
+    """Return the log evidence of both models by both methods; an empty check if nothing was found."""
     if diagnosis.after is diagnosis.before:
         return EvidenceCheck()
     before, after = (sample_evidence(fit, rng) for fit in (diagnosis.before, diagnosis.after))
@@ -26,11 +26,11 @@ def _describe_evidence(before: SampledEvidence, after: SampledEvidence) -> str:
     error = float(np.hypot(before.error, after.error))
     if min(before.effective, after.effective) < FEWEST:
         return (
-            f"What was found raises the log evidence by {laplace:.1f} by Laplace's method; importance sampling cannot"
-            " check it here, since its weights fall on too few draws."
+            f"The findings raise the log evidence by {laplace:.1f} by Laplace's method; importance sampling cannot"
+            " check this value, because too few draws have nearly all of the weight."
         )
     same = abs(sampled - laplace) <= APART + 3.0 * error
     return (
-        f"What was found raises the log evidence by {laplace:.1f} (Laplace's method) and {sampled:.1f} +- {error:.1f}"
-        f" (importance sampling): {'the two agree' if same else 'they differ, so its probability is rough'}."
+        f"The findings raise the log evidence by {laplace:.1f} (Laplace's method) and {sampled:.1f} +- {error:.1f}"
+        f" (importance sampling): {'the two agree' if same else 'they differ, so the probabilities are approximate'}."
     )

@@ -1,4 +1,4 @@
-"""Excitations that may be proposed: levels, frequencies and waveforms within the limits of a machine."""
+"""Candidate excitations: levels, frequencies and waveforms within the limits of a machine."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from lostmotion.likelihood.drive import DriveHarmonic
 from lostmotion.likelihood.observation import Observation
 
 FACTORS = (0.5, 0.7, 1.4, 2.0)
-"""Levels and frequencies that are tried, over those of the recording."""
+"""Levels and frequencies that are tried, relative to those of the recording."""
 FEWEST = 10.0
-"""Samples a period below which a recording shows too little of a motion."""
+"""The smallest number of samples per period of an excitation."""
 GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 LINES = 20
 REPEAT, HARMONIC, TONES, SWEEP, MULTISINE = "repeat", "harmonic", "two tones", "slow sweep", "random-phase multisine"
 
 
 class Limits(NamedTuple):
-    """The largest level (amplitude, SI unit of the input) and the highest frequency (Hz) that a machine bears."""
+    """The largest level (amplitude, SI unit of the input) and the highest frequency (Hz) that are allowed."""
 
     level: float
     frequency: float
@@ -31,7 +31,7 @@ class Limits(NamedTuple):
 
 @dataclass(frozen=True)
 class Excitation:
-    """What moves a machine: `inputs` (samples, inputs) every `dt` s, and how people call it.
+    """An excitation: `inputs` (samples, inputs) and the name of its waveform.
 
     `level` is sqrt(2) times the rms in the unit of the input, the amplitude of a sine; `band` (Hz) holds its lowest and
     highest frequency.
@@ -45,7 +45,7 @@ class Excitation:
 
 
 def repeat_drive(observation: Observation, samples: int, natural: float) -> Excitation:
-    """Return the beginning of what moved a recording; `natural` (Hz) stands for its frequency where it has none."""
+    """Return the first samples of the input of a recording; `natural` (Hz) is used if it has no single frequency."""
     frequency = find_frequency(observation, natural)
     return Excitation(
         REPEAT, observation.travel, (frequency, frequency), observation.inputs[:samples], observation.harmonic
@@ -53,7 +53,7 @@ def repeat_drive(observation: Observation, samples: int, natural: float) -> Exci
 
 
 def find_frequency(observation: Observation, natural: float) -> float:
-    """Return the frequency (Hz) of the drive of a recording, or that of its motion where there is no single one."""
+    """Return the frequency (Hz) of the drive of a recording, or `natural` if there is no single one."""
     period = observation.period
     return 1.0 / (period * observation.dt) if period else natural
 
@@ -66,7 +66,7 @@ def choose_limits(observation: Observation, natural: float) -> Limits:
 def list_candidates(
     observation: Observation, samples: int, limits: Limits, rng: np.random.Generator
 ) -> list[Excitation]:
-    """Return the excitations to compare, each of so many samples every `observation.dt` s."""
+    """Return the excitations to compare, each with this number of samples every `observation.dt` s."""
     natural = 0.5 * limits.frequency
     frequency, level = find_frequency(observation, natural), observation.travel
     top = min(limits.frequency, 1.0 / (FEWEST * observation.dt))
@@ -87,7 +87,7 @@ def _is_near(a: float, b: float) -> bool:
 
 
 def _list_within(usual: float, most: float) -> list[float]:
-    """Return what is tried about a usual value, and the limit itself where that is nearer."""
+    """Return the values to try around a usual one, with the limit `most` if it is at most twice the usual value."""
     tried = [f * usual for f in (*FACTORS, 1.0) if f * usual <= most * 1.0001]
     return sorted(tried if any(_is_near(t, most) for t in tried) or most > 2.0 * usual else [*tried, most])
 
@@ -134,7 +134,7 @@ def _compute_waves(t: Array, wave: Wave) -> Iterator[tuple[Array, Array]]:
 
 
 def _compute_sweep(t: Array, band: tuple[float, float]) -> tuple[Array, Array]:
-    """Return a sine whose frequency goes evenly from one end of the band to the other, and its slope."""
+    """Return a linear sine sweep over a band, and its derivative."""
     first, last = (2.0 * math.pi * f for f in band)
     pace = (last - first) / max(float(t[-1]), 1e-300)
     angle = (first + 0.5 * pace * t) * t

@@ -1,4 +1,4 @@
-"""The next experiment: which excitation would tell two models apart that the recording at hand cannot."""
+"""Design of the next experiment: the excitation that best distinguishes two models that fit the recording equally."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ __all__ = [
     "propose",
 ]
 SAMPLES = 3000
-"""Simulated recordings are this long at most, and count for as much as the recording at hand."""
+"""The largest number of simulated samples; they are weighted like a recording of the actual length."""
 ROUNDS, HALFWAY = 4, 2
 MOST_REFINED, MOST_FITTED, DRAWS = 6, 2, 2
 """So many candidates are looked at again with fits that have gone half of their way, and so many with whole ones, the
@@ -34,15 +34,15 @@ PLAIN, IMITATED, SURE = 5.0, 0.2, 12.0
 """One model can imitate the other where its absence never gains 5, or 0.2 of what its presence gains: what is left is
 the price of its parameters. A gain of 12 is none of these."""
 Ways = tuple[float, float]
-"""The expected log Bayes factor in favour of the truth: the chosen model being true, and the rival."""
+"""The expected log Bayes factor in favour of the true model, if the chosen model is true and if the rival is true."""
 
 
 @dataclass(frozen=True)
 class Proposal:
-    """An excitation and what it is expected to tell, in log Bayes factor, over a repeat of the old one.
+    """An excitation with its expected log Bayes factor, and that of a repetition of the old excitation.
 
-    `ways` and `repeat_ways` hold the gain with the chosen model true, and with the rival; `counted` says which of the
-    two count: both, unless one model can imitate the other whatever the excitation.
+    `ways` and `repeat_ways` have the gain if the chosen model is true and if the rival is true; `counted` states which
+    of the two count: both, unless one model can imitate the other for every excitation.
     """
 
     excitation: Excitation
@@ -52,12 +52,12 @@ class Proposal:
 
     @property
     def gain(self) -> float:
-        """The lesser gain of those that count."""
+        """The smaller of the gains that count."""
         return min(self.ways[k] for k in self.counted)
 
     @property
     def repeat(self) -> float:
-        """The lesser gain of a repeat, of those that count, and no less than nothing."""
+        """The smaller of the gains of a repetition that count, at least zero."""
         return max(min(self.repeat_ways[k] for k in self.counted), 0.0)
 
 
@@ -69,7 +69,7 @@ def propose(
     rng: np.random.Generator,
     say: Callable[[str], None] = lambda _: None,
 ) -> Proposal | None:
-    """Return the excitation within `limits` that separates two fits best; None where no simulation gets through."""
+    """Return the excitation within `limits` that distinguishes two fits best; None if every simulation diverges."""
     observation = chosen.problem.observations[0]
     natural = compute_natural_frequency(chosen)
     samples = min(SAMPLES, observation.samples)
@@ -77,9 +77,9 @@ def propose(
     moved = replace(observation, inputs=observation.inputs[:, : len(chosen.problem.system.model.driven)])
     offered = list_candidates(moved, samples, limits or choose_limits(observation, natural), rng)
     weighed = _ExperimentComparison((RehearsedModel.of(chosen), RehearsedModel.of(rival)), share, rng)
-    say(f"what {len(offered)} other excitations would tell")
+    say(f"expected gains of {len(offered)} excitations")
     rough = weighed.compute_ways(offered, 0)
-    say("what the best ones and a repeat would tell")
+    say("expected gains of the best excitations and of a repetition")
     good = weighed.compute_ways([e for e, _ in _select_best(rough, (0, 1), MOST_REFINED, max)], HALFWAY)
     counted = _select_counted([ways for _, ways in good if ways])
     again = [e for e, _ in _select_best(good, counted, MOST_FITTED, min)]
@@ -97,31 +97,35 @@ def compute_natural_frequency(fit: Fit) -> float:
 
 
 def compute_bayes_factor(chosen: Fit, rival: Fit, observation: Observation) -> float:
-    """Return the log Bayes factor, chosen over rival, that a new recording adds to that of the old ones."""
+    """Return the log Bayes factor, chosen model over rival, that a new recording adds to that of the old ones."""
     natural = compute_natural_frequency(chosen)
     whole = repeat_drive(observation, observation.samples, natural)
     asked = EvidenceBudget(1.0, 3 * ROUNDS)
-    told = [compute_evidence(RehearsedModel.of(fit), whole, observation.readings, asked) for fit in (chosen, rival)]
-    return told[0] - told[1]
+    evidences = [
+        compute_evidence(RehearsedModel.of(fit), whole, observation.readings, asked) for fit in (chosen, rival)
+    ]
+    return evidences[0] - evidences[1]
 
 
 @dataclass(frozen=True)
 class _ExperimentComparison:
-    """Two models between which an excitation is to decide, over a recording that is `share` times as long."""
+    """Two models that an excitation shall distinguish, with a recording that is `share` times as long."""
 
     models: tuple[RehearsedModel, RehearsedModel]
     share: float
     rng: np.random.Generator
 
     def average_ways(self, excitations: Sequence[Excitation]) -> list[_Tried]:
-        """Return the gains of each excitation after whole fits, the mean of several recordings."""
+        """Return the gains of each excitation with complete fits, averaged over several simulated recordings."""
         drawn = self.compute_ways([e for e in excitations for _ in range(DRAWS)], ROUNDS)
-        told = [[ways for _, ways in drawn[k : k + DRAWS] if ways] for k in range(0, len(drawn), DRAWS)]
-        means = [(float(np.mean([a for a, _ in t])), float(np.mean([b for _, b in t]))) if t else None for t in told]
+        drawn_ways = [[ways for _, ways in drawn[k : k + DRAWS] if ways] for k in range(0, len(drawn), DRAWS)]
+        means = [
+            (float(np.mean([a for a, _ in t])), float(np.mean([b for _, b in t]))) if t else None for t in drawn_ways
+        ]
         return list(zip(excitations, means, strict=True))
 
     def compute_ways(self, excitations: Sequence[Excitation], rounds: int) -> list[_Tried]:
-        """Return the gains of each excitation with each model true, or None where one does not get through."""
+        """Return the gains of each excitation with each model true, or None if a simulation diverges."""
         drawn = [(e, [simulate_recording(truth, e, self.rng) for truth in self.models]) for e in excitations]
         jobs = self.models[0].fit.problem.jobs
         found = each(lambda one: self._compute_ways(*one, EvidenceBudget(self.share, rounds)), drawn, jobs)
@@ -145,13 +149,13 @@ _Tried = tuple[Excitation, Ways | None]
 def _select_best(
     tried: Sequence[_Tried], counted: tuple[int, ...], most: int, of: Callable[..., float]
 ) -> list[_Tried]:
-    """Return the best of what got through, by the `of` (least, largest) of the gains that count."""
+    """Return the best excitations without divergence, by the minimum or maximum (`of`) of the gains that count."""
     through = [(e, ways) for e, ways in tried if ways]
     return sorted(through, key=lambda pair: -of(pair[1][k] for k in counted))[:most]  # type: ignore[return-value]
 
 
 def _select_counted(found: Sequence[Ways]) -> tuple[int, ...]:
-    """Return which truths an experiment can show: both, unless one model imitates the other."""
+    """Return which true models an experiment can confirm: both, unless one model imitates the other."""
     tops = [max((ways[k] for ways in found), default=0.0) for k in (0, 1)]
     shown = tuple(k for k in (0, 1) if tops[k] > min(max(PLAIN, IMITATED * tops[1 - k]), SURE))
     return shown or (0, 1)

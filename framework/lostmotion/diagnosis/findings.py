@@ -1,4 +1,4 @@
-"""What a diagnosis found, entry by entry: mechanisms with their parameters, and what no mechanism explains."""
+"""The entries of `found`: mechanisms with their parameters, and the force that no mechanism explains."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from lostmotion.inference.mixture import draw_posterior
 from lostmotion.inference.natural import find_term
 from lostmotion.likelihood.predict import Horizon
 from lostmotion.quantities import unit_of
-from lostmotion.results import Interval, percent
+from lostmotion.results import Interval, percent, rounded
 from lostmotion.results.diagnosis import Mechanism
 
 DRAWS = 2000
@@ -27,10 +27,10 @@ DRAWS = 2000
 
 @dataclass(frozen=True)
 class Outcome:
-    """A diagnosis, its predictions, the horizon they are judged over, draws (draws, keys) of both posteriors.
+    """A diagnosis, the predictions of both models, their horizon, and draws (draws, keys) of both posteriors.
 
-    `unconfirmed` tells by term, in a sentence, that held-out data are predicted no better with it than without it.
-    Sentences tell angles in `angle`, rad or deg.
+    `unconfirmed` has a warning for each term that held-out data do not confirm. Sentences state angles in the unit
+    `angle`, rad or deg.
     """
 
     diagnosis: SearchResult
@@ -61,7 +61,7 @@ def compute_intervals(fit: Fit, draws: Array) -> dict[str, Interval]:
 
 
 def list_findings(outcome: Outcome) -> tuple[Mechanism, ...]:
-    """Return the entries of `found`: terms, marks in the stored values, and what no term explains."""
+    """Return the entries of `found`: terms, quantisation of the stored values, and what no term explains."""
     d = outcome.diagnosis
     after = compute_intervals(d.after, outcome.draws_after)
     entries = [_make_entry(outcome, key, after) for key in d.named] + [
@@ -85,26 +85,27 @@ def compute_noise_floor(outcome: Outcome) -> float:
 
 
 def explain_withheld(outcome: Outcome) -> str:
-    """Return why intervals are withheld: the model does not predict held-out data; empty where it does."""
+    """Return the reason why intervals are withheld: the model does not predict held-out data; empty if it does."""
     floor = compute_noise_floor(outcome)
     if is_valid(outcome.after, floor, outcome.diagnosis.settings.name):
         return ""
     model = "model" if outcome.diagnosis.found else "nominal model"
     return (
-        f"The {model} does not hold: its free runs over held-out data err by {outcome.after.nrmse:.0%} of the response,"
-        f" where the noise is {floor:.1%}. What is missing is open, and intervals are withheld."
+        f"The {model} is not valid: the error of its free runs over held-out data is"
+        f" {percent(outcome.after.nrmse)} of the"
+        f" response, and the noise is {percent(floor)}. What is missing remains open, and intervals are withheld."
     )
 
 
 def withhold_intervals(parameters: Mapping[str, Interval], why: str) -> Mapping[str, Interval]:
-    """Return parameters as they are told: with bounds of NaN where there is a reason to withhold their intervals."""
+    """Return parameters for the result; with a reason `why`, the bounds of their intervals are NaN."""
     if not why:
         return parameters
     return {name: replace(one, low=math.nan, high=math.nan, withheld=why) for name, one in parameters.items()}
 
 
 def _is_random(d: SearchResult) -> bool:
-    """Return whether what is left beside terms is a random force: with no structure, and no memory that was doubted."""
+    """Return whether the remaining force has no structure, and no term was declined for autocorrelated residuals."""
     return not (d.left and d.left.structure) and not d.selection.declined
 
 
@@ -116,7 +117,7 @@ def _make_entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> Me
     own = {s.param.name: after.get(s.key) or _make_interval(np.full(1, held[s.key]), s.unit) for s in slots}
     why = explain_withheld(outcome)
     shown_own = {name: i.with_angles_in(outcome.angle) for name, i in own.items()}
-    numbers = {name: f"{i.median:.3g} {i.unit}" if why else str(i) for name, i in shown_own.items()}
+    numbers = {name: f"{rounded(i.median, 3)} {i.unit}" if why else str(i) for name, i in shown_own.items()}
     numbers |= {q.name: q.words[q.choices.index(own[q.name].median)] for q in term.params if q.words}
     sentence = term.physics.format(**numbers) + _name_sensor(d, term)
     if term.at in list_other_places(system.model):
@@ -141,40 +142,40 @@ def _make_entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> Me
 
 
 def list_other_places(model: Model) -> set[str]:
-    """Return the names of the places at which a force acts on another body than the first."""
+    """Return the names of the places where a force acts on another body than the first."""
     first = model.interfaces[0]
     return {place.name for place in model.interfaces if place.row != first.row or place.against != first.against}
 
 
 def _make_quantised_entry(d: SearchResult, key: str) -> Mechanism:
-    """Return the entry of a term that the stored values themselves betray."""
+    """Return the entry of a term that is visible in the stored values: their quantisation."""
     term, slots = find_term(d.selection.nominal.problem, key)
     rows = zip(slots, *d.quantised[key], strict=True)
     channel = next((s.channel for s in d.shown.sensors if s.place == term.at), d.shown.channel)
     unit = unit_of(channel, d.after.problem.system.model.motion)
     own = {s.param.name: Interval(v, v - 1.96 * sd, v + 1.96 * sd, unit) for s, v, sd in rows}
-    sentence = term.physics.format(**{name: f"{i.median:.3g} {i.unit}" for name, i in own.items()}) + _name_sensor(
-        d, term
-    )
+    sentence = term.physics.format(
+        **{name: f"{rounded(i.median, 3)} {i.unit}" for name, i in own.items()}
+    ) + _name_sensor(d, term)
     return Mechanism(
         mechanism=term.name,
         at=term.at,
         probability=1.0,
         state=NAMED,
         parameters=own,
-        says=f"{sentence}: the stored values themselves tell.",
+        says=f"{sentence}, as the stored values show.",
     )
 
 
 def _name_sensor(d: SearchResult, term: Term) -> str:
-    """Return at which of several sensors a term acts, as a sentence on it ends; nothing for other terms."""
+    """Return the name of the sensor on which a term acts, as the end of a sentence; empty for a single sensor."""
     if not isinstance(term, SensorTerm) or len(d.shown.sensors) < 2:
         return ""
     return next((f" (sensor {s.label!r})" for s in d.shown.sensors if s.place == term.at), "")
 
 
 def _compute_derived(outcome: Outcome, term: Term, held: Mapping[str, float]) -> dict[str, Interval]:
-    """Return the intervals of the further numbers of a term, from draws of its parameters (`held` where not free)."""
+    """Return the intervals of the derived numbers of a term, from draws of its parameters (`held` if not free)."""
     after = outcome.diagnosis.after
     columns = {key: i for i, key in enumerate(list_physical_keys(after))}
     rows = [[row[columns[k]] if k in columns else value for k, value in held.items()] for row in outcome.draws_after]

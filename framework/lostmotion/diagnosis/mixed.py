@@ -1,7 +1,7 @@
-"""Draws of the parameters after a diagnosis, over every explanation that the recording leaves open.
+"""Draws of the parameters after a diagnosis, from a mixture over all probable explanations (model averaging).
 
-Where two explanations fit equally well, such as a gauge of the drive and a sensor of the response with a wrong gain,
-each moves the parameters of the machine in its own way: an interval that holds for one of them only is too narrow.
+If two explanations fit equally well, for instance a wrong gain of the drive and a wrong gain of the sensor, each leads
+to different parameters of the machine: an interval from one of them alone is too narrow.
 """
 
 from __future__ import annotations
@@ -16,13 +16,14 @@ from lostmotion.inference.setup import polish_fit
 OPEN = 0.05
 """An explanation with a smaller share of the posterior is left out."""
 MOST = 3
+"""The largest number of alternative explanations in the mixture."""
 
 
 def draw_mixture(diagnosis: SearchResult, rng: np.random.Generator) -> Array:
     """Return draws (draws, keys) of the parameters of the model after the diagnosis.
 
-    Those of the machine are a mixture over the chosen terms and their rivals, by posterior probability (Hoeting et al.,
-    Statistical Science 14 (1999) 382-417); those of terms are from the chosen ones.
+    Those of the machine are a mixture over the chosen set and its rivals, weighted by posterior probability (Hoeting et
+    al., Statistical Science 14 (1999) 382-417); those of the terms are from the chosen set.
     """
     chosen = diagnosis.after
     made = draw_parameters(chosen, rng)
@@ -44,7 +45,7 @@ def draw_mixture(diagnosis: SearchResult, rng: np.random.Generator) -> Array:
 
 
 def _list_rivals(diagnosis: SearchResult) -> list[tuple[frozenset[str], float]]:
-    """Return the sets of terms beside the chosen one that have a share of the posterior, largest first."""
+    """Return the other sets of terms with a share of the posterior, most probable first."""
     shares = diagnosis.selection.probabilities()
     here = diagnosis.selection.chosen.problem.active
     others = [(terms, p) for terms, p in shares.items() if terms != here and p > OPEN]

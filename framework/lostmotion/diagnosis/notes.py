@@ -1,4 +1,4 @@
-"""What falls short in a diagnosis, in sentences: a report says it before a reader finds out."""
+"""The notes of a diagnosis: sentences on its limitations."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ from lostmotion.inference.unseen import smooth_body_position
 from lostmotion.likelihood.initial import shows_place
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.space import LEVELS
+from lostmotion.results import percent, rounded
 
 FAR = 5.0
 """Held-out errors of an adequate model that are this many times the noise deserve a warning."""
@@ -29,7 +30,7 @@ LOUD, DEAFENING = 0.3, 0.8
 
 
 def write_notes(outcome: Outcome, said: Sequence[str]) -> list[str]:
-    """Return the notes of a diagnosis: what the recordings `said` of themselves, and what a reader should doubt."""
+    """Return the notes of a diagnosis: those on the recordings (`said`), and those on the result."""
     d = outcome.diagnosis
     doubts = [
         *list_short_contacts(d.after),
@@ -41,26 +42,25 @@ def write_notes(outcome: Outcome, said: Sequence[str]) -> list[str]:
     doubts += [text for key in d.named for text in warn_of_moved_amplitudes(d, key)]
     if d.selection.stopped:
         doubts.append(
-            f"The search ended after {len(d.selection.fitted_sets)} sets of terms, which is its bound: what is left"
-            " is told"
-            " as left."
+            f"The search ended at its limit, after {len(d.selection.fitted_sets)} sets of terms: more terms may be"
+            " missing."
         )
     again = note_repetitions(_list_recordings(d), d.train, d.held)
     return [*said, *_note_unrecorded_inputs(d), *doubts, *again, *note_unknown_position(d.after, d.shown)]
 
 
 def _list_recordings(d: SearchResult) -> tuple[Observation, ...]:
-    """Return the recordings as a whole."""
+    """Return the recordings, each with its fitted and its held-out part."""
     return (*d.train, *d.held) if d.shown is d.held[0] else (d.shown,)
 
 
 def _note_unrecorded_inputs(d: SearchResult) -> list[str]:
-    """Return a note for each recording without an input that something drove all the same."""
+    """Return a note for each recording without an input in which an unrecorded input acted."""
     return [note for observation in _list_recordings(d) for note in note_restarts(observation)]
 
 
 def _note_ar1_noise(d: SearchResult) -> list[str]:
-    """Return a note for each sensor whose noise has a memory, which white noise and a random force would imitate."""
+    """Return a note for each sensor whose noise is autocorrelated (AR(1))."""
     problem, theta, notes = d.after.problem, d.after.theta, []
     for i, sensor in enumerate(d.shown.sensors):
         ar1, ar1_share = problem.ar1(theta, 0, i)
@@ -69,27 +69,28 @@ def _note_ar1_noise(d: SearchResult) -> list[str]:
             share = ar1 / problem.measurement(theta, 0, i)
             whose = f" of {sensor.label}" if len(d.shown.sensors) > 1 else ""
             notes.append(
-                f"{share:.0%} of the variance of the measurement noise{whose} has a memory of {lasts:.2g} s; the fit"
-                " allows for it."
+                f"{percent(share)} of the variance of the measurement noise{whose} is autocorrelated,"
+                " with a time constant"
+                f" of {rounded(lasts)} s; the fit includes this."
             )
     return notes
 
 
 def note_large_noise(outcome: Outcome) -> list[str]:
-    """Return a sentence for each sensor of which so much passes for noise, where held out, that it may be motion."""
-    d, told = outcome.diagnosis, []
+    """Return a note for each sensor whose estimated noise is so large, in held-out data, that it may be motion."""
+    d, notes = outcome.diagnosis, []
     problem, theta = d.after.problem, d.after.theta
     for i, (sensor, size) in enumerate(zip(d.shown.sensors, outcome.after.scales, strict=True)):
         ar1, share = (v**0.5 / size for v in (problem.ar1(theta, 0, i)[0], problem.measurement(theta, 0, i)))
         if ar1 > LOUD or share > DEAFENING:
             whose = f" of {sensor.label}" if len(d.shown.sensors) > 1 else ""
-            told.append(
-                f"What passes for noise{whose}{' has a memory and' if ar1 > LOUD else ''} is {share:.0%} of the"
-                " held-out readings: it may be motion that the model cannot make, such as another mode, or a sensor"
-                " that does not show what the case says (check its sign and place); then neither what was found nor"
-                " that nothing was found holds."
+            notes.append(
+                f"The estimated noise{whose}{' is autocorrelated and' if ar1 > LOUD else ''} is {percent(share)} of the"
+                " held-out readings: it may be motion that the model does not describe, such as another mode, or the"
+                " sensor may not measure what the case states (check its sign and place). In both cases the result is"
+                " not valid."
             )
-    return told
+    return notes
 
 
 def _note_declined(d: SearchResult) -> list[str]:
@@ -97,21 +98,22 @@ def _note_declined(d: SearchResult) -> list[str]:
     if not declined:
         return []
     return [
-        f"{', '.join(declined)} would raise the likelihood further, but what is left over has a memory and that rise is"
-        " not believed: a recording of a different motion would decide."
+        f"{', '.join(declined)} would raise the likelihood further, but the residuals are autocorrelated, so this gain"
+        " is not reliable: a recording of a different motion would decide."
     ]
 
 
 def _note_bounds(d: SearchResult) -> list[str]:
-    """Return a note for each parameter that presses against a bound of its prior."""
+    """Return a note for each parameter at a bound of its prior."""
     notes = []
     for f, at in zip(d.after.problem.free, d.after.theta, strict=True):
         reach = EDGE * (f.high - f.low)
         if f.level not in LEVELS and "." not in f.parameter and not f.low + reach < at < f.high - reach:
             bound = f.value(f.low if at <= f.low + reach else f.high)
             notes.append(
-                f"{f.key} lies on the bound {bound:.4g} {f.unit} of its prior: widen the prior, or doubt what is"
-                " known; what was found may stand in for it."
+                f"{f.key} is at the bound {rounded(bound, 4)} {f.unit} of its prior: widen the prior,"
+                " or check the known"
+                " values; the found terms may compensate for a wrong value."
             )
     return notes
 
@@ -124,13 +126,13 @@ def _note_large_errors(outcome: Outcome) -> list[str]:
     if far < FAR:
         return []
     return [
-        f"Free runs over held-out data err by {far:.2g} times the measurement noise: something remains that one-step"
-        " errors do not show, or small errors of the state grow fast."
+        f"The error of free runs over held-out data is {rounded(far)} times the measurement noise: either something is"
+        " missing that one-step errors do not show, or small errors of the state grow fast."
     ]
 
 
 def note_unknown_position(fit: Fit, observation: Observation) -> list[str]:
-    """Return a note where no sensor of a recording shows the position and it is not known well."""
+    """Return a note if no sensor of a recording measures the position and its estimate is uncertain."""
     if shows_place(observation):
         return []
     place = smooth_body_position(fit, observation)
@@ -139,12 +141,14 @@ def note_unknown_position(fit: Fit, observation: Observation) -> list[str]:
         return []
     if not (math.isfinite(reach) and reach < amplitude):
         return [
-            "No sensor shows the position, and it cannot be told from the recording: do not trust what rests on it."
+            "No sensor measures the position, and the recording does not determine it: do not trust results that depend"
+            " on it."
         ]
     rotation, share = fit.problem.system.model.motion == "rotation", 100.0 * reach / amplitude
-    size = f"{reach:.2g} rad" if rotation else f"{1e3 * reach:.2g} mm"
+    size = f"{rounded(reach)} rad" if rotation else f"{rounded(1e3 * reach)} mm"
     return [
-        f"No sensor shows the position: it is known to +-{size} only (2 standard deviations, largest over the"
-        f" recording), {share:.2g} % of its amplitude; what rests on the position, such as a gap, is as uncertain as"
-        " its interval says."
+        f"No sensor measures the position: it is known to +-{size} only (2 standard deviations, largest over the"
+        f" recording), {rounded(share)} % of its amplitude. The intervals of what depends on the"
+        " position, such as a gap,"
+        " include this."
     ]

@@ -1,4 +1,4 @@
-"""Recordings that have not been made: simulated with all their noise, and what each model would make of them."""
+"""Simulated new recordings, with all noise, and the log evidence of each model for them given the old recordings."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from lostmotion.likelihood.predict import observe_states, simulate_kicked
 from lostmotion.likelihood.problem import RANDOM, Problem
 
 PIECE = 4
-"""Samples between two kicks of the random force."""
+"""Samples between two impulses of the random force."""
 RANDOM_FORCE_STEPS = (0.0, 2.0, 4.0, 6.0)
-"""By how much the log random force is raised to begin with: a model that is wrong needs more of it."""
+"""Increments of the log random force at the start of a fit: a wrong model needs a larger random force."""
 HALVINGS = 4
 
 
 @dataclass(frozen=True)
 class RehearsedModel:
-    """A model with what the old recordings have taught of it.
+    """A model with its posterior after the old recordings.
 
-    The posterior is normal about `theta`, of the information `precision`. The random force belongs to each recording
-    alone: nothing but its prior is known of it.
+    The posterior is normal about the estimate, with the information matrix `precision`. The random force of a new
+    recording has its prior only, because it differs between recordings.
     """
 
     fit: Fit
@@ -66,7 +66,7 @@ class RehearsedModel:
 
 
 def simulate_recording(model: RehearsedModel, excitation: Excitation, rng: np.random.Generator) -> Array | None:
-    """Return what the sensors would show (samples, sensors) of a model with its noise levels; None if it diverges."""
+    """Return simulated readings (samples, sensors) of a model with its noise levels; None if it diverges."""
     problem, theta = model.pose(excitation), model.get_coordinates(excitation)
     system, place, full = problem.system, problem.system.model.interfaces[0], problem.full(theta)
     intensity, _ = problem.noise(theta)
@@ -87,7 +87,7 @@ def simulate_recording(model: RehearsedModel, excitation: Excitation, rng: np.ra
 
 
 def _draw_ar1_noise(problem: Problem, theta: Array, sensor: int, rng: np.random.Generator) -> Array:
-    """Return measurement noise with a memory (samples,) of a sensor that has any."""
+    """Return autocorrelated measurement noise (samples,) of a sensor; zero if it has none."""
     variance, ar1_share = problem.ar1(theta, 0, sensor)
     fresh = math.sqrt(variance * (1.0 - ar1_share**2)) * rng.standard_normal(problem.observations[0].samples)
     fresh[0] = math.sqrt(variance) * rng.standard_normal()
@@ -96,16 +96,16 @@ def _draw_ar1_noise(problem: Problem, theta: Array, sensor: int, rng: np.random.
 
 @dataclass(frozen=True)
 class EvidenceBudget:
-    """How a recording is judged: it counts `share` times, as a longer one would; `rounds` of Fisher scoring at most."""
+    """How evidence is computed: log-likelihoods times `share`, and at most `rounds` rounds of Fisher scoring."""
 
     share: float
     rounds: int
 
 
 def compute_evidence(model: RehearsedModel, excitation: Excitation, z: Array, asked: EvidenceBudget) -> float:
-    """Return the log probability of a new recording, given the old ones, by Laplace's method; -inf if it diverges.
+    """Return the log evidence of a new recording, given the old ones, by Laplace's method; -inf if it diverges.
 
-    With no rounds, the maximum is what the first step promises.
+    With zero rounds, the maximum is predicted from the first step.
     """
     problem, middle = model.pose(excitation, z), model.get_coordinates(excitation)
     task = _NewPosterior(problem, middle, model.precision, asked.share)
@@ -129,7 +129,7 @@ def compute_evidence(model: RehearsedModel, excitation: Excitation, z: Array, as
             promise = 0.0
             break
         point, height = moved
-    # What a fit gains from noise is counted once, however much longer than this the recording will be.
+    # The gain of a fit from noise does not grow with the length of the recording: it is counted once.
     spare = 0.5 * (asked.share - 1.0) * float(np.trace(solve_scaled(whole, information)))
     return height + max(promise, 0.0) - spare - 0.5 * _compute_log_ratio(whole, model.precision)
 
@@ -146,11 +146,11 @@ class _NewPosterior:
     def log_densities(self, thetas: Array) -> Array:
         """Return the log posterior (points,) at coordinates (points, n)."""
         away = thetas - self.middle
-        told = self.problem.log_likelihoods(thetas)
-        return np.asarray(self.share * told - 0.5 * np.einsum("pi,ij,pj->p", away, self.precision, away))
+        log_likelihoods = self.problem.log_likelihoods(thetas)
+        return np.asarray(self.share * log_likelihoods - 0.5 * np.einsum("pi,ij,pj->p", away, self.precision, away))
 
     def find_start(self) -> tuple[Array, float]:
-        """Return where to begin: with as much random force as the recording asks for."""
+        """Return the start with the highest log posterior over several levels of the random force."""
         random = np.array([f.parameter == RANDOM for f in self.problem.free])
         starts = self.problem.clip(self.middle + np.outer(RANDOM_FORCE_STEPS, random))
         log_densities = self.log_densities(starts)
@@ -158,7 +158,7 @@ class _NewPosterior:
         return starts[best], float(log_densities[best])
 
     def climb(self, point: Array, height: float, step: Array) -> tuple[Array, float] | None:
-        """Return a higher point along a step, or None."""
+        """Return a point with a higher log posterior along a step, or None."""
         trials = self.problem.clip(point + np.outer(0.5 ** np.arange(HALVINGS), step))
         reached = self.log_densities(trials)
         higher = np.flatnonzero(reached > height)

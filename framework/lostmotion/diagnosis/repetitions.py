@@ -1,4 +1,4 @@
-"""What a diagnosis says of repetition: cycles that are one cycle, and held-out data that repeat fitted ones."""
+"""Notes on repetition: equal cycles of a recording, and held-out data that repeat fitted data."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.likelihood.observation import Observation
+from lostmotion.results import rounded
 from lostmotion.signals.repetition import SAME, Repetition, repeated_share, repetition_of
 
 FEW, ENOUGH = 1.5, 4
@@ -27,7 +28,7 @@ def note_repetitions(
 
 
 def count_cycles(observation: Observation) -> Repetition | None:
-    """Return how many distinct cycles a recording has by its first sensor, None where it has no cycles."""
+    """Return the number of distinct cycles of the first sensor of a recording; None if it has no cycles."""
     x = _fill_gaps(observation)[-LONGEST:]
     omega = observation.harmonic.omega
     period = 2.0 * math.pi / (omega * observation.dt) if omega else observation.period
@@ -35,9 +36,9 @@ def count_cycles(observation: Observation) -> Repetition | None:
 
 
 def compute_repeated_share(train: Iterable[Observation], held: Observation) -> float | None:
-    """Return the share (0 to 1) of the variance of held-out data that some fitted data of its channel show as well.
+    """Return the share (0 to 1) of the variance of held-out data that fitted data of the same channel repeat, or None.
 
-    None where nothing can be compared.
+    It is None if there are no comparable data.
     """
     alike = [o for o in train if o.channel == held.channel and math.isclose(o.dt, held.dt, rel_tol=1e-6)]
     shares = [repeated_share(_fill_gaps(o), _fill_gaps(held), max(o.noise, held.noise)) for o in alike]
@@ -50,26 +51,28 @@ def _note_repeated_heldout(train: Sequence[Observation], held: Sequence[Observat
     if not again:
         return []
     least = math.floor(1000.0 * min(share for _, share in again)) / 10.0
-    what = "The held-out part repeats" if len(held) == 1 else f"What is held out of {_join_names(again)} repeats"
+    what = "The held-out part repeats" if len(held) == 1 else f"The held-out part of {_join_names(again)} repeats"
     looks = [count_cycles(o) for o, _ in again]
     cyclic = all(one is not None and one.distinct < FEW for one in looks)
     return [
-        f"{what} the motion of the part that was fitted ({least:.4g} % of it): that predictions hold there convinces"
-        f" nobody of more than that {'cycle' if cyclic else 'motion'}."
+        f"{what} the motion of the fitted part ({rounded(least, 4)} % of its variance): the"
+        " predictions are a test for this"
+        f" {'cycle' if cyclic else 'motion'} only."
     ]
 
 
 def _note_equal_cycles(observations: Sequence[Observation]) -> list[str]:
-    """Return a note for each recording whose cycles are one, to within the noise."""
+    """Return a note for each recording whose cycles are equal to within the noise."""
     notes = []
     for observation in observations:
         looks = count_cycles(observation)
         if looks is not None and looks.cycles >= ENOUGH and looks.distinct < FEW:
             these = f"The {looks.cycles} cycles of {observation.name}"
             notes.append(
-                f"{these} count as {looks.distinct:.1f} distinct (the mean cycle is {100.0 * looks.share:.4g} % of the"
-                " motion). More cycles like these lessen the noise; another level, frequency or waveform shows another"
-                " motion."
+                f"{these} are equivalent to {looks.distinct:.1f} distinct cycles (the mean cycle is"
+                f" {rounded(100.0 * looks.share, 4)} % of the variance). More cycles like these only"
+                " reduce the noise; record"
+                " another level, frequency or waveform to obtain another motion."
             )
     return notes
 
@@ -80,7 +83,7 @@ def _join_names(again: Sequence[tuple[Observation, float]]) -> str:
 
 
 def _fill_gaps(observation: Observation) -> Array:
-    """Return the readings (samples,) of the first sensor with lines through gaps; all NaN where gaps are many."""
+    """Return the readings (samples,) of the first sensor with interpolated gaps; all NaN if too many are missing."""
     x = observation.response
     taken = np.isfinite(x)
     if taken.all():

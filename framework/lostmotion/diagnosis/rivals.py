@@ -1,4 +1,4 @@
-"""What a recording cannot tell apart, and the experiment that would."""
+"""The alternatives that a recording cannot distinguish from what was found, and experiments that can."""
 
 from __future__ import annotations
 
@@ -18,20 +18,21 @@ from lostmotion.inference.term_sets import TermSet
 from lostmotion.likelihood.system import key_of
 from lostmotion.quantities import unit_of
 from lostmotion.report.words import sentence, to_words
+from lostmotion.results import rounded
 from lostmotion.results.diagnosis import Confusion, DecidingExcitation
 
-MOST = 2
-"""So many rivals, the heaviest ones, are worth an experiment of their own."""
-LITTLE = 3.0
-"""A gain of less than this, a factor of twenty in the odds, decides nothing."""
+MOST_RIVALS = 2
+"""Experiments are designed for this number of rivals, the most probable ones."""
+LEAST_GAIN = 3.0
+"""An experiment with a smaller expected log Bayes factor (odds of twenty) does not decide."""
 
 Proposals = Mapping[str, Proposal | None]
 
 
 def find_rivals(d: SearchResult) -> dict[str, TermSet]:
-    """Return the best set of terms with each term that may be at work in place of what was found, heaviest first.
+    """Return the best set with each term that is an alternative to the found terms, by key, most probable first.
 
-    There is none where more was found than the selection chose: a force without a name has no rivals with one.
+    There is none if a curve was learned beside the selected terms.
     """
     course = d.selection
     problem = course.chosen.problem
@@ -63,12 +64,12 @@ def propose_experiments(
     rng: np.random.Generator,
     say: Callable[[str], None] = lambda _: None,
 ) -> dict[str, Proposal | None]:
-    """Return the experiment that would decide between what was found and each of its heaviest rivals, by key.
+    """Return the experiment that best distinguishes the found terms from each of the most probable rivals, by key.
 
-    Where none is `allowed`, or nothing drives the machine, none is looked for.
+    It is None if experiments are not `allowed` or the machine is not driven.
     """
     chosen = d.selection.chosen
-    heaviest = list(find_rivals(d).items())[:MOST]
+    heaviest = list(find_rivals(d).items())[:MOST_RIVALS]
     if allowed is None or chosen.problem.observations[0].free:
         return {key: None for key, _ in heaviest}
     usual = choose_limits(chosen.problem.observations[0], compute_natural_frequency(chosen))
@@ -80,25 +81,25 @@ def propose_experiments(
 
 
 def describe_confusions(d: SearchResult, rows: Sequence[Confusion], proposals: Proposals) -> tuple[Confusion, ...]:
-    """Return the `rows` of what a verdict cannot tell apart, with close relatives, and the experiments that decide."""
-    told = {}
+    """Return the `rows` of indistinguishable terms, with the rivals and the experiments that distinguish them."""
+    described = {}
     for key, proposal in proposals.items():
         term, _ = find_term(d.selection.chosen.problem, key)
         p = d.selection.inclusion(key)
         says = f"{_describe_rival(d, term, p)} {sentence(name_other_recording(d))} would decide."
-        told[term.name, term.at] = Confusion(
+        described[term.name, term.at] = Confusion(
             mechanism=term.name,
             at=term.at,
             probability=p,
             excitation=_make_excitation(d, proposal) if proposal else None,
             says=_describe_proposal(d, term, p, proposal) if proposal else says,
         )
-    rest = (row for row in rows if (row.mechanism, row.at) not in told)
-    return (*told.values(), *rest)
+    rest = (row for row in rows if (row.mechanism, row.at) not in described)
+    return (*described.values(), *rest)
 
 
 def _find_drive_unit(d: SearchResult) -> str:
-    """Return the SI unit of what moves the machine."""
+    """Return the SI unit of the input of the machine."""
     model = d.selection.chosen.problem.system.model
     return unit_of(model.inputs[0], model.motion)
 
@@ -120,10 +121,10 @@ def _make_excitation(d: SearchResult, proposal: Proposal) -> DecidingExcitation:
 
 def _describe_rival(d: SearchResult, term: Term, p: float) -> str:
     if p > d.settings.name.worth:
-        return f"This recording gives {_name_term(term)} a probability of {p:.2f}."
+        return f"{sentence(_name_term(term))} has a probability of {p:.2f} after this recording."
     return (
-        f"This recording does not rule out {_name_term(term)}: only the price of its further parameters brings it to a"
-        f" probability of {p:.2g}."
+        f"This recording does not exclude {_name_term(term)}: its probability is {rounded(p)} only because of the prior"
+        " penalty of its further parameters."
     )
 
 
@@ -134,19 +135,22 @@ def _name_term(term: Term) -> str:
 def _describe_proposal(d: SearchResult, term: Term, p: float, proposal: Proposal) -> str:
     opening = _describe_rival(d, term, p)
     gain, repeat = proposal.gain, proposal.repeat
-    if gain < LITTLE:
+    if gain < LEAST_GAIN:
         return (
-            f"{opening} No excitation within the limits is expected to separate them by more than {max(gain, 0.0):.1f}"
-            " in log-likelihood: measure this part of the machine by itself."
+            f"{opening} No excitation within the limits is expected to distinguish them by more than"
+            f" {max(gain, 0.0):.1f} in log evidence: measure this part of the machine separately."
         )
-    against = f"{gain / repeat:.2g} times as much as a repeat" if repeat >= 1.0 else "and a repeat by less than one"
+    against = (
+        f"{rounded(gain / repeat)} times as much as a repetition" if repeat >= 1.0 else "a repetition by less than 1"
+    )
     whose = ""
     if proposal.counted == (1,):
-        whose = f" if it is {_name_term(term)} (if it is not, by {max(proposal.ways[0], 0.0):.2g})"
+        whose = f" if it is {_name_term(term)} (if it is not, by {rounded(max(proposal.ways[0], 0.0))})"
     if proposal.counted == (0,):
-        whose = f" if it is not {_name_term(term)} (if it is, by {max(proposal.ways[1], 0.0):.2g})"
+        whose = f" if it is not {_name_term(term)} (if it is, by {rounded(max(proposal.ways[1], 0.0))})"
     return (
-        f"{opening} {_describe_experiment(d, proposal)}: this should separate them by {gain:.2g} in log-likelihood"
+        f"{opening} {_describe_experiment(d, proposal)}: this should distinguish them by"
+        f" {rounded(gain)} in log evidence"
         f"{whose}, {against}."
     )
 
@@ -156,8 +160,8 @@ def _describe_experiment(d: SearchResult, proposal: Proposal) -> str:
     e, old = proposal.excitation, d.selection.chosen.problem.observations[0].travel
     change = e.level / old if old else 1.0
     verb = "Raise the drive to" if change > 1.05 else "Lower the drive to" if change < 0.95 else "Keep the drive at"
-    low, high = (f"{f:.3g}" for f in e.band)
+    low, high = (f"{rounded(f, 3)}" for f in e.band)
     shape = f"at {low} Hz" if low == high else f"and make it a {e.waveform} from {low} to {high} Hz"
     if e.waveform == "two tones":
         shape = f"and make it two tones, of {low} and {high} Hz"
-    return f"{verb} {e.level:.3g} {_find_drive_unit(d)} {shape}"
+    return f"{verb} {rounded(e.level, 3)} {_find_drive_unit(d)} {shape}"

@@ -1,4 +1,4 @@
-"""The whole way of a diagnosis: case in, `diagnosis.json`, `arrays.nc` and `report.html` out."""
+"""A complete diagnosis: it reads a case and writes `diagnosis.json`, `arrays.nc` and `report.html`."""
 
 from __future__ import annotations
 
@@ -79,12 +79,13 @@ if TYPE_CHECKING:
 
 Say = Callable[[str], None]
 SHOW, NEXT, EVIDENCE, WHEN = 1, 2, 3, 4
-"""The streams of random numbers for what is shown, proposed, checked and placed in time: no finding depends on them."""
+"""Streams of random numbers for attractors, experiments, the check of evidence and disagreement over time; no finding
+depends on them."""
 
 
 @dataclass(frozen=True, eq=False)
 class DiagnosisOutput:
-    """A diagnosis as it is told: the result, the arrays behind it, and what both are made of."""
+    """The output of a diagnosis: the result, its arrays, and the outcome from which both are made."""
 
     result: Diagnosis
     arrays: xr.Dataset
@@ -110,15 +111,15 @@ def run_diagnosis(
 ) -> Diagnosis:
     """Return the diagnosis of a case after writing it, `arrays.nc` and `report.html` into the folder `out`.
 
-    Unless it is to `propose` none, it looks for the experiment that would tell rivals apart.
+    With `propose`, it also searches for the experiment that distinguishes the alternatives.
     """
     say("reading the case")
     prepared = prepare(path, registry, settings)
     folder = folder_for(out)
-    told = diagnose_prepared(prepared, registry, seed=seed, jobs=jobs, propose=propose, say=say, settings=settings)
+    output = diagnose_prepared(prepared, registry, seed=seed, jobs=jobs, propose=propose, say=say, settings=settings)
     say("report")
-    told.save(folder)
-    return told.result
+    output.save(folder)
+    return output.result
 
 
 @catch_divergence()
@@ -132,7 +133,7 @@ def diagnose_prepared(
     say: Say = lambda _: None,
     settings: Settings = DEFAULT,
 ) -> DiagnosisOutput:
-    """Return the diagnosis of a case, with all that is told of it; nothing is written."""
+    """Return the output of the diagnosis of a case; nothing is written."""
     work = partial(diagnose, jobs=jobs, say=say, settings=settings)
     diagnosis, prepared, rng = _run_search(prepared, registry, seed, work)
     say("held-out predictions")
@@ -157,9 +158,9 @@ def diagnose_prepared(
 def _run_search(
     prepared: Prepared, registry: Registry, seed: int, work: Callable[..., SearchResult]
 ) -> tuple[SearchResult, Prepared, np.random.Generator]:
-    """Return the diagnosis, what it was made of, and its random numbers, for who goes on with them.
+    """Return the diagnosis, the prepared case that was used, and the random generator.
 
-    Terms of other people that break down on the way are left out, and it begins anew.
+    If a third-party term fails, the search is repeated without it.
     """
     system, rng = System(prepared.model, prepared.terms), np.random.default_rng(seed)
     try:
@@ -173,13 +174,13 @@ def _run_search(
         if not culprits:
             raise
         kept = tuple(term for term in prepared.terms if key_of(term) not in culprits)
-        told = note_set_aside(name_suspects(registry, culprits, err))
-        fewer = replace(prepared, terms=kept, aside=(*prepared.aside, told))
+        note = note_set_aside(name_suspects(registry, culprits, err))
+        fewer = replace(prepared, terms=kept, aside=(*prepared.aside, note))
         return _run_search(fewer, registry, seed, work)
 
 
 def compare_heldout(diagnosis: SearchResult, prepared: Prepared, rng: np.random.Generator) -> Outcome:
-    """Return the diagnosis with what both models predict of the held-out data."""
+    """Return the diagnosis with the predictions of both models for the held-out data."""
     pieces = cut_heldout(prepared.observations, diagnosis.held)
     same = diagnosis.after is diagnosis.before
     fits = [diagnosis.before] if same else [diagnosis.before, diagnosis.after]
@@ -195,11 +196,11 @@ def compare_heldout(diagnosis: SearchResult, prepared: Prepared, rng: np.random.
 def check_heldout(
     diagnosis: SearchResult, prepared: Prepared, rng: np.random.Generator, say: Say = lambda _: None
 ) -> Outcome:
-    """Return the diagnosis with its predictions, less what held-out data speak against.
+    """Return the diagnosis with its predictions, without the findings that make held-out predictions worse.
 
-    They have a veto: where free runs or one-step predictions are worse with what was found than without it, learned
-    curves are taken back first, then one term after the other, the least probable one first. So it goes where the force
-    that is missing rises with what was found. And held-out data choose among sets that explain the fitted data.
+    Held-out data first choose among sets that explain the fitted data equally well. Then, while free runs or one-step
+    predictions are worse with the findings than without them, or the missing force is larger, one finding is withdrawn:
+    learned curves first, then the least probable term.
     """
     outcome, limits = compare_heldout(diagnosis, prepared, rng), diagnosis.settings.heldout
     if (better := find_better_set(outcome, prepared.observations)) is not None:
@@ -289,12 +290,12 @@ def _make_origin(prepared: Prepared, d: SearchResult, seed: int) -> Origin:
 
 
 def _describe_machine(outcome: Outcome, case: CaseFile) -> FittedMachine:
-    """Return what it takes to set the model that was fitted in motion again: model, terms, and all values in SI."""
+    """Return what is needed to simulate the fitted model again: model, terms, and all values in SI units."""
     problem, theta = outcome.diagnosis.after.problem, outcome.diagnosis.after.theta
     system, full = problem.system, problem.full(theta)
     learned = outcome.diagnosis.learned
     own = {q.name for q in system.model.params}
-    told = {key: float(full[i]) for key, i in system.index.items()}
+    values = {key: float(full[i]) for key, i in system.index.items()}
     terms = zip(system.keys, system.terms, strict=True)
     return FittedMachine(
         model=case.model,
@@ -304,16 +305,16 @@ def _describe_machine(outcome: Outcome, case: CaseFile) -> FittedMachine:
         terms=tuple(TermFacts(key, term.name, term.at) for key, term in terms if key in problem.active),
         learned=learned.keys if learned else (),
         sensors=tuple(SensorChannel(s.name, s.channel) for s in outcome.diagnosis.shown.sensors),
-        values={k: v for k, v in told.items() if k in own or any(k.startswith(f"{a}.") for a in problem.active)},
+        values={k: v for k, v in values.items() if k in own or any(k.startswith(f"{a}.") for a in problem.active)},
     )
 
 
 def note_unused(known: Iterable[str]) -> list[str]:
-    """Return a note on the known values of terms in a case: a diagnosis begins with the model alone."""
+    """Return a note on known values of terms in a case, which a diagnosis does not use."""
     terms = [name for name in known if "." in name]
     if not terms:
         return []
     return [
-        f"{', '.join(terms)} in [model.known] is not used: a diagnosis begins with the model alone and estimates each"
-        " term that it tries; `identify --term` takes terms with known values."
+        f"{', '.join(terms)} in [model.known] is not used: a diagnosis starts with the model alone and estimates the"
+        " parameters of each term; `identify --term` accepts terms with known values."
     ]

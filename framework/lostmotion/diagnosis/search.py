@@ -1,4 +1,4 @@
-"""Diagnose: locate the mismatch, say which physics was left out, and model it."""
+"""The search of a diagnosis: fit, select terms, learn curves, and locate the missing force."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from lostmotion.case import CaseFile
 from lostmotion.contracts import Array, Interface, Model, SensorTerm, Values, place_of
 from lostmotion.errors import DataError
 from lostmotion.inference.fit import Fit, maximise
-from lostmotion.inference.learned import LearnedCurve, OverTime
+from lostmotion.inference.learned import LearnedTerm, OverTime
 from lostmotion.inference.locate import (
     Curve,
     average_curve,
@@ -43,22 +43,22 @@ from lostmotion.settings import DEFAULT, LocateSettings, Settings
 MANY = 2
 """So many terms together may stand in for one curve: then curves are tried although nothing is left over."""
 MOST_REPLACEMENTS = 3
-"""So many sets are tried in place of one that held-out data have refuted."""
+"""The number of sets that are tried in place of a withdrawn one."""
 LARGEST = 1e100
-"""A missing force beyond this means that the filter diverged: its square could not be computed."""
+"""A missing force beyond this means that the filter diverged; its square would overflow."""
 
 
 def list_fitted_keys(system: System) -> tuple[str, ...]:
-    """Return the keys of the terms that are found by likelihood; the others leave marks in the values themselves."""
+    """Return the keys of the terms that are found by likelihood; others are visible in the stored values."""
     return tuple(k for k, t in zip(system.keys, system.terms, strict=True) if not t.marked)
 
 
 @dataclass(frozen=True)
 class ForceLocation:
-    """A force over time and over each covariate, and what each covariate explains of it.
+    """A missing force over time and over each covariate, and the share that each covariate explains.
 
-    `odds` are the log likelihood ratios of a curve over each covariate, which decide what is beyond chance; where there
-    are none the shares do.
+    `odds` are the log likelihood ratios of a curve over each covariate, which decide on significance; without them the
+    shares decide.
     """
 
     missing: LatentForce
@@ -70,30 +70,30 @@ class ForceLocation:
 
     @property
     def shares(self) -> dict[str, float]:
-        """What each covariate explains of the variance of the force."""
+        """The share of the variance of the force that each covariate explains."""
         return {name: share.value for name, share in self.explained.items()}
 
     @property
     def significant(self) -> list[str]:
-        """The covariates that are beyond chance, the likeliest first."""
+        """The significant covariates, most likely first."""
         level = self.limits.level
         return list_likely(self.odds, level) if self.odds else list_significant(self.explained, level)
 
     @property
     def structure(self) -> list[str]:
-        """The covariates with which much of the force goes, beyond chance."""
+        """The significant covariates that explain much of the force."""
         return [name for name in self.significant if self.explained[name].value > self.limits.structured]
 
 
 @dataclass(frozen=True)
 class SearchResult:
-    """What was found: the fits before and after, the selection, the missing force before and what is left after.
+    """The result of a search: fits of the nominal and the augmented model, the selection, missing and remaining force.
 
-    `quantised` holds the terms that the stored values themselves betray, with their parameters and the errors of these.
-    `shown` is the recording (or the first held-out one) that curves and figures are about; `law` (samples,) is the
-    force of the found terms along it. `random_gain` is the log-likelihood that a random force beyond the usual adds.
-    `learned` are the curves that were learned where the library did not suffice; `after` is the fit with them.
-    `withdrawn` tells what was found by likelihood and taken back, since held-out data spoke against it.
+    `quantised` has the terms that are visible in the stored values, with their parameters and standard errors. `shown`
+    is the recording (or the first held-out one) that curves and figures show; `law` (samples,) is the force of the
+    found terms along it. `random_gain` is the log-likelihood that a random force beyond the usual adds. `learned` are
+    the curves that were learned because the library did not suffice; `after` is the fit with them. `withdrawn` are the
+    keys of terms that were found by likelihood and withdrawn because of held-out data.
     """
 
     before: Fit
@@ -114,27 +114,27 @@ class SearchResult:
 
     @property
     def settings(self) -> Settings:
-        """The thresholds that decided."""
+        """The thresholds that were used."""
         return self.before.problem.settings
 
     @property
     def found(self) -> tuple[str, ...]:
-        """The keys of the terms that were left out, most probable first; learned curves come last."""
+        """The keys of the missing terms that were found, most probable first; learned curves come last."""
         return tuple(sorted(self.after.problem.active, key=lambda k: -self.selection.inclusion(k)))
 
     @property
     def named(self) -> tuple[str, ...]:
-        """The keys of the terms of the library that were left out."""
+        """The keys of the missing terms of the library that were found."""
         return tuple(key for key in self.found if not self.learned or key not in self.learned.keys)
 
     @property
     def yardstick(self) -> str:
-        """What forces are compared with: the drive, or where nothing drives the machine the force of its inertia."""
+        """The force with which other forces are compared: the drive, or for a free motion the inertial force."""
         return "the inertial force" if self.shown.free else "the drive"
 
     @property
     def explains(self) -> bool:
-        """Whether the force that is missing is no larger with what was found than with its forces taken out."""
+        """Whether the missing force with the found terms is no larger than without their forces."""
         if self.left is None:
             return True
         most = self.settings.heldout.missing * float(np.std(self.located.missing.force))
@@ -142,12 +142,12 @@ class SearchResult:
 
     @property
     def unexplained(self) -> bool:
-        """Whether a random force beyond the usual noise of the drive is left."""
+        """Whether a random force beyond the usual noise of the drive remains."""
         return self.random_gain > self.settings.locate.significant
 
     @property
     def unknown(self) -> bool:
-        """Whether something is missing, with structure, that no term of the library explains."""
+        """Whether a force with structure is missing that no term of the library explains."""
         return bool(self.learned) or (not self.found and self.unexplained and bool(self.located.structure))
 
 
@@ -161,7 +161,7 @@ def diagnose(
     say: Callable[[str], None] = lambda _: None,
     settings: Settings = DEFAULT,
 ) -> SearchResult:
-    """Return the diagnosis of a case; `system` holds the model and every term that is to be tried."""
+    """Return the diagnosis of a case; `system` has the model and all candidate terms."""
     train, held = split_heldout(observations, settings.heldout)
     _check_moving(held)
     say("fit of the nominal model")
@@ -208,10 +208,10 @@ def diagnose(
 
 
 def drop_least_probable(d: SearchResult, rng: np.random.Generator) -> SearchResult | None:
-    """Return the diagnosis without one of its learned curves, else without its least probable term; None without any.
+    """Return the diagnosis without one learned curve, or else without its least probable term; None if it has neither.
 
-    A curve over time goes first: nobody knows how it goes on. All that was fitted is fitted anew, and the missing force
-    located again.
+    A curve over time is dropped first, because it cannot be extrapolated. The model is refitted, and the missing force
+    is located again.
     """
     if not d.found:
         return None
@@ -227,29 +227,29 @@ def drop_least_probable(d: SearchResult, rng: np.random.Generator) -> SearchResu
 
 
 def replace_terms(d: SearchResult, fit: Fit, rng: np.random.Generator) -> SearchResult:
-    """Return the diagnosis with another set of terms that was visited, given by its fit, in place of the chosen one.
+    """Return the diagnosis with another fitted set of terms, given by its fit, in place of the chosen one.
 
-    Terms of the old set are withdrawn, unless the new one is only a simpler explanation.
+    Terms of the old set are withdrawn, unless the new set is the simplest explanation.
     """
     gone = () if d.selection.simplest else tuple(key for key in d.named if key not in fit.problem.active)
     return _refit(replace(d, selection=replace(d.selection, chosen=fit), learned=None), gone, rng)
 
 
 def _refit(d: SearchResult, gone: tuple[str, ...], rng: np.random.Generator) -> SearchResult:
-    """Return a diagnosis of which the selection or the learned curves changed, fitted and located anew."""
+    """Return a diagnosis with a changed selection or changed curves, refitted and located again."""
     fit = d.learned.fit if d.learned else d.selection.chosen
     after = polish_fit(fit) if fit.problem.active else d.before
     learned = replace(d.learned, fit=after) if d.learned else None
     bare = replace(d, after=after, learned=learned, left=None, law=_EMPTY, laws={}, law_curves={})
-    told = replace(bare, random_gain=compute_random_force_gain(after), withdrawn=(*d.withdrawn, *gone))
-    return _locate_forces(told, rng)
+    refitted = replace(bare, random_gain=compute_random_force_gain(after), withdrawn=(*d.withdrawn, *gone))
+    return _locate_forces(refitted, rng)
 
 
 def _drop_term(selection: Selection, gone: str) -> Selection:
-    """Return the selection without a term of the chosen set: the rest of it, or a set that is decisively better.
+    """Return the selection without a term of the chosen set: its other terms, or a set that is decisively better.
 
-    A term may have taken the place of a simpler one: friction with a wave that held-out data refute is friction all
-    the same.
+    The dropped term may have replaced a simpler one: if friction with a wave over position is refuted, plain friction
+    may be right.
     """
     chosen, fitted_sets = selection.chosen, selection.fitted_sets
     limits, terms = chosen.problem.settings, chosen.problem.active - {gone}
@@ -272,19 +272,18 @@ def _drop_term(selection: Selection, gone: str) -> Selection:
 
 
 def _check_moving(held: Sequence[Observation]) -> None:
-    """Refuse held-out data in which a sensor shows the same all the time: errors are told over its deviation."""
+    """Refuse held-out data with a constant sensor: errors are divided by the standard deviation of its readings."""
     for i, sensor in enumerate(held[0].sensors):
         if not np.nanstd(np.concatenate([o.readings[:, i] for o in held])) > 0.0:
             names = ", ".join(o.name for o in held)
             raise DataError(
-                f"{names}: the sensor {sensor.label!r} shows one value all through what is held out: nothing can be"
-                " predicted there; end the recording with t_end where the motion ends, or name a recording that moves"
-                " last"
+                f"{names}: the sensor {sensor.label!r} is constant in the held-out part, so predictions cannot be"
+                " compared; end the recording with t_end where the motion ends, or put a recording with motion last"
             )
 
 
 def find_quantised(fit: Fit) -> dict[str, tuple[Values, Values]]:
-    """Return the sensor terms that the stored values betray and that make up a share of the noise, by key."""
+    """Return the sensor terms that are visible in the stored values and are a share of the noise, by key."""
     observations, found = fit.problem.observations, {}
     for key, term in fit.problem.system.channel_terms.items():
         if not isinstance(term, SensorTerm) or not term.marked:
@@ -304,7 +303,7 @@ _NOT_LOCATED = ForceLocation(LatentForce(_EMPTY, _EMPTY, np.zeros((0, 2)), 0.0, 
 
 
 def _locate_forces(bare: SearchResult, rng: np.random.Generator) -> SearchResult:
-    """Return the diagnosis with the missing force located: found terms taken out first, then with them."""
+    """Return the diagnosis with the missing force located, without the found terms and with them."""
     after, shown = bare.after, bare.shown
     honest = choose_steps(after.problem, after.theta).on((shown,))
     model, plays, limits = after.problem.system.model, list_half_gaps(honest, after.theta), bare.settings.locate
@@ -329,7 +328,7 @@ def _locate_forces(bare: SearchResult, rng: np.random.Generator) -> SearchResult
 
 
 def remove_terms(problem: Problem, theta: Array) -> tuple[Problem, Array]:
-    """Return a problem with its terms switched off and all else as it is, and its coordinates."""
+    """Return a problem without its terms and otherwise unchanged, and its coordinates."""
     kept = [i for i, f in enumerate(problem.free) if "." not in f.parameter]
     return replace(problem, free=tuple(problem.free[i] for i in kept), active=frozenset()), theta[kept]
 
@@ -350,14 +349,14 @@ def locate(
     odds: Callable[[], Mapping[str, LikelihoodRatio]] = dict,
     limits: LocateSettings = DEFAULT.locate,
 ) -> ForceLocation:
-    """Return where a missing force lives; `plays` are the half gaps by place, `rng` draws surrogates of the force.
+    """Return the location of a missing force; `plays` are the half gaps by place, `rng` draws surrogates.
 
     `odds` returns log likelihood ratios by covariate, as `compute_log_ratios` does.
     """
     if not np.all(np.abs(missing.force) < LARGEST):
         raise DataError(
-            f"{observation.name}: the model cannot follow this recording at all: check the units and columns of what"
-            " went in and came out, the known values and the priors"
+            f"{observation.name}: the model cannot follow this recording: check the units and columns of inputs and"
+            " sensors, the known values and the priors"
         )
     table = list_covariates(model, observation, missing)
     asked = {name: Covariate((values,)) for name, values in table.items()} | list_further_covariates(
@@ -387,15 +386,15 @@ def compute_force(fit: Fit, observation: Observation, states: Array, key: str) -
 
 
 def _find_place(system: System, key: str) -> Interface:
-    """Return the place where a term acts; what acts beside the machine is felt at the first one."""
+    """Return the place where a term acts; for terms of channels this is the first place."""
     forces = [term for known, term in system.forces if known == key and term.acts == "motion"]
     found = [place_of(system.model, term) for term in forces]
     return found[0] if found else system.model.interfaces[0]
 
 
 def list_physical_keys(fit: Fit) -> list[str]:
-    """Return the keys of the physical parameters of a fit, noise levels and coefficients of learned curves left out."""
+    """Return the keys of the physical parameters of a fit, without noise levels and coefficients of curves."""
     system = fit.problem.system
-    curves = tuple(f"{k}." for k, t in zip(system.keys, system.terms, strict=True) if isinstance(t, LearnedCurve))
+    curves = tuple(f"{k}." for k, t in zip(system.keys, system.terms, strict=True) if isinstance(t, LearnedTerm))
     physical = [f.key for f in fit.problem.free if f.level not in LEVELS]
     return [k for k in physical if not (curves and k.startswith(curves))]

@@ -1,4 +1,4 @@
-"""What several recordings share and what is each one's own, as `diagnosis.json` says it."""
+"""The comparison of parameters between several recordings, as `diagnosis.json` states it."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ from lostmotion.results.sharing import (
 )
 
 UNNAMED = ("unknown", "random_force")
-"""Entries of what no term explains: what differs from recording to recording may be all there is to it."""
+"""Entries of forces that no term explains: differences between recordings may be their cause."""
 
 
 def add_sharing(d: SearchResult, found: Sequence[Mechanism]) -> tuple[tuple[Mechanism, ...], Sharing | None]:
-    """Return `found` with what recordings share of each term, and `sharing`; None where there is one recording.
+    """Return `found` with the comparison of each term between recordings, and `sharing`; None for a single recording.
 
-    A term gets `by_recording` and `shared`; one that holds neither with one value nor with a power of the level gets a
-    sentence more in `doubts`. Only recordings that were fitted are compared.
+    A term gets `by_recording` and `shared`. If its values are neither equal nor a power of the level, it gets a
+    warning in `doubts`. Only fitted recordings are compared.
     """
     if d.shown is not d.held[0]:
         return tuple(found), None
@@ -40,15 +40,17 @@ def add_sharing(d: SearchResult, found: Sequence[Mechanism]) -> tuple[tuple[Mech
         return tuple(found), _describe_single(len(d.train) + len(d.held))
     problem = d.after.problem
     terms = dict(enumerate(d.named))
-    told = [_extend_entry(entry, terms[i], problem, sharing) if i in terms else entry for i, entry in enumerate(found)]
+    entries = [
+        _extend_entry(entry, terms[i], problem, sharing) if i in terms else entry for i, entry in enumerate(found)
+    ]
     if sharing.released:
         doubt = _describe_released(sharing, problem)
-        told = [replace(e, doubts=(*e.doubts, doubt)) if e.mechanism in UNNAMED else e for e in told]
-    return tuple(told), make_sharing_entry(sharing, problem)
+        entries = [replace(e, doubts=(*e.doubts, doubt)) if e.mechanism in UNNAMED else e for e in entries]
+    return tuple(entries), make_sharing_entry(sharing, problem)
 
 
 def _describe_single(many: int) -> Sharing:
-    says = f"Of {many} recordings one was fitted and the rest is held out, so no values can be compared: record more."
+    says = f"One of {many} recordings was fitted and the rest is held out, so no values can be compared: record more."
     return Sharing(parameters={}, says=(says,))
 
 
@@ -58,10 +60,10 @@ def make_sharing_entry(sharing: SharedValues, problem: Problem) -> Sharing:
     names = {key: name_parameter(key, problem) for key in sharing.parameters}
     sentences = {key: describe_parameter(one, names, sharing) for key, one in sharing.parameters.items()}
     kept = [names[key] for key, one in sharing.parameters.items() if one.holds]
-    opening = [f"One value holds in all {len(sharing.recordings)} recordings that were fitted: {', '.join(kept)}."]
+    opening = [f"Equal in all {len(sharing.recordings)} fitted recordings: {', '.join(kept)}."]
     differ = [sentences[key] for key, one in sharing.parameters.items() if not one.holds]
     released = [_describe_released(sharing, problem)] if sharing.released else []
-    failed = [f"No fit came out with {name_parameter(key, problem)} of each recording's own." for key in sharing.failed]
+    failed = [f"The fit with a {name_parameter(key, problem)} per recording failed." for key in sharing.failed]
     compared = {
         key: SharedParameter(_list_own_values(one, sharing), _make_comparison(one, sentences[key], sharing))
         for key, one in sharing.parameters.items()
@@ -82,10 +84,10 @@ def _list_own_values(one: ComparedParameter, sharing: SharedValues) -> tuple[Own
 
 
 def _describe_released(sharing: SharedValues, problem: Problem) -> str:
-    """Return what values of each recording's own are worth, and whether a learned curve is needed beside them."""
+    """Return the gain in log evidence of one value per recording, and whether a learned curve is still needed."""
     others = " and ".join(name_parameter(key, problem) for key in sharing.released)
-    curve = ", and no learned curve is needed beside them" if sharing.dropped else ""
-    return f"Values of each recording's own for {others} raise the log evidence by {figures(sharing.gain)}{curve}."
+    curve = ", and no learned curve is needed in addition" if sharing.dropped else ""
+    return f"One value of {others} per recording raises the log evidence by {figures(sharing.gain)}{curve}."
 
 
 def _make_comparison(one: ComparedParameter, said: str, sharing: SharedValues) -> FullComparison:
@@ -94,7 +96,7 @@ def _make_comparison(one: ComparedParameter, said: str, sharing: SharedValues) -
 
 
 def _extend_entry(entry: Mechanism, key: str, problem: Problem, sharing: SharedValues) -> Mechanism:
-    """Return the entry of a term with what recordings share of it; as it is where none of its values was compared."""
+    """Return the entry of a term with the comparison between recordings; unchanged if no value was compared."""
     slots = {s.key: s.param.name for s in find_term(problem, key)[1] if s.key in sharing.parameters}
     if not slots:
         return entry
@@ -105,12 +107,12 @@ def _extend_entry(entry: Mechanism, key: str, problem: Problem, sharing: SharedV
         for i, name in enumerate(sharing.recordings)
     )
     worst = min(own.values(), key=lambda one: one.p)
-    told = [describe_parameter(one, names, sharing) for one in own.values() if not one.holds] or [
+    sentences = [describe_parameter(one, names, sharing) for one in own.values() if not one.holds] or [
         describe_parameter(worst, names, sharing)
     ]
     doubts = [describe_parameter(one, names, sharing) for one in own.values() if not one.told]
     doubts += [_warn_of_moved_value(one, entry.parameters[slots[slot]], names, sharing) for slot, one in own.items()]
-    shared = Comparison(worst.holds, worst.p, " ".join(told))
+    shared = Comparison(worst.holds, worst.p, " ".join(sentences))
     every = (*entry.doubts, *(doubt for doubt in doubts if doubt))
     return replace(entry, doubts=every, by_recording=by_recording, shared=shared)
 
@@ -118,7 +120,7 @@ def _extend_entry(entry: Mechanism, key: str, problem: Problem, sharing: SharedV
 def _warn_of_moved_value(
     one: ComparedParameter, before: Interval, names: Mapping[str, str], sharing: SharedValues
 ) -> str:
-    """Return that a value which holds is another one once what differs is released; empty where it is not."""
+    """Return a warning if a common value changes when parameters that differ are released; else an empty string."""
     if math.isnan(before.low):
         return ""
     apart = before.low > one.common.high or before.high < one.common.low
@@ -126,13 +128,13 @@ def _warn_of_moved_value(
         return ""
     others = " and ".join(names[key] for key in sharing.released)
     return (
-        f"{sentence(names[one.key])} is {one.common} where {others} may differ from recording to recording, and"
-        f" {figures(before.median)} where not."
+        f"{sentence(names[one.key])} is {one.common} if {others} may differ between recordings, and"
+        f" {figures(before.median)} if not."
     )
 
 
 def name_parameter(key: str, problem: Problem) -> str:
-    """Return a parameter as people say it: `c`, or `force of Coulomb friction` for a parameter of a term."""
+    """Return a parameter in words: `c`, or `force of Coulomb friction` for a parameter of a term."""
     term, _, own = key.rpartition(".")
     if not term:
         return key
@@ -142,10 +144,10 @@ def name_parameter(key: str, problem: Problem) -> str:
 
 
 def describe_parameter(one: ComparedParameter, names: Mapping[str, str], sharing: SharedValues) -> str:
-    """Return what is said of one parameter: that one value holds, or how values differ."""
+    """Return a sentence on one parameter: that its values are equal, or how they differ."""
     name, many = sentence(names[one.key]) if "." in one.key else one.key, len(sharing.recordings)
     if one.holds:
-        return f"{name} holds with one value in all {many} recordings ({chance(one.p)})."
+        return f"{name} has the same value in all {many} recordings ({chance(one.p)})."
     return f"{_describe_difference(one, name, sharing)}.{_describe_alternatives(one, names)}"
 
 
@@ -155,24 +157,22 @@ def _describe_difference(one: ComparedParameter, name: str, sharing: SharedValue
     if one.power is not None:
         exponent = f"{figures(one.power.exponent)} +- {figures(one.power.error, 1)}"
         return (
-            f"{name} goes with the level of the {sharing.levels.of}, to the power {exponent}: from"
-            f" {_format_value(low)} to"
-            f" {_format_value(high)} ({chance(one.p)} for one value)"
+            f"{name} is proportional to a power of the level of the {sharing.levels.of}, with the exponent {exponent}:"
+            f" from {_format_value(low)} to {_format_value(high)} ({chance(one.p)} for a common value)"
         )
     if one.odd is not None:
         rest = [value for i, value in enumerate(one.values) if i != one.odd]
         ends = sorted(rest, key=lambda value: value.median)
         return (
             f"{name} is {_format_value(one.values[one.odd])} in {sharing.recordings[one.odd]} and"
-            f" {figures(ends[0].median)} to"
-            f" {_format_value(ends[-1])} in the others ({chance(one.p)} for one value)"
+            f" {figures(ends[0].median)} to {_format_value(ends[-1])} in the others ({chance(one.p)} for a common"
+            " value)"
         )
     where = [sharing.recordings[medians.index(value.median)] for value in (low, high)]
-    level = "" if len(medians) < 3 else f", and does not go with the level of the {sharing.levels.of}"
+    level = "" if len(medians) < 3 else f", independently of the level of the {sharing.levels.of}"
     return (
-        f"{name} differs from recording to recording, from {_format_value(low)} ({where[0]}) to {_format_value(high)}"
-        f" ({where[1]};"
-        f" {chance(one.p)} for one value){level}"
+        f"{name} differs between recordings, from {_format_value(low)} ({where[0]}) to {_format_value(high)}"
+        f" ({where[1]}; {chance(one.p)} for a common value){level}"
     )
 
 
@@ -180,7 +180,7 @@ def _describe_alternatives(one: ComparedParameter, names: Mapping[str, str]) -> 
     if not one.instead:
         return ""
     others = " or ".join(names[key] for key in one.instead)
-    return f" Values of each recording's own for {others} explain as much."
+    return f" One value of {others} per recording explains as much."
 
 
 def _format_value(value: Interval) -> str:

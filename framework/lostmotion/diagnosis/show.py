@@ -1,4 +1,4 @@
-"""Before, after and the noise floor: every number that shows whether a model behaves as its machine does."""
+"""Measures that compare the behaviour of both models with the recording: before, after, and the noise floor."""
 
 from __future__ import annotations
 
@@ -39,11 +39,11 @@ from lostmotion.results.behaviour import (
 from lostmotion.signals import checked
 
 PAIRS = 250_000
-"""Pairs of points for a dimension: a few tenths of a second for 20,000 samples."""
+"""Pairs of points for a dimension; 20,000 samples take a few tenths of a second."""
 LONGEST = 50_000
-"""A dimension is estimated on so many samples at most: those at the beginning."""
+"""A dimension is estimated from at most this number of samples, those at the beginning."""
 STUDENT = 2.262
-"""What a mean of ten blocks may be off, in standard errors, at 95 %."""
+"""The half width of the 95 % interval of a mean of ten blocks, in standard errors (Student's t)."""
 FEWEST = 50
 UNITS = MeasureTexts(
     heldout_log_score="1",
@@ -55,12 +55,12 @@ UNITS = MeasureTexts(
     whiteness="1",
 )
 """Units of the measures; that of the valid prediction time is the unit of the horizon."""
-PERIODIC = "The motion repeats itself: it is a closed line, and no dimension is estimated."
+PERIODIC = "The motion is periodic: its orbit is a closed curve, and no dimension is estimated."
 
 
 @dataclass(frozen=True)
 class ShownMotions:
-    """A diagnosed outcome, the motions (samples, n) of recording and models, all recordings, and the plugins."""
+    """The outcome of a diagnosis, the motions (samples, n) of recording and models, all recordings, and the plugins."""
 
     outcome: Outcome
     motions: Mapping[str, Array]
@@ -69,7 +69,7 @@ class ShownMotions:
 
 
 def measure_behaviour(seen: ShownMotions, rng: np.random.Generator) -> Behaviour:
-    """Return the measures of the motion: before, after where something was found, and of noise alone."""
+    """Return the measures of the motion: of the nominal model, of the augmented model if there is one, and of noise."""
     outcome, d = seen.outcome, seen.outcome.diagnosis
     both = {"before": (outcome.before, d.before)}
     if d.found:
@@ -118,7 +118,7 @@ def _describe_model(
 
 
 def _refuse_distances(names: Iterable[str]) -> dict[str, SectionDistance]:
-    """Return that motions which die away have no attractor to compare."""
+    """Return distances without a value: a motion that decays has no attractor."""
     return dict.fromkeys((*names, "noise_floor"), SectionDistance(math.nan, math.nan, TRANSIENT))
 
 
@@ -131,7 +131,7 @@ def _make_distance(apart: SectionDistance) -> Distance:
 
 
 def _make_exponent(prediction: Prediction) -> ExponentInterval:
-    """Return the exponent with an interval from the scatter over blocks of the recording."""
+    """Return the largest Lyapunov exponent with an interval from the scatter over blocks of the recording."""
     value, blocks = prediction.exponent, average_exponent_blocks(prediction.rates)
     if not len(blocks) or not math.isfinite(value):
         return ExponentInterval(value, math.nan, math.nan, "too_short")
@@ -144,7 +144,7 @@ def _make_dimension(estimate: Estimate) -> DimensionInterval:
 
 
 def _estimate_dimensions(seen: ShownMotions, rng: np.random.Generator) -> dict[str, Estimate]:
-    """Return the correlation dimension of the recording, and of the free run of each model embedded as that is."""
+    """Return the correlation dimensions of the recording and of free runs of the models, with the same embedding."""
     outcome, d = seen.outcome, seen.outcome.diagnosis
     observation, period = d.shown.part(0, min(d.shown.samples, LONGEST)), d.shown.period
     seconds = period * observation.dt if period else None
@@ -161,7 +161,7 @@ def _estimate_dimensions(seen: ShownMotions, rng: np.random.Generator) -> dict[s
     exponents = {"before": outcome.before.exponent, "after": outcome.after.exponent}
     for name, fit in fits.items():
         if not exponents[name] > 0.0:
-            found[name] = Estimate.refused("regular", "Near runs of the model do not part: no dimension is estimated.")
+            found[name] = Estimate.refused("regular", "The model is not chaotic: no dimension is estimated.")
             continue
         found[name] = _estimate_of_model(fit, observation, seen.motions[name][:LONGEST], (recorded, seen.registry, rng))
     return found
@@ -181,7 +181,7 @@ def _estimate_of_model(
 
 
 def _estimate_dimension(series: Series, registry: Registry, rng: np.random.Generator, noise: float) -> Estimate:
-    """Return the dimension of a series with noise (share of its deviation); of one that repeats itself, a refusal."""
+    """Return the dimension of a series with noise (share of its deviation); a refusal if the series is periodic."""
     if series.period and series.n * series.dt < FEWEST * series.period:
         return Estimate.refused("too_short", f"Fewer than {FEWEST} drive periods are too few for a dimension.")
     if series.period and find_return(series, series.period, noise)[0]:

@@ -1,10 +1,11 @@
-"""The sentences beside the numbers of a `show`."""
+"""Sentences on the measures of `show`."""
 
 from __future__ import annotations
 
 import math
 
 from lostmotion.report.words import span
+from lostmotion.results import rounded
 from lostmotion.results.behaviour import (
     DimensionInterval,
     Distance,
@@ -18,7 +19,7 @@ from lostmotion.settings import DEFAULT
 
 LUCK, DOUBTFUL = 0.01, 0.05
 TRANSIENT = "transient"
-"""The status of a measure of attractors where the motion dies away: nothing is said of it."""
+"""The status of a measure of attractors if the motion decays; it has no sentence."""
 
 
 def describe_behaviour(
@@ -30,9 +31,9 @@ def describe_behaviour(
     driven: bool = True,
     white: float = DEFAULT.name.white,
 ) -> MeasureTexts:
-    """Return a sentence on each measure of the last model; `driven` says whether an input was recorded.
+    """Return a sentence on each measure of the last model; `driven` states whether an input was recorded.
 
-    A p-value of whiteness below `white` is told as a finding, and below five times that as a doubt.
+    A p-value of whiteness below `white` is reported as a finding, and below five times that as a possibility.
     """
     return MeasureTexts(
         heldout_log_score=_describe_score(last, floor),
@@ -49,50 +50,49 @@ def _describe_score(last: ModelBehaviour, floor: NoiseFloor) -> str:
     short = floor.heldout_log_score - last.heldout_log_score
     opening = "Log density of held-out samples, one step ahead"
     if short < 0.02:
-        return f"{opening}: as high as the last model itself expects."
-    return f"{opening}: {short:.2g} per sample below what the last model itself expects."
+        return f"{opening}: equal to the value that the last model predicts."
+    return f"{opening}: {rounded(short)} per sample below the value that the last model predicts."
 
 
 def _describe_error(last: ModelBehaviour, floor: NoiseFloor, horizon: HorizonLength) -> str:
     ratio = last.free_run_error / max(floor.free_run_error, 1e-300)
-    opening = f"Free runs over {span(horizon.value, horizon.unit)}, over the deviation of the response"
+    length = span(horizon.value, horizon.unit)
+    opening = f"Error of free runs over {length}, relative to the standard deviation of the response"
     if ratio < 1.2:
         return f"{opening}: no more than the measurement noise."
-    return f"{opening}: {ratio:.2g} times the measurement noise."
+    return f"{opening}: {rounded(ratio)} times the measurement noise."
 
 
 def _describe_valid_time(last: ModelBehaviour) -> str:
-    opening = "How long a free run errs by less than 40 % of the motion, median over starts"
+    opening = "Time during which the error of a free run is below 40 % of the motion, median over starts"
     if last.valid_prediction_time.or_longer:
-        return f"{opening}: longer than it was followed."
+        return f"{opening}: longer than the runs that were computed."
     return f"{opening}."
 
 
 def _describe_distance(entry: Distance, strobed: bool) -> str:
-    where = "Poincaré sections once each drive period" if strobed else "looks at position and velocity"
+    where = "Poincaré sections (one point per drive period)" if strobed else "points of position and velocity"
     opening = f"Energy distance between {where} of recording and free run"
     if entry.status == TRANSIENT:
         return ""
     if entry.status == "too_short":
-        return f"{opening}: the recording holds too few points."
+        return f"{opening}: the recording has too few points."
     if entry.status != "ok":
         return f"{opening}: the free run diverges."
-    closing = "the floor is that between the halves of the recording"
+    closing = "the noise floor is the distance between the halves of the recording"
     if entry.p < LUCK:
-        return f"{opening}: farther apart than chance would have it (p = {entry.p:.2g}); {closing}."
+        return f"{opening}: the difference is significant (p = {rounded(entry.p)}); {closing}."
     if entry.p < DOUBTFUL:
-        return f"{opening}: perhaps farther apart than chance would have it (p = {entry.p:.2g}); {closing}."
-    return f"{opening}: no farther apart than chance would have it (p = {entry.p:.2g}); {closing}."
+        return f"{opening}: the difference may be significant (p = {rounded(entry.p)}); {closing}."
+    return f"{opening}: the difference is not significant (p = {rounded(entry.p)}); {closing}."
 
 
 def _describe_exponent(entry: ExponentInterval, *, driven: bool) -> str:
-    opening = f"Of the model {'under the recorded drive' if driven else 'left to itself'}"
+    opening = f"Of the model {'under the recorded drive' if driven else 'without a drive'}"
     if math.isnan(entry.low):
         return f"{opening}; the recording is too short for an interval."
-    kind = (
-        "near runs part: chaos" if entry.low > 0.0 else "near runs close up" if entry.high < 0.0 else "its sign is open"
-    )
-    return f"{opening}, with the scatter over ten blocks: {kind} ({entry.value:.3g} 1/s)."
+    kind = "positive, chaos" if entry.low > 0.0 else "negative, no chaos" if entry.high < 0.0 else "its sign is open"
+    return f"{opening}, with the scatter over ten blocks: {kind} ({rounded(entry.value, 3)} 1/s)."
 
 
 def _describe_dimension(recorded: DimensionInterval, model: DimensionInterval) -> str:
@@ -103,12 +103,12 @@ def _describe_dimension(recorded: DimensionInterval, model: DimensionInterval) -
         if entry.status not in ("ok", "uncertain"):
             return f"{opening}; {whose}: {entry.says}"
     meet = recorded.low <= model.high and model.low <= recorded.high
-    return f"{opening}: their intervals {'meet' if meet else 'do not meet'}."
+    return f"{opening}: their intervals {'overlap' if meet else 'do not overlap'}."
 
 
 def _describe_whiteness(p: float, certain: float) -> str:
     if p < certain:
-        return "Ljung-Box test of one-step errors: they still hold something that can be predicted."
+        return "Ljung-Box test of one-step errors: they are autocorrelated, so a part of them can be predicted."
     if p < 5.0 * certain:
-        return f"Ljung-Box test of one-step errors: they may hold something that can be predicted (p = {p:.2g})."
-    return "Ljung-Box test of one-step errors: they cannot be told from white noise."
+        return f"Ljung-Box test of one-step errors: they may be autocorrelated (p = {rounded(p)})."
+    return "Ljung-Box test of one-step errors: they are not distinguishable from white noise."

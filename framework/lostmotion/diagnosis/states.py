@@ -1,4 +1,4 @@
-"""How sure a diagnosis is of what it found, in three words: named, likely, open."""
+"""The confidence level of each finding: named, likely or open, with the warnings that lower it."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from lostmotion.inference.natural import find_term
 from lostmotion.inference.penalties import are_related
 from lostmotion.quantities import TIME
 from lostmotion.report.words import to_words
+from lostmotion.results import percent, rounded
 from lostmotion.results.diagnosis import Mechanism, OpenTerm
 from lostmotion.settings import DEFAULT, NameSettings
 
@@ -22,12 +23,12 @@ NAMED, LIKELY, OPEN = "named", "likely", "open"
 
 
 def is_valid(after: Prediction, floor: float, limits: NameSettings = DEFAULT.name) -> bool:
-    """Return whether a model predicts held-out data, where `floor` is the share of the response that is noise."""
+    """Return whether a model predicts held-out data; `floor` is the noise as a share of the response."""
     return math.isfinite(after.nrmse) and not after.nrmse > max(limits.error, limits.error_noise * floor)
 
 
 def compute_probability(d: SearchResult, key: str) -> float:
-    """Return the probability that a term is at work, or one that no recording of this kind can tell from it."""
+    """Return the posterior probability of a term, or of one that this kind of recording cannot distinguish from it."""
     term, _ = find_term(d.after.problem, key)
     kin = [
         k
@@ -42,7 +43,7 @@ def _are_indistinguishable(term: Term, other: Term) -> bool:
 
 
 def list_warnings(d: SearchResult, key: str) -> list[str]:
-    """Return why a term that was found is no more than likely, in sentences; none where it is named."""
+    """Return the warnings on a found term, in sentences; a term without warnings is named."""
     term, _ = find_term(d.after.problem, key)
     imitates = term.unlikely > 0.0 or term.acts != "motion"
     steady = warn_of_moved_amplitudes(d, key) if imitates else ()
@@ -59,21 +60,22 @@ def _warn_of_probability(d: SearchResult, key: str) -> Iterator[str]:
     p = compute_probability(d, key)
     if d.selection.simplest:
         yield (
-            "It explains the fitted data better than any learned curve, and held-out data as well; but a small smooth"
-            f" force without a name explains about as much, so that its probability is {p:.2g}."
+            "It explains the fitted data better than any learned curve and predicts held-out data as well as one; but a"
+            f" small generic smooth force explains about as much, so its probability is {rounded(p)}."
         )
         return
     if p > d.settings.name.sure:
         return
     others = _list_alternatives(d, key)
-    rivals = f"; its rivals are {', '.join(others)}" if others else "; its rival is a smooth force without a name"
-    yield f"Its probability is {p:.2g}{rivals}."
+    verb = "alternatives are" if len(others) > 1 else "alternative is"
+    yield f"Its probability is {rounded(p)}; the {verb} {', '.join(others) or 'a generic smooth force'}."
 
 
 def _warn_of_equal_terms(d: SearchResult, key: str) -> Iterator[str]:
-    """Yield a sentence on other terms that explain the fitted data as well, without the term and without a relative.
+    """Yield a warning if other, unrelated terms explain the fitted data as well without this one.
 
-    Such a set is behind by the penalties of its terms, or by the comparison with a smooth force, not by the data.
+    Such a set is less probable because of its prior penalties or the comparison with a smooth force, not because of
+    the data.
     """
     chosen, problem = d.selection.chosen, d.before.problem
     terms = chosen.problem.active
@@ -93,45 +95,44 @@ def _warn_of_equal_terms(d: SearchResult, key: str) -> Iterator[str]:
             )
             yield (
                 f"{names} {'explain' if fresh[1:] else 'explains'} the fitted data as well: only the prior odds of the"
-                " terms, or the comparison with a smooth force, decide against that."
+                " terms, or the comparison with a smooth force, decide against this alternative."
             )
             return
 
 
 def _warn_of_heldout_decision(d: SearchResult, key: str) -> Iterator[str]:
-    """Yield a sentence where held-out data had to decide between a term and a smooth force."""
+    """Yield a warning if held-out data decided between the term and a generic smooth force."""
     chosen = d.selection.chosen.problem.active
     if chosen in d.selection.heldout_gains and key in d.selection.tied:
         yield (
-            "On the data that were fitted a small smooth force without a name explains about as much; held-out data"
-            f" decide, by {d.selection.heldout_gains[chosen]:.2g} in log score."
+            "On the fitted data a small generic smooth force explains about as much as this term; held-out data decide"
+            f" for the term, by {rounded(d.selection.heldout_gains[chosen])} in log score."
         )
 
 
 def _warn_of_rest(d: SearchResult, key: str) -> Iterator[str]:
-    """Yield a sentence where much has no name beside a term: as a learned curve, or as a random force."""
+    """Yield a warning if much is unexplained beside a term: a large learned curve or a large random force."""
     limits = d.settings.name
     if d.learned and compute_gain(d, key) < limits.beside * d.learned.gain:
         yield (
-            f"It wins {compute_gain(d, key):.3g} in log evidence, and what has no name beside it wins"
-            f" {d.learned.gain:.3g}:"
-            " it may be a part of that."
+            f"It adds {rounded(compute_gain(d, key), 3)} in log evidence, and the unexplained force beside it adds"
+            f" {rounded(d.learned.gain, 3)}: the term may be a part of that force."
         )
     elif d.unexplained and d.left:
         share = float(np.std(d.left.missing.force) / np.std(d.located.missing.force))
         if share > limits.remains:
-            yield f"Of the force that was missing, {share:.0%} is still missing with it."
+            yield f"With it, {percent(share)} of the missing force is still missing."
 
 
 def compute_gain(d: SearchResult, key: str) -> float:
-    """Return the log weight that a found term adds to the other found ones; to the nominal model where no one knows."""
+    """Return the log weight that a found term adds to the other found terms, or else to the nominal model."""
     fitted_sets, terms = d.selection.fitted_sets, frozenset(d.named)
     here, less = fitted_sets.get(terms), fitted_sets.get(terms - {key})
     return here.weight - less.weight if here and less else d.selection.gain(key)
 
 
 def _list_alternatives(d: SearchResult, key: str) -> list[str]:
-    """Return the terms of other sets without this one that have a share of the posterior, in words."""
+    """Return the names of the terms of alternative sets without this term that have a share of the posterior."""
     found = d.selection.chosen.problem.active
     sets = [terms for terms, p in d.selection.probabilities().items() if key not in terms and p > d.settings.name.rival]
     names = dict.fromkeys(k for terms in sets for k in sorted(terms - found))
@@ -139,7 +140,7 @@ def _list_alternatives(d: SearchResult, key: str) -> list[str]:
 
 
 def warn_of_moved_amplitudes(d: SearchResult, key: str) -> Iterator[str]:
-    """Yield a sentence for each level of another found term that moves far when this one comes in."""
+    """Yield a warning for each amplitude of another found term that changes strongly when this one is added."""
     chosen = d.selection.chosen
     without = d.selection.fitted_sets.get(chosen.problem.active - {key})
     if without is None:
@@ -152,19 +153,21 @@ def warn_of_moved_amplitudes(d: SearchResult, key: str) -> Iterator[str]:
         old, new = without.fit.values[f.key], chosen.values[f.key]
         if abs(new - old) > max(limits.moved * sds[f.key], limits.moved_share * abs(old)):
             yield (
-                f"{_name_term(d, owner)} has a {name} of {old:.3g} {f.unit} without {to_words(key.partition('@')[0])}"
-                " and of"
-                f" {new:.3g} {f.unit} with it: a level that moves so far was not known, or the further term is wrong."
+                f"The {name} of {to_words(owner.partition('@')[0])} is {rounded(old, 3)} {f.unit} without"
+                f" {to_words(key.partition('@')[0])} and {rounded(new, 3)} {f.unit} with it: either"
+                " it was not identified, or"
+                " the further term is wrong."
             )
 
 
 def _name_term(d: SearchResult, key: str) -> str:
+    """Return the name of a term in words, capitalised."""
     name = to_words(find_term(d.before.problem, key)[0].name)
     return name[:1].upper() + name[1:]
 
 
 def _warn_of_long_delay(d: SearchResult, key: str) -> Iterator[str]:
-    """Yield a sentence on a delay that is longer than acquisition systems have, or that one frequency cannot show."""
+    """Yield a warning if a delay is longer than acquisition systems usually have."""
     term, slots = find_term(d.after.problem, key)
     late = [s for s in slots if s.param.dimension == TIME and s.key in d.after.values]
     if term.acts == "motion" or not late:
@@ -172,11 +175,14 @@ def _warn_of_long_delay(d: SearchResult, key: str) -> Iterator[str]:
     period = 2.0 * math.pi * d.after.problem.scales.time
     share = abs(d.after.values[late[0].key]) / period
     if share > d.settings.name.late:
-        yield f"A delay of {share:.0%} of a natural period is unusual: measure the time between the channels by itself."
+        yield (
+            f"A delay of {percent(share)} of a natural period is unusual: measure the delay between"
+            " the channels directly."
+        )
 
 
 def _warn_of_early_change(d: SearchResult, key: str) -> Iterator[str]:
-    """Yield a sentence on a change that is over when the recording has hardly begun."""
+    """Yield a warning if a change is complete close to the start of the recording."""
     problem = d.after.problem
     for slot in find_term(problem, key)[1]:
         if not slot.param.lasting or slot.param.dimension != TIME or slot.key not in d.after.values:
@@ -185,33 +191,31 @@ def _warn_of_early_change(d: SearchResult, key: str) -> Iterator[str]:
         share = (d.after.values[slot.key] - float(fitted.time[0])) / (fitted.samples * fitted.dt)
         if share < d.settings.name.early:
             yield (
-                f"The change is over within the first {max(share, 0.0):.1%} of the recording: a known value that is"
-                " wrong from the beginning looks the same."
+                f"The change is complete within the first {percent(max(share, 0.0))} of the"
+                " recording: a wrong known value"
+                " has the same effect."
             )
 
 
 def limit_confidence(entry: Mechanism, sure: float = DEFAULT.name.sure) -> Mechanism:
-    """Return an entry of what was found: with a doubt it is likely, with a probability of `sure` at most."""
+    """Return an entry of `found`; with a warning it is likely, and its probability is at most `sure`."""
     if not entry.doubts or entry.state not in (NAMED, LIKELY):
         return entry
     return replace(entry, state=LIKELY, probability=min(entry.probability, sure))
 
 
 def sort_findings(found: Sequence[Mechanism]) -> tuple[Mechanism, ...]:
-    """Return the entries of what was found, what is named first and what is open last."""
+    """Return the entries of `found` sorted by state: named, likely, open."""
     order = (NAMED, LIKELY, OPEN)
     return tuple(sorted(found, key=lambda entry: order.index(entry.state)))
 
 
 def list_open_terms(d: SearchResult) -> tuple[OpenTerm, ...]:
-    """Return the terms that stay open: they would raise the likelihood, and something speaks against a name.
-
-    What was found and taken back comes first: it came closest.
-    """
+    """Return the open terms: they would raise the likelihood, but a check failed. Withdrawn terms come first."""
     reasons = [
-        (set(d.withdrawn), "held-out data are predicted worse with it, or more force is missing with it"),
-        (d.selection.tied, "a small smooth force that nobody has named explains as much"),
-        (d.selection.declined, "what is left over has a memory, so that this gain is not believed"),
+        (set(d.withdrawn), "with it, held-out data are predicted worse, or the missing force is larger"),
+        (d.selection.tied, "a small generic smooth force explains as much"),
+        (d.selection.declined, "the residuals are autocorrelated, so this gain is not reliable"),
     ]
     rows: dict[str, OpenTerm] = {}
     for keys, why in reasons:

@@ -1,4 +1,4 @@
-"""The entry of what no mechanism explains: what it depends on, the curve that was learned, a formula as a proposal."""
+"""The entry of a force that no mechanism explains: its covariates, the learned curve, and a proposed formula."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from lostmotion.inference.surfaces import OverHistory, Surface
 from lostmotion.inference.unexplained import UnknownForce
 from lostmotion.quantities import LENGTH, NUMBER, SPEED, TIME, Dimension
 from lostmotion.report.words import to_words
-from lostmotion.results import Interval
+from lostmotion.results import Interval, percent, rounded
 from lostmotion.results.diagnosis import LearnedCurve, LookAlike, Mechanism, ProposedFormula
 from lostmotion.results.mismatch import ForceDependence
 
@@ -36,16 +36,16 @@ OVER: dict[str, tuple[str, Dimension]] = {
     "phase": ("phase", NUMBER),
     "history": ("z", LENGTH),
 }
-"""Symbol and dimension of what a curve runs over; a phase counts in periods of the drive. The history of a motion is
-the stretch of a spring behind a dashpot."""
-NOT_FOUND = "A proposal, not a finding: the curve is what was found, and the formula is only one that fits it."
-NONE_FITS = "No short formula fits the curve: it stands for itself."
+"""Symbol and dimension of each covariate of a curve; the phase is in periods of the drive. The history of a motion is
+the elongation of a spring in series with a dashpot."""
+NOT_FOUND = "A proposal, not a finding: the finding is the curve, and other formulas may fit it as well."
+NONE_FITS = "No short formula fits the curve."
 BAND = 1.96
 RATIO = "the robust likelihood ratio of a curve over each covariate in the filter"
 
 
 def make_learned_entry(d: SearchResult) -> Mechanism:
-    """Return the entry of a mismatch that learned curves explain where the library does not."""
+    """Return the entry of a force that learned curves describe, because no term of the library explains it."""
     unknown = d.learned
     if unknown is None:
         raise ValueError("a diagnosis without learned curves has no entry for them")
@@ -56,7 +56,7 @@ def make_learned_entry(d: SearchResult) -> Mechanism:
     size = Interval(rms, max(rms - BAND * sd, 0.0), rms + BAND * sd, unit)
     depends = list_covariates(unknown.terms)
     share = rms / d.after.problem.scales.force
-    size_of = f"{rms:.3g} {unit} rms, {share:.2%} of {d.yardstick}"
+    size_of = f"{rounded(rms, 3)} {unit} rms, {percent(share)} of {d.yardstick}"
     alike, share_of_likeness, looks = _compare_with_library(d)
     text = f"A force of {size_of}, is missing {_explain_missing_name(d, unknown)}"
     return Mechanism(
@@ -78,7 +78,7 @@ def make_learned_entry(d: SearchResult) -> Mechanism:
 
 
 def _explain_missing_name(d: SearchResult, unknown: UnknownForce) -> str:
-    """Return why a learned force has no name: none explains it, or a smooth force explains as much as the best one."""
+    """Return why a learned force has no name: no term explains it, or a smooth force explains as much as a term."""
     selection = d.selection
     as_good = [key for key in selection.tied if selection.gain(key) > unknown.gain - d.settings.select.decisive]
     if not as_good:
@@ -86,13 +86,13 @@ def _explain_missing_name(d: SearchResult, unknown: UnknownForce) -> str:
     term, _ = find_term(d.before.problem, max(as_good, key=selection.gain))
     place = f" at {term.at}" if len(d.before.problem.system.model.interfaces) > 1 else ""
     name = to_words(term.name) + place
-    return f"that has no certain name, since {name} explains it and a smooth force explains as much"
+    return f"that cannot be named: {name} explains it, but a generic smooth force explains as much"
 
 
 def _compare_with_library(d: SearchResult) -> tuple[tuple[LookAlike, ...], float | None, str]:
-    """Return which terms a learned force looks like along the motion, their share of its variance, and both in words.
+    """Return the terms that a learned force resembles along the motion, their share of its variance, and a clause.
 
-    Where it looks like none there is no share either.
+    The share is None if it resembles none.
     """
     if d.learned is None or d.left is None:
         return (), None, ""
@@ -105,17 +105,17 @@ def _compare_with_library(d: SearchResult) -> tuple[tuple[LookAlike, ...], float
     several = len(problem.system.model.interfaces) > 1
     names = [to_words(term.name) + (f" at {term.at}" if several else "") for term in terms]
     alike = tuple(LookAlike(term.name, term.at) for term in terms)
-    return alike, found.share, f", looks like {' and '.join(names)} ({found.share:.0%} of its variance)"
+    return alike, found.share, f", looks like {' and '.join(names)} ({percent(found.share)} of its variance)"
 
 
 def make_unnamed_entry(d: SearchResult) -> Mechanism:
-    """Return the entry of a force that neither a term nor a curve explains: structured ("unknown") or not."""
+    """Return the entry of a force that neither a term nor a curve explains: "unknown" with structure, else random."""
     located = d.left or d.located
     depends = [] if d.found else located.structure
     rms = float(np.std(located.missing.force))
     unit = _find_unit(d, Dimension(1, 0, 0))
     share = rms / d.after.problem.scales.force
-    size = f"{rms:.3g} {unit} rms, {share:.1%} of {d.yardstick}"
+    size = f"{rounded(rms, 3)} {unit} rms, {percent(share)} of {d.yardstick}"
     on = f"depends on {join_names(depends)}" if depends else "depends on nothing that was recorded"
     return Mechanism(
         mechanism="unknown" if depends else "random_force",
@@ -132,7 +132,7 @@ def _find_unit(d: SearchResult, dimension: Dimension) -> str:
 
 
 def _compute_size(d: SearchResult, keys: Sequence[str], bands: Sequence[Band]) -> tuple[float, float]:
-    """Return the rms of the learned force along the recording, and its standard error: that of the least sure curve."""
+    """Return the rms of the learned force along the recording, and its standard error: the largest of all curves."""
     law = np.sum([d.laws[key] for key in keys], axis=0)
     rms = float(np.sqrt(np.mean(law**2)))
     return rms, rms * max(_compute_relative_error(band) for band in bands)
@@ -146,7 +146,7 @@ def _compute_relative_error(band: Band) -> float:
 
 
 def _make_curve(d: SearchResult, key: str, band: Band) -> LearnedCurve:
-    """Return a learned curve with its band of 95 %; of a surface, tables. One with a memory tells when it forgets."""
+    """Return a learned curve with its 95 % band; a surface as tables, a force with memory with its time constant."""
     term, half = band.term, BAND * band.sd
     curve = LearnedCurve(
         over=term.over,
@@ -177,7 +177,7 @@ def _make_cells(band: Band, values: Array) -> tuple[Cells, ...]:
 
 
 def _mark_visited(d: SearchResult, band: Band, term: Surface) -> Array:
-    """Return which cells (points, points) of the grid of a surface the motion came to, and their neighbours."""
+    """Return which cells (points, points) of the grid of a surface the motion visited, with their neighbours."""
     problem, beside = d.after.problem, np.asarray(band.beside)
     place = place_of(problem.system.model, term)
     seen = np.zeros((len(band.at), len(beside)), dtype=bool)
@@ -194,7 +194,7 @@ def _mark_visited(d: SearchResult, band: Band, term: Surface) -> Array:
 
 
 def _make_proposal(d: SearchResult, bands: list[Band]) -> ProposedFormula:
-    """Return the formula that a sparse regression proposes for each curve, marked as no more than that."""
+    """Return the formula that a sparse regression proposes for the curves, marked as a proposal."""
     parts, shares = [], []
     for band in bands:
         formula = _find_formula(d, band)
@@ -216,7 +216,7 @@ def _find_formula(d: SearchResult, band: Band) -> tuple[str, float] | None:
 
 
 def compute_unknown_odds(d: SearchResult) -> tuple[float, float]:
-    """Return the probability that something is at work which the library does not have, and the log evidence for it."""
+    """Return the probability of a force that the library does not contain, and its log evidence."""
     if d.learned:
         return d.learned.probability, d.learned.gain
     if simplest := d.selection.simplest:
@@ -227,7 +227,7 @@ def compute_unknown_odds(d: SearchResult) -> tuple[float, float]:
 
 
 def describe_dependence(located: ForceLocation, learned: UnknownForce | None = None) -> ForceDependence:
-    """Return what a force depends on: a sentence, shares of its variance, and which covariates are beyond chance."""
+    """Return what a force depends on: a sentence, shares of its variance, and the significant covariates."""
     explained, summary = located.explained, located.summary
     if learned:
         names = join_names(list_covariates(learned.terms))
@@ -243,5 +243,5 @@ def describe_dependence(located: ForceLocation, learned: UnknownForce | None = N
         p_value=compute_p_values(located.odds) if located.odds else by_share,
         p_value_of_share=by_share,
         significant=tuple(located.significant),
-        against=f"{against}, at {located.limits.level:.0%} over all covariates together",
+        against=f"{against}, at {percent(located.limits.level)} over all covariates together",
     )

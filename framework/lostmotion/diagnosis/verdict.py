@@ -1,4 +1,4 @@
-"""What a diagnosis says of the models: ranking, held-out scores, what is left, and the opening sentences."""
+"""The parts of a diagnosis that describe both models: ranking, held-out scores, unexplained force, first sentences."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ from lostmotion.inference.natural import find_term
 from lostmotion.inference.penalties import compute_penalty
 from lostmotion.likelihood.system import key_of
 from lostmotion.quantities import unit_of
-from lostmotion.report.words import chance, span, to_words
-from lostmotion.results import rounded
+from lostmotion.report.words import chance, sentence, span, to_words
+from lostmotion.results import percent, rounded
 from lostmotion.results.diagnosis import (
     Both,
     BothTrue,
@@ -51,23 +51,23 @@ from lostmotion.results.mismatch import UnexplainedForce
 from lostmotion.written import Written
 
 MOST_OPEN = 2
-"""So many of the terms that stay open are told in the opening; the others stand in the report."""
+"""The number of open terms that the opening sentences list; the report lists all."""
 
 
 def label_model(fit: Fit) -> str:
-    """Return the model with its terms as people write it: its name, or its equations."""
+    """Return the name of a model, or its equations, followed by its terms."""
     model = fit.problem.system.model
     name = f"({'; '.join(model.equations)})" if isinstance(model, Written) else model.name
     return " + ".join([name, *sorted(fit.problem.active)])
 
 
 def label_models(d: SearchResult) -> Labels:
-    """Return both models in words."""
+    """Return the labels of both models."""
     return Labels(label_model(d.before), label_model(d.after))
 
 
 def find_angle_unit(case: CaseFile) -> str:
-    """Return the unit in which a case gives angles: deg where a column is in degrees, else rad."""
+    """Return the unit of angles in a case: deg if a column is in degrees, else rad."""
     columns = [c for recording in case.recordings for c in (*recording.inputs, *recording.sensors)]
     return "deg" if any(c.unit.startswith(("deg", "°")) for c in columns) else "rad"
 
@@ -80,7 +80,7 @@ def list_units(d: SearchResult) -> Units:
 
 
 def describe_drive(d: SearchResult) -> DriveFacts:
-    """Return what moves the machine."""
+    """Return amplitude, unit and frequency of the drive."""
     period = d.shown.period
     return DriveFacts(
         amplitude=d.after.problem.scales.force,
@@ -97,7 +97,7 @@ def list_exponents(outcome: Outcome) -> Exponents:
 
 
 def list_valid_times(outcome: Outcome) -> ValidTimes:
-    """Return how long free runs of both models stay near the recording, in s and in the unit of the horizon."""
+    """Return the valid prediction times of both models, in s and in the unit of the horizon."""
     before, after, horizon = outcome.before, outcome.after, outcome.horizon
     scaled = Both(before.valid_time / horizon.unit_time, after.valid_time / horizon.unit_time)
     return ValidTimes(
@@ -122,12 +122,10 @@ def describe_whiteness(outcome: Outcome) -> BothWhite:
 
 def _describe_p_value(p: float, certain: float) -> str:
     if p < certain:
-        return (
-            f"One-step errors are not white (Ljung-Box {chance(p)}): they still hold something that can be predicted."
-        )
+        return f"One-step errors are autocorrelated (Ljung-Box {chance(p)}): a part of them can still be predicted."
     if p < 5.0 * certain:
-        return f"One-step errors may hold something that can be predicted (Ljung-Box p = {p:.2g})."
-    return f"One-step errors cannot be told from white noise (Ljung-Box p = {p:.2g})."
+        return f"One-step errors may be autocorrelated (Ljung-Box p = {rounded(p)})."
+    return f"One-step errors are not distinguishable from white noise (Ljung-Box p = {rounded(p)})."
 
 
 def list_sensors(d: SearchResult) -> tuple[SensorFacts, ...]:
@@ -147,18 +145,18 @@ def list_sensors(d: SearchResult) -> tuple[SensorFacts, ...]:
 
 
 def list_sensor_names(d: SearchResult) -> list[str]:
-    """Return the names of the sensors: the channel of one that was given none."""
+    """Return the names of the sensors; a sensor without a name has that of its channel."""
     return [sensor.label for sensor in d.shown.sensors]
 
 
 def list_noise_levels(d: SearchResult) -> list[float]:
-    """Return the standard deviation of all measurement noise of each sensor, after."""
+    """Return the standard deviation of the measurement noise of each sensor in the augmented model."""
     fit = d.after
     return [math.sqrt(fit.problem.measurement(fit.theta, 0, i)) for i in range(len(d.shown.sensors))]
 
 
 def list_scores(outcome: Outcome) -> HeldOutScores:
-    """Return what both models predict of held-out data."""
+    """Return the scores of both models on held-out data."""
     horizon = outcome.horizon
     return HeldOutScores(
         before=_make_score(outcome, outcome.before),
@@ -175,7 +173,7 @@ def _make_score(outcome: Outcome, p: Prediction) -> HeldOutScore:
 
 
 def list_parameters(outcome: Outcome) -> ParameterSets:
-    """Return the parameters of both models, without intervals where these are withheld."""
+    """Return the parameters of both models, with their intervals unless these are withheld."""
     d, why = outcome.diagnosis, explain_withheld(outcome)
     return ParameterSets(
         before=withhold_intervals(compute_intervals(d.before, outcome.draws_before), "" if d.found else why),
@@ -184,22 +182,22 @@ def list_parameters(outcome: Outcome) -> ParameterSets:
 
 
 def rank_candidates(d: SearchResult, found: Sequence[Mechanism], *, failed: bool) -> tuple[Candidate, ...]:
-    """Return every candidate with its evidence, price and probability, beside them "nothing missing" and "unknown".
+    """Return every candidate with log evidence, prior penalty and probability, with "nothing_missing" and "unknown".
 
-    A term that was found has the probability that is told of it. Where the model has `failed` on held-out data,
-    something is missing, whatever the evidence says. "Unknown" is what the library does not explain: curves that were
-    learned, or, when nothing was found, a force beyond the usual.
+    A found term has the probability that `found` states. If the model has `failed` on held-out data, something is
+    missing, independently of the evidence. "unknown" is what the library does not explain: learned curves or, if
+    nothing was found, a random force beyond the usual.
     """
     selection = d.selection
     unknown, gain = compute_unknown_odds(d)
     unknown = 1.0 if failed and not d.found else unknown
-    told = {(entry.mechanism, entry.at): entry.probability for entry in found}
+    stated = {(entry.mechanism, entry.at): entry.probability for entry in found}
     rows: list[Candidate] = []
     many = len(list_fitted_keys(selection.nominal.problem.system))
     for term in selection.nominal.problem.system.terms:
         key = key_of(term)
         rest = 1.0 if selection.simplest else 1.0 - unknown
-        p = told[term.name, term.at] if key in d.named else selection.inclusion(key) * rest
+        p = stated[term.name, term.at] if key in d.named else selection.inclusion(key) * rest
         rows.append(
             Candidate(
                 mechanism=term.name,
@@ -220,52 +218,52 @@ def rank_candidates(d: SearchResult, found: Sequence[Mechanism], *, failed: bool
 
 
 def list_confusions(d: SearchResult) -> list[Confusion]:
-    """Return the terms that are in other sets of some weight, and relatives of what was found."""
+    """Return the terms of other probable sets, and the terms that cannot be distinguished from found ones."""
     rows = []
     for term in d.selection.nominal.problem.system.terms:
         key = key_of(term)
         p = 0.0 if d.learned else d.selection.inclusion(key)
         if key not in d.found and p > d.settings.name.worth:
             says = (
-                f"This recording gives {to_words(term.name)} a probability of {p:.2f}: {name_other_recording(d)} would"
-                " decide."
+                f"{sentence(to_words(term.name))} has a probability of {p:.2f} after this recording:"
+                f" {name_other_recording(d)} would decide."
             )
             rows.append(Confusion(mechanism=term.name, at=term.at, probability=p, says=says))
     return rows + [row for key in d.named for row in _list_indistinguishable(d, key)]
 
 
 def count_bodies(d: SearchResult) -> int:
-    """Return on how many bodies of the model a force may act."""
+    """Return the number of bodies of the model on which a force may act."""
     return len({place.row for place in d.after.problem.system.model.interfaces})
 
 
 def _describe_body(d: SearchResult) -> str:
-    """Return how the unexplained force is to be read where what was found acts on another body than the first."""
+    """Return a clause on the unexplained force if a found term acts on another body than the first; else nothing."""
     at = {find_term(d.after.problem, key)[0].at for key in d.named}
     others = list_other_places(d.after.problem.system.model)
-    return ", taken as one that acts on the first body," if at & others else ""
+    return ", if it acts on the first body," if at & others else ""
 
 
 def name_other_recording(d: SearchResult) -> str:
-    """Return what recording may tell two laws apart that are alike at one size of the motion."""
+    """Return which other recording may distinguish laws that are equal at one amplitude of the motion."""
     return "a decay from a larger or smaller start" if d.shown.free else "another drive level"
 
 
 def _list_indistinguishable(d: SearchResult, key: str) -> list[Confusion]:
-    """Return the terms that no recording of a machine that does not age can tell from a term that was found."""
+    """Return the terms that no recording of an unchanged machine can distinguish from a found term."""
     term, _ = find_term(d.after.problem, key)
     if len(d.shown.sensors) > 1:  # what delays one sensor delays no other
         return []
     says = (
-        f"No recording of this machine can tell {{}} from {to_words(term.name)}: measure the time lag of the"
-        " channels by itself."
+        f"No recording of this machine can distinguish {{}} from {to_words(term.name)}: measure the delay between the"
+        " channels directly."
     )
     p = d.selection.inclusion(key)
     return [Confusion(mechanism=n, at="", probability=p, says=says.format(to_words(n))) for n in term.equals]
 
 
 def measure_unexplained(d: SearchResult, *, after: bool) -> UnexplainedForce:
-    """Return the force that the model with what was found, or the nominal model, leaves unexplained."""
+    """Return the force that the augmented (`after`) or the nominal model leaves unexplained."""
     located = d.left if after and d.left else d.located
     rms = float(np.std(located.missing.force))
     significant = d.unexplained if after else bool(d.found or d.unexplained)
@@ -273,27 +271,27 @@ def measure_unexplained(d: SearchResult, *, after: bool) -> UnexplainedForce:
 
 
 def _list_finding_sentences(found: Sequence[Mechanism]) -> Iterator[str]:
-    """Yield the sentences on what was found; what is no more than likely is told so, each doubt once."""
-    told: set[str] = set()
+    """Yield the sentences on the found terms; one that is only likely has its warnings, each of them once."""
+    given: set[str] = set()
     for entry in found:
         if entry.state != LIKELY:
             yield entry.says
             continue
-        doubts = [doubt for doubt in entry.doubts if doubt not in told]
-        told.update(doubts)
+        doubts = [doubt for doubt in entry.doubts if doubt not in given]
+        given.update(doubts)
         yield " ".join([f"Likely, not certain: {entry.says}", *doubts])
 
 
 def summarise(outcome: Outcome, found: Sequence[Mechanism], rest: Sequence[OpenTerm] = ()) -> tuple[str, ...]:
-    """Return the opening sentences of the report, from what was found and the `rest` that stays open."""
+    """Return the opening sentences of the report, from the found terms and the `rest` that remains open."""
     d = outcome.diagnosis
     horizon, floor = outcome.horizon, compute_noise_floor(outcome)
     time = span(horizon.number, horizon.unit)
     if not found:
         return (
             "Nothing is missing that this recording can show.",
-            f"The nominal model predicts held-out data over {time} to {outcome.before.nrmse:.1%} of the response; the"
-            f" noise alone is {floor:.1%}.",
+            f"The free-running prediction error of the nominal model over {time} of held-out data is"
+            f" {percent(outcome.before.nrmse)} of the response; the noise alone is {percent(floor)}.",
             *note_large_noise(outcome),
         )
     left = [f"Open: {row.says}" for row in rest[:MOST_OPEN]]
@@ -313,8 +311,9 @@ def summarise(outcome: Outcome, found: Sequence[Mechanism], rest: Sequence[OpenT
     opening.append(
         f"With {'it' if len(found) == 1 else 'them'} the unexplained force{_describe_body(d)} {verbs[0]} from"
         f" {sizes[0]} to {sizes[1]} {new.unit} (rms), and the free-running prediction error of held-out"
-        f" data over {time}{verbs[1]} from {errors[0]:.1%} to {errors[1]:.1%} of the response; the noise alone is"
-        f" {floor:.1%}."
+        f" data over {time}{verbs[1]} from {percent(errors[0])} to {percent(errors[1])} of the"
+        " response; the noise alone is"
+        f" {percent(floor)}."
     )
     opening += note_large_noise(outcome)
     if d.unexplained:

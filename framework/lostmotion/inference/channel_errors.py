@@ -1,4 +1,4 @@
-"""Channels that are not quite true: what the usual flaws of sensors and drives do to the one-step errors of a fit."""
+"""Usual errors of sensors and drives (scale, nonlinearity, delay), and their effect on the one-step errors of a fit."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from lostmotion.settings import RivalSettings
 
 Change = Callable[[Observation, float], Observation]
 STEP = 1e-4
-"""Derivatives are taken over so much of each."""
+"""The finite-difference step of each error."""
 
 
 @dataclass(frozen=True)
 class ChannelError:
-    """What a flaw of a channel does to errors and variances (readings,), and the usual `width` of it.
+    """An error of a channel: the derivatives of one-step errors and variances (readings,), and its prior `width`.
 
-    It is put on the recording in place of the model: `change` returns a recording with so much of it, and `stretch` is
-    what it adds to the log density of the readings, which become wider or narrower by it.
+    It is applied to the recording, not to the model: `change` returns a recording with an error of given size, and
+    `log_jacobian` is the derivative of the log density of the readings, whose scale the error changes.
     """
 
     errors: Array
@@ -33,7 +33,7 @@ class ChannelError:
 
 
 def list_channel_errors(fit: Fit) -> list[ChannelError]:
-    """Return the flaws of channels: scale, square and cube of each sensor, scale and time of each drive."""
+    """Return the channel errors: scale, quadratic and cubic error of each sensor, scale and delay of each drive."""
     problem, here = fit.problem, fit.problem.innovations(fit.theta)
     found = []
     for change, width, log_jacobian in _list_changes(problem.observations, problem.settings.rival):
@@ -44,7 +44,7 @@ def list_channel_errors(fit: Fit) -> list[ChannelError]:
 
 
 def _list_changes(observations: tuple[Observation, ...], usual: RivalSettings) -> Iterator[tuple[Change, float, float]]:
-    """Yield each flaw as a change of a recording, with its usual width and what it adds to the log density."""
+    """Yield each channel error as a change of a recording, with its prior width and its log Jacobian per unit size."""
     first = observations[0]
     for sensor in range(len(first.sensors)):
         shown = np.concatenate([o.readings[:, sensor] for o in observations])

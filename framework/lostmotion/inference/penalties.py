@@ -1,4 +1,4 @@
-"""What a term costs before any recording is seen, and which terms are relatives."""
+"""The prior penalty of a term, and which terms are related."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from lostmotion.settings import DEFAULT, Settings
 
 
 def are_related(one: Term, other: Term) -> bool:
-    """Return whether two terms tell the same story at the same place."""
+    """Return whether two terms at the same place resemble each other."""
     return one.at == other.at and (other.name in one.resembles or one.name in other.resembles)
 
 
 def compute_penalty(term: Term, many: int, settings: Settings = DEFAULT) -> float:
-    """Return the log price of a term by the prior: one of `many`, a factor e, its further parameters and choices.
+    """Return the log prior penalty of a term: one of `many`, a factor e, its further parameters and its choices.
 
-    What an engineer looks for last costs more (`Term.unlikely`).
+    Uncommon causes have an additional penalty (`Term.unlikely`).
     """
     choices = [len(q.choices) for q in term.params if q.choices]
     further = len(term.params) - len(choices) - 1

@@ -1,11 +1,11 @@
-"""The rival that every name has: some smooth force that nobody has named, and known values that are slightly wrong.
+"""The model discrepancy with which each set of terms is compared: smooth forces, wrong known values, channel errors.
 
-No model of a real machine is exact. A likelihood that does not know this takes any term that resembles what is left
-over, and is the surer the longer the recording. So each set of terms is weighed together with a discrepancy (Kennedy,
-O'Hagan, J. R. Stat. Soc. B 63 (2001) 425-464): Gaussian processes of reduced rank over position, velocity, phase and
-time, of the size that such forces have on real rigs; known values that are free within what is usual; and channels that
-are not quite true (`gauges.py`). One-step errors are close to straight in all of these, so the evidence has a closed
-form about a fit, and costs one pass of the filter for each coefficient.
+No model of a real machine is exact. A likelihood that ignores this accepts any term that resembles the model error, and
+becomes more certain with the length of the recording. Each set of terms is therefore compared together with a
+discrepancy (Kennedy, O'Hagan, J. R. Stat. Soc. B 63 (2001) 425-464): reduced-rank Gaussian processes over position,
+velocity, phase and time, of the size of unmodelled forces of real machines; known values that are free within the usual
+errors; and errors of channels (`channel_errors.py`). One-step errors are nearly linear in all of these, so the evidence
+has a closed form around a fit, and costs one run of the filter for each coefficient.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from lostmotion.inference.candidates import compute_slopes
 from lostmotion.inference.channel_errors import Change, ChannelError, list_channel_errors
 from lostmotion.inference.curves import Motions, add_all_curves, add_curve, compute_coefficient_size, smooth_motions
 from lostmotion.inference.fit import BLOCKS, Fit, Sensitivity, maximise, restart, solve_scaled
-from lostmotion.inference.learned import LearnedCurve, OverPhase, OverPosition, OverTime, OverVelocity, compute_spread
+from lostmotion.inference.learned import LearnedTerm, OverPhase, OverPosition, OverTime, OverVelocity, compute_spread
 from lostmotion.inference.natural import find_term
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import FreeParameter, Problem
@@ -32,28 +32,28 @@ from lostmotion.likelihood.system import key_of
 
 SMOOTH = (OverPosition, OverVelocity, OverTime, OverPhase)
 SIZES = (0.005, 0.015, 0.05, 0.15)
-"""Standard deviations of a smooth force that are tried, in units of the drive: what real rigs have."""
+"""Standard deviations of a smooth force that are tried, in units of the drive, as real machines have."""
 LENGTHS = (0.15, 0.3, 0.6, 1.2)
 """Correlation lengths that are tried, in half widths of the range."""
 MOST_WAVES = 20
-"""A smooth force has no more waves than this: shorter ones have no weight at these lengths."""
+"""The largest number of waves of a smooth force: shorter waves have no weight at these correlation lengths."""
 NUDGE, STEP = 3e-4, 1e-3
 """Finite-difference steps of a coefficient in units of the drive, and of the logarithm of a known value."""
 SHARES = (1.0, 0.5, 0.2, 0.0)
-"""Fits with smooth forces begin with these shares of what was promised."""
+"""Starting points of fits with smooth forces, as shares of the predicted values."""
 ROUNDS_SMOOTH, ROUNDS_CORRECTED, ROUNDS_KNOWN = 3, 8, 20
-"""Rounds of such a fit, which begins at what slopes promise; of one with channels put right; and of one with known
-values alone: these cost less."""
+"""Rounds of a fit with smooth forces, which starts at predicted values; of one with corrected channels; and of one with
+free known values only. The last two cost less per round."""
 MOST_CORRECTION = 3.0
-"""Flaws of channels are put right as far as they are usual: up to so many of their widths."""
+"""Channels are corrected by at most this number of prior standard deviations."""
 SWEEPS = 3
 PENALTY = math.log(len(SIZES) * len(LENGTHS))
-"""The log price of the size and the length of a smooth force that were chosen."""
+"""The log prior penalty of a smooth force: one of all sizes and correlation lengths was chosen."""
 
 
 @dataclass(frozen=True)
 class CoefficientGroup:
-    """Coefficients of one smooth force: their columns, and the prior widths (count,) that are tried."""
+    """The coefficients of one smooth force: their columns, and the prior widths (count,) that are tried."""
 
     name: str
     columns: slice
@@ -62,9 +62,10 @@ class CoefficientGroup:
 
 @dataclass(frozen=True)
 class Discrepancy:
-    """What a discrepancy is worth: the log evidence it adds, and the option that was chosen for each group, or -1.
+    """A discrepancy: the log evidence that it adds, and the option that was chosen for each group, or -1.
 
-    `widths` (n,) are the prior widths of its coefficients, zero where one is left out, and `mean` (n,) their values.
+    `widths` (n,) are the prior standard deviations of its coefficients, zero for unused ones; `mean` (n,) are their
+    posterior means.
     """
 
     gain: float
@@ -75,12 +76,12 @@ class Discrepancy:
 
 @dataclass(frozen=True)
 class DiscrepancyExpansion:
-    """The log posterior of a fit about its maximum, in its own coordinates (first) and those of the discrepancy.
+    """The quadratic expansion of the log posterior around a fit, in its own coordinates and those of the discrepancy.
 
-    `gradient` (n,) and `information` (n, n) hold the priors of the fit's own coordinates, `own` counts these. `widths`
-    (n - own,) are the prior widths of what is always there, zero for smooth forces; those of the `gauges` come last.
-    `worse` is by how much scores that have a memory scatter more than independent ones would, as a factor of the
-    variance, 1 at the least.
+    `gradient` (n,) and `information` (n, n) include the priors of the own coordinates, which come first; `own` is their
+    number. `widths` (n - own,) are the prior standard deviations of known values (first) and `channel_errors` (last),
+    and zero for smooth forces. `inflation` is the factor by which autocorrelation increases the variance of scores over
+    blocks, at least 1.
     """
 
     fit: Fit
@@ -98,11 +99,11 @@ class DiscrepancyExpansion:
         return self.find_best_without(dropped, inflation or self.inflation).gain
 
     def list_coordinates(self, terms: Collection[str]) -> list[int]:
-        """Return the indices of the own coordinates that belong to some terms."""
+        """Return the indices of the own coordinates of some terms."""
         return [i for i, key in enumerate(self.fit.problem.keys) if key.rpartition(".")[0] in terms]
 
     def find_best(self, inflation: float = 0.0) -> Discrepancy:
-        """Return the best discrepancy, looked for from none and from what stands in for all terms of the fit."""
+        """Return the best discrepancy, searched from none and from the one that imitates all terms of the fit."""
         inflation = inflation or self.inflation
         alone = self.find_best_without((), inflation)
         terms = self.list_coordinates(self.fit.problem.active)
@@ -114,11 +115,11 @@ class DiscrepancyExpansion:
     def find_best_without(
         self, dropped: Sequence[int] = (), inflation: float = 1.0, begin: Sequence[tuple[str, int]] = ()
     ) -> Discrepancy:
-        """Return the discrepancy of the best smoothness, where likelihoods count by one over `worse`.
+        """Return the discrepancy with the best smoothness, with log-likelihoods divided by `inflation`.
 
-        Own coordinates that are `dropped` are put at zero, all others moving along: what the set is worth without a
-        term, as far as one-step errors are straight in it. The drop of the log posterior is counted. The search begins
-        at the options `begin`, of which each smooth force has none if nothing is said.
+        Own coordinates in `dropped` are set to zero and the others are re-optimised: this approximates the set without
+        a term, as far as one-step errors are linear in it. The loss of log posterior is included. The search starts
+        from the options `begin`, by default from no smooth force.
         """
         asked = (*dropped, inflation, *begin)
         if asked not in self._cache:
@@ -128,17 +129,17 @@ class DiscrepancyExpansion:
         return self._cache[asked]
 
     def compute_fixed_gain(self, inflation: float) -> float:
-        """Return the log evidence that known values and channels add alone, which are always free a little."""
+        """Return the log evidence that known values and channel errors add without smooth forces."""
         h, g, _ = self._project((), inflation)
         return compute_log_evidence(h, g, self.widths)
 
     def compute_channel_information(self) -> Array:
-        """Return the information (gauges, gauges) on the flaws of channels, own coordinates moving along."""
+        """Return the information matrix of the channel errors, marginalised over the own coordinates."""
         first = len(self.widths) - len(self.channel_errors)
         return np.asarray(self._project((), 1.0)[0][first:, first:])
 
     def shift_coordinates(self, sizes: Array) -> Array:
-        """Return the own coordinates (own,) where channels have flaws of these `sizes` (gauges,), by slopes."""
+        """Return the predicted own coordinates (own,) for channel errors of given `sizes`."""
         cross = self.information[: self.own, len(self.gradient) - len(self.channel_errors) :]
         return np.asarray(self.fit.theta - solve_scaled(self.information[: self.own, : self.own], cross @ sizes))
 
@@ -148,7 +149,7 @@ class DiscrepancyExpansion:
         return replace(found, gain=found.gain + more)
 
     def _project(self, dropped: Sequence[int], inflation: float) -> tuple[Array, Array, float]:
-        """Return information and gradient of the discrepancy, own coordinates moving along, and what these win."""
+        """Return information and gradient of the discrepancy, own coordinates profiled out, and the gain of these."""
         kept = np.setdiff1d(np.arange(self.own), np.asarray(dropped, dtype=int))
         more = np.arange(self.own, len(self.gradient))
         gradient, lost = self._shift_to_zero(dropped)
@@ -160,14 +161,14 @@ class DiscrepancyExpansion:
         return 0.5 * (information + information.T) / inflation, force / inflation, (moved - lost) / inflation
 
     def _shift_to_zero(self, dropped: Sequence[int]) -> tuple[Array, float]:
-        """Return the gradient where some own coordinates are zero, and what the log posterior loses on the way."""
+        """Return the gradient with some own coordinates set to zero, and the loss of log posterior."""
         away = np.zeros(len(self.gradient))
         away[list(dropped)] = -self.fit.theta[list(dropped)]
         pulled = self.information @ away
         return self.gradient - pulled, 0.5 * float(away @ pulled) - float(self.gradient @ away)
 
     def _optimise_widths(self, h: Array, g: Array, chosen: list[int]) -> Discrepancy:
-        """Return the best discrepancy: each smooth force in turn gets the width that pays most, or none."""
+        """Return the best discrepancy by coordinate search: each smooth force in turn gets its best width, or none."""
         widths = self.widths.copy()
         for group, option in zip(self.groups, chosen, strict=True):
             if option >= 0:
@@ -186,13 +187,13 @@ class DiscrepancyExpansion:
                         best, chosen[k], widths = value, option, trial
             if best <= before:
                 break
-        told = tuple((group.name, option) for group, option in zip(self.groups, chosen, strict=True))
+        options = tuple((group.name, option) for group, option in zip(self.groups, chosen, strict=True))
         mean = widths * np.linalg.solve(np.eye(len(g)) + h * np.outer(widths, widths), widths * g)
-        return Discrepancy(best, told, widths, mean)
+        return Discrepancy(best, options, widths, mean)
 
 
 def compute_log_evidence(h: Array, g: Array, widths: Array) -> float:
-    """Return the log evidence that normal coefficients add, of information `h` (n, n) and gradient `g` (n,) at zero.
+    """Return the log evidence of normal coefficients with information `h` (n, n) and gradient `g` (n,) at zero.
 
     With D the prior `widths` (n,): (g'D (I + D h D)^-1 D g - log det(I + D h D)) / 2; zero widths are left out.
     """
@@ -235,7 +236,7 @@ def expand_fit(fit: Fit) -> DiscrepancyExpansion:
     )
     gradient, information = joint.gradient(), joint.information()
     gradient[own + len(frees) :] += [g.log_jacobian for g in channel_errors]
-    gradient[:own] = 0.0  # it is a maximum; what is left is noise of the differences, and grows where nothing is told
+    gradient[:own] = 0.0  # zero at a maximum; the rest is noise of the differences, large for undetermined levels
     information[np.arange(own), np.arange(own)] += [f.evidence_information for f in fit.problem.free]
     exact = [problem.settings.rival.known] * len(known)
     widths = np.array([*exact, *[0.0] * (len(frees) - len(known)), *(g.width for g in channel_errors)])
@@ -252,12 +253,12 @@ def expand_fit(fit: Fit) -> DiscrepancyExpansion:
 
 
 def _remove_constants(
-    fit: Fit, terms: dict[str, LearnedCurve], groups: Sequence[CoefficientGroup], rows: tuple[Array, Array]
+    fit: Fit, terms: dict[str, LearnedTerm], groups: Sequence[CoefficientGroup], rows: tuple[Array, Array]
 ) -> None:
-    """Take the constant force out of the derivatives `rows` (coefficients, readings) of smooth forces, in place.
+    """Remove the constant force from the derivatives `rows` (coefficients, readings) of smooth forces, in place.
 
-    A constant force has a name: smooth forces are those without a mean along the motion. What a constant does is read
-    from the waves over time that make one.
+    A constant force is a term of its own, so smooth forces have no mean along the motion. The derivative with respect
+    to a constant is composed of those of the waves over time.
     """
     clocks = [g for g in groups if isinstance(terms[g.name], OverTime)]
     if not clocks:
@@ -283,7 +284,7 @@ def _act_on_same_bodies(place: Interface, body: Interface) -> bool:
     return (place.row, place.against) == (body.row, body.against)
 
 
-def _average_along_motion(fit: Fit, key: str, term: LearnedCurve, moved: Motions) -> Array:
+def _average_along_motion(fit: Fit, key: str, term: LearnedTerm, moved: Motions) -> Array:
     """Return the mean (count,) of each wave of a smooth force along the recorded motion."""
     if isinstance(term, OverPhase):
         return np.zeros(term.count)
@@ -297,18 +298,18 @@ def _average_along_motion(fit: Fit, key: str, term: LearnedCurve, moved: Motions
 
 
 def fit_discrepancy(expansion: DiscrepancyExpansion) -> tuple[Fit, float] | None:
-    """Return the fit with the smooth forces of the best discrepancy and free known values, and the log price of these.
+    """Return the fit with the smooth forces of the best discrepancy and free known values, and its log penalty.
 
-    None where there is neither. Slopes about a fit may promise what does not come true: one-step errors are not
-    straight in forces that are large beside the random one, nor in known values that are far off.
+    None if there are neither. An expansion may predict a gain that a fit does not confirm: one-step errors are not
+    linear in forces that are large compared with the random force, nor in known values with large errors.
     """
     return _fit_with_forces(expansion, restart(add_all_curves(expansion.fit)), expansion.find_best())
 
 
 def fit_imitation(expansion: DiscrepancyExpansion, gone: Collection[str]) -> tuple[Fit, float] | None:
-    """Return the fit in which smooth forces and free known values stand in for some terms, and their log price.
+    """Return the fit in which smooth forces and free known values replace some terms, and its log penalty.
 
-    It begins where slopes about the fit with the terms say that these can be replaced.
+    It starts from the replacement that the expansion about the fit with the terms predicts.
     """
     dropped = expansion.list_coordinates(gone)
     problem = restart(add_all_curves(expansion.fit))
@@ -318,7 +319,7 @@ def fit_imitation(expansion: DiscrepancyExpansion, gone: Collection[str]) -> tup
 
 
 def _fit_with_forces(expansion: DiscrepancyExpansion, problem: Problem, best: Discrepancy) -> tuple[Fit, float] | None:
-    """Return the fit of a problem with the smooth forces of a discrepancy and free known values, and their price."""
+    """Return the fit of a problem with the smooth forces of a discrepancy and free known values, and its penalty."""
     chosen = [group for group, (_, option) in zip(expansion.groups, best.chosen, strict=True) if option >= 0]
     known = _free_known_values(problem)
     if not chosen and not known:
@@ -342,10 +343,11 @@ def _fit_with_forces(expansion: DiscrepancyExpansion, problem: Problem, best: Di
 
 @dataclass(frozen=True)
 class CorrectedFit:
-    """A fit to recordings whose channels were put right by `sizes` (gauges,) in all.
+    """A fit to recordings whose channels were corrected by `sizes` (channel errors,) in total.
 
-    `wider` is what the readings gain in log density, being wider or narrower, and `price` the log price of the flaws:
-    that of their size by the prior, and of their having been estimated. `changes` are what was done, in order.
+    `log_jacobian` is the change of the log density of the readings by the change of their scale, and `price` the log
+    penalty of the corrections: the prior of their sizes, and the Occam factor of their estimation. `changes` are the
+    corrections, in order.
     """
 
     fit: Fit
@@ -355,7 +357,7 @@ class CorrectedFit:
     changes: tuple[tuple[Change, float], ...]
 
     def correct(self, observation: Observation) -> Observation:
-        """Return another recording of the same channels, put right as those of the fit were."""
+        """Return another recording of the same channels with the same corrections."""
         return reduce(lambda seen, step: step[0](seen, step[1]), self.changes, observation)
 
 
@@ -385,7 +387,7 @@ def correct_channels(expansion: DiscrepancyExpansion, before: CorrectedFit | Non
 
 
 def _compute_derivatives(wider: Problem, slopes: Sensitivity, steps: Array) -> tuple[Array, Array]:
-    """Return the derivatives (count, readings) of errors and variances by coordinates behind those of the fit."""
+    """Return the derivatives (count, readings) of errors and variances with respect to the additional coordinates."""
     own = len(slopes.theta)
     zero = np.concatenate([slopes.theta, [f.start for f in wider.free[own:]]])
     seen = wider.filter_many(np.vstack([zero[None], zero + np.eye(len(zero))[own:] * steps[:, None]]))
@@ -395,7 +397,7 @@ def _compute_derivatives(wider: Problem, slopes: Sensitivity, steps: Array) -> t
 
 
 def _free_known_values(problem: Problem) -> list[FreeParameter]:
-    """Return the known values of the model that are above zero, free in their logarithm."""
+    """Return the positive known values of the model as free parameters (in their logarithm)."""
     estimated, found = {f.parameter for f in problem.free}, []
     for param in problem.system.model.params:
         value = float(problem.known[problem.system.index[param.name]])
@@ -406,8 +408,12 @@ def _free_known_values(problem: Problem) -> list[FreeParameter]:
 
 
 def _compute_inflation(joint: Sensitivity, own: int, information: Array) -> float:
-    """Return by how much scores of the discrepancy scatter more over blocks than independent ones would (median)."""
+    """Return the median factor by which the scatter of block scores exceeds that of independent scores; at least 1."""
     blocks = np.array([part.sum(axis=1) for part in np.array_split(joint.scores()[own:], BLOCKS, axis=1)])
     usual = np.diag(information)[own:]
-    told = usual > 0.0
-    return max(1.0, float(np.median(blocks.var(axis=0)[told] * BLOCKS / usual[told]))) if told.any() else 1.0
+    informative = usual > 0.0
+    return (
+        max(1.0, float(np.median(blocks.var(axis=0)[informative] * BLOCKS / usual[informative])))
+        if informative.any()
+        else 1.0
+    )

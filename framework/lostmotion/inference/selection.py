@@ -1,4 +1,4 @@
-"""Which terms are missing: forward selection with swaps, a backward check, and probabilities over what was visited."""
+"""Selection of the missing terms: forward selection with swaps, backward elimination, and posterior probabilities."""
 
 from __future__ import annotations
 
@@ -31,25 +31,31 @@ from lostmotion.kernels.threads import each
 from lostmotion.likelihood.problem import RANDOM
 
 MOST_FITTED, MOST_LATE = 6, 2
-"""Terms fitted that act from the beginning, and that begin later: where a motion changes, many promise much then."""
-CONTESTED = 4
-"""So many of the heaviest sets are held against the discrepancy in each round: each costs a hundred filter runs."""
-FAR = 300.0
-"""Sets that are so far behind the heaviest in log weight are not held against it: they may come back as it grows."""
-MOST_VISITS = 80  # a search ends after so many sets of terms, whatever is left
+"""The numbers of terms without and with an onset that are fitted in a round. If the motion changes, many terms with an
+onset predict a large gain."""
+MOST_COMPARED = 4
+"""The number of sets of largest weight that are compared with the discrepancy in each round: each costs a hundred
+runs of the filter."""
+FAR_BEHIND = 300.0
+"""Sets whose log weight is lower than the largest by more than this are not compared with the discrepancy in this
+round."""
+MOST_SETS = 80
+"""A search ends after this number of sets of terms."""
 NEAR_GAIN = 2.5
+"""A set with one more term is extended, though not decisive, if the term adds at least this log evidence."""
 MANY_PARAMETERS = 4
-SAME = 1e-4
-"""Below this share of its own information a term cannot be told from parameters that are estimated anyway."""
+"""A term with at least this number of parameters is tested only if a related, simpler term predicts a large gain."""
+LEAST_DISTINCT = 1e-4
+"""A term is not distinguishable from the free parameters if less than this share of its information remains."""
 
 
 Progress = Callable[[str], None]
 Promise = Callable[[Fit], float]
-"""Tells what the best learned curve would add to the log evidence of a nominal fit."""
+"""Predicts the log evidence that the best learned curve adds to a nominal fit."""
 
 
 class Selector:
-    """Carries out one selection from the `nominal` fit; `say` is told what is being tried."""
+    """Carries out one selection, starting from the `nominal` fit; `say` receives messages on its progress."""
 
     def __init__(
         self,
@@ -74,19 +80,19 @@ class Selector:
         return self._finish(lambda: self._step_forward() and not self._is_outshone())
 
     def resume(self, fit: Fit) -> Selection:
-        """Return the selection begun at a set that was found with another noise: what stood in for that is dropped."""
+        """Return the selection that starts from a set found with another noise model; unnecessary terms are dropped."""
         self._begin_from([fit])
         return self.run()
 
     def verify(self, found: Fit, rivals: Iterable[Fit]) -> Selection:
-        """Return the selection among a set that was found on other recordings, sets close to it, and a term more."""
+        """Return the selection among a set found on shorter recordings, sets close to it, and further terms."""
         self._begin_from([found, *rivals])
         return self._finish(self._extend_once)
 
     def extend(self, course: Selection, fresh: Iterable[str]) -> Selection:
-        """Return a selection gone on with, now that `fresh` terms have shapes that had not been tried.
+        """Return a selection that is continued, because `fresh` terms have new shapes to try.
 
-        Sets with these are forgotten, and tried anew from the nominal and from the chosen fit on.
+        Sets with these terms are removed, and fitted again starting from the nominal and from the chosen fit.
         """
         new, chosen = set(fresh), course.chosen.problem.active
         kept = {terms: term_set for terms, term_set in course.fitted_sets.items() if terms <= chosen or not terms & new}
@@ -97,33 +103,33 @@ class Selector:
         return self.run()
 
     def _begin_from(self, fits: Iterable[Fit]) -> None:
-        """Choose the best of some sets, less what it can do without, after score tests on top of the nominal fit."""
+        """Choose the best of some sets, without unnecessary terms, after score tests at the nominal fit."""
         self._run_score_tests(self.selection.nominal)
         self.selection.chosen = max((self._add_set(fit) for fit in fits), key=lambda v: v.weight).fit
         self._drop_terms()
 
     def _finish(self, step: Callable[[], bool]) -> Selection:
-        """Return the selection after as many steps forward as lead on, and then backward."""
+        """Return the selection after all forward steps, backward elimination and final comparisons."""
         while len(self.selection.chosen.problem.active) < self.limits.most_terms and step():
             pass
         self._drop_terms()
         tested = {self.selection.chosen.problem.active}
-        while len(tested) <= CONTESTED and (ahead := self._find_most_probable(tested)):
+        while len(tested) <= MOST_COMPARED and (ahead := self._find_most_probable(tested)):
             self._challenge(ahead)
             tested.add(ahead.terms)
         return self.selection
 
     def _find_most_probable(self, tested: set[frozenset[str]]) -> TermSet | None:
-        """Return the most probable set, if that is not the chosen one, of those that were not `tested` yet."""
+        """Return the most probable set that was not yet `tested`, if it is more probable than the chosen one."""
         shares = {terms: p for terms, p in self.selection.probabilities().items() if terms not in tested}
         best = max(shares, key=lambda terms: shares[terms], default=frozenset())
         least = self.selection.probabilities()[self.selection.chosen.problem.active]
         return self.selection.fitted_sets[best] if shares.get(best, 0.0) > least else None
 
     def _challenge(self, term_set: TermSet) -> None:
-        """Put a set in place of the chosen one if it leads still after terms are dropped that it can do without.
+        """Replace the chosen set by another one if that is more probable after backward elimination.
 
-        A set that is no better than a part of itself says nothing against another one.
+        A set that is no better than one of its subsets is no argument against the chosen set.
         """
         old = self.selection.fitted_sets[self.selection.chosen.problem.active]
         self.selection.chosen = term_set.fit
@@ -133,13 +139,13 @@ class Selector:
             self.selection.chosen = old.fit
 
     def _extend_once(self) -> bool:
-        """Take the best of what one more term leads to, if it is decisive."""
+        """Take the best set with one more term, if it is decisive."""
         here = self.selection.fitted_sets[self.selection.chosen.problem.active]
         self._fit_additions(here.fit)
         return self._take_best(here)
 
     def _is_outshone(self) -> bool:
-        """Return whether one learned curve wins so much more than the terms found that more of them will not do."""
+        """Return whether one learned curve predicts far more evidence than the found terms, which only imitate it."""
         here = self.selection.fitted_sets[self.selection.chosen.problem.active]
         if self.promise is None or has_usual_random_force(here.fit):
             return False
@@ -150,11 +156,11 @@ class Selector:
         return True
 
     def _add_set(self, fit: Fit) -> TermSet:
-        """Note a fitted set in the commonest terms that say it, weighted by evidence and the prices of its terms."""
-        told = rewrite_in_commoner_terms(fit := drop_weak_onsets(fit), self.candidates)
-        if told is not fit:
+        """Store a fitted set, in the most common equivalent terms, weighted by log evidence less prior penalties."""
+        rewritten = rewrite_in_commoner_terms(fit := drop_weak_onsets(fit), self.candidates)
+        if rewritten is not fit:
             self._rewritten.add(fit.problem.active)
-            fit = told
+            fit = rewritten
         terms = fit.problem.active
         price = sum(
             compute_penalty(find_term(fit.problem, key)[0], len(self.candidates), fit.problem.settings) for key in terms
@@ -167,8 +173,8 @@ class Selector:
         return self.selection.fitted_sets[terms]
 
     def _step_forward(self) -> bool:
-        """Take the best of what additions and swaps lead to, if it is decisive."""
-        if len(self.selection.fitted_sets) > MOST_VISITS:
+        """Take the best set after additions and swaps, if it is decisive."""
+        if len(self.selection.fitted_sets) > MOST_SETS:
             self.selection.stopped = True
             return False
         here = self.selection.fitted_sets[self.selection.chosen.problem.active]
@@ -181,15 +187,16 @@ class Selector:
         return self._take_best(here)
 
     def _take_best(self, here: TermSet) -> bool:
-        """Take the best set visited in place of the chosen one, if it is decisively better and may be believed.
+        """Replace the chosen set by the best fitted set, if that is decisively better and robust.
 
-        It has to be better alone, and beside the smooth force that nobody has named. Of those that lead by about as
-        much the one of most evidence is taken: a law is not exchanged for a relative with more parameters.
+        It must be better by evidence, and when both sets are compared with the generic smooth force. Among sets with
+        nearly equal log odds, the one with the largest weight is taken: a term is not replaced by a related one with
+        more parameters.
         """
         self._built_on.add(here.terms)
         others = [v for v in self.selection.fitted_sets.values() if v.terms not in self._built_on]
-        good = sorted((v for v in others if self._is_decisive(v, here)), key=lambda v: -v.weight)[:CONTESTED]
-        good = [v for v in good if v.weight > good[0].weight - FAR]
+        good = sorted((v for v in others if self._is_decisive(v, here)), key=lambda v: -v.weight)[:MOST_COMPARED]
+        good = [v for v in good if v.weight > good[0].weight - FAR_BEHIND]
         same = [v for v in others if v.terms in self.selection.discrepancy_fits and len(v.terms) == len(here.terms)]
         good += [v for v in same if v not in good]
         if good:
@@ -217,13 +224,13 @@ class Selector:
         return False
 
     def _is_decisive(self, term_set: TermSet, here: TermSet) -> bool:
-        """Return whether a set has decisively more weight than the chosen one, by the evidence alone."""
+        """Return whether a set has decisively more weight than the chosen one, without the discrepancy."""
         return term_set.weight > here.weight + (self.limits.decisive if term_set.terms > here.terms else 0.0)
 
     def _list_near_sets(self, here: TermSet) -> list[TermSet]:
-        """Return the best sets of one more term, where none is decisive but some are not far from it.
+        """Return the best sets with one more term, if none is decisive but some are close to it.
 
-        Two small effects may be decisive together where neither is alone.
+        Two small effects may be decisive together although neither is decisive alone.
         """
         more = [v for v in self.selection.fitted_sets.values() if v.terms > here.terms]
         if any(v.weight > here.weight + self.limits.decisive for v in more):
@@ -232,9 +239,9 @@ class Selector:
         return sorted(good, key=lambda v: -v.weight)[: BEAM - 1]
 
     def _refit_close_sets(self) -> None:
-        """Fit the best sets again from a raised random force: some of them may have stopped at a false maximum.
+        """Refit the best sets from a larger random force, because some of them may have stopped at a local maximum.
 
-        One that leaves nothing over has not.
+        Sets without a random force beyond the usual are not refitted.
         """
         best = max(v.weight for v in self.selection.fitted_sets.values())
         close = [
@@ -243,7 +250,7 @@ class Selector:
         close = [v for v in close if not has_usual_random_force(v.fit)]
         if not close:
             return
-        self.say(f"again with {', '.join(' and '.join(sorted(v.terms)) or 'nothing' for v in close)}")
+        self.say(f"refits with {', '.join(' and '.join(sorted(v.terms)) or 'no term' for v in close)}")
         self._refitted.update(v.terms for v in close)
 
         def again(term_set: TermSet) -> Fit:
@@ -253,11 +260,11 @@ class Selector:
         self._add_sets(each(again, close, self.jobs))
 
     def _is_robust(self, term_set: TermSet, here: TermSet) -> bool:
-        """Return whether a better set may be believed where something with a memory is left over.
+        """Return whether a better set is robust against autocorrelated residuals.
 
-        Then samples are not independent, and a term that resembles the leftovers always gains. So an amplitude has to
-        stand out of its robust deviation; where that is more than some times the usual, the set has to take a
-        share off the random force.
+        With autocorrelated residuals samples are not independent, and a term that resembles them always gains. Each
+        amplitude must therefore be significant by its robust standard deviation. If this exceeds the usual one by a
+        factor, the set must also reduce the random force by a share.
         """
         if term_set.terms not in self._significances:
             self._significances[term_set.terms] = measure_significance(term_set.fit)
@@ -267,9 +274,9 @@ class Selector:
         return least > self.limits.certain and calm
 
     def _list_beam(self, here: TermSet) -> list[TermSet]:
-        """Return the sets to build on: the chosen one, and others of its size that explain at least half as much.
+        """Return the sets to extend: the chosen one, and others of its size that explain at least half as much.
 
-        One term can stand in for two others until both are in.
+        One term can imitate two others until both are included.
         """
         if not here.terms:
             return [here]
@@ -281,9 +288,9 @@ class Selector:
         return [here, *sorted(rivals, key=lambda v: -v.weight)[: BEAM - 1]]
 
     def _run_score_tests(self, fit: Fit) -> list[ScoreTest]:
-        """Return what score tests promise of the terms on top of a fit, of rich ones where a relative promises much.
+        """Return the score tests of all terms at a fit; terms with many parameters only if a related one is promising.
 
-        Those on top of the nominal fit are kept, and made once.
+        Those at the nominal fit are computed once and stored.
         """
         if self.selection.hints and not fit.problem.active:
             return [h for h in self.selection.hints if not self._is_tried(fit, h.key)]
@@ -304,9 +311,11 @@ class Selector:
         return hints
 
     def _fit_additions(self, fit: Fit) -> None:
-        """Fit the terms whose score tests promise most on top of a fit, those first that promise most."""
+        """Fit the terms with the largest predicted gains by score tests at a fit."""
         hints, single = self._run_score_tests(fit), use_one_core(fit)
-        good = sorted((h for h in hints if h.gain > self.limits.promising and h.distinct > SAME), key=lambda h: -h.gain)
+        good = sorted(
+            (h for h in hints if h.gain > self.limits.promising and h.distinct > LEAST_DISTINCT), key=lambda h: -h.gain
+        )
         good = [h for h in good if not h.late][:MOST_FITTED] + [h for h in good if h.late][:MOST_LATE]
         for size in sorted({len(h.start) for h in good}):
             group = [h for h in good if len(h.start) == size]
@@ -315,34 +324,34 @@ class Selector:
         self._fit_large_forces(fit)
 
     def _is_tried(self, fit: Fit, key: str) -> bool:
-        """Return whether a term is in a fit already, itself or as a relative, or was tried on top of it."""
+        """Return whether a fit has a term or a related one, or was already extended by it."""
         active = fit.problem.active
         known = active | {key} in self.selection.fitted_sets or active | {key} in self._rewritten
         return key in active or any(self._are_related(fit, mine, key) for mine in active) or known
 
     def _add_sets(self, fits: Iterable[Fit]) -> None:
-        """Note fits that were made on one core each."""
+        """Store fits that were made on one core each."""
         for fit in fits:
             self._add_set(use_cores(fit, self.jobs))
 
     def _fit_large_forces(self, fit: Fit) -> None:
-        """Fit each force as most of what a load cell has measured.
+        """Fit each force as the main part of the readings of a load cell.
 
-        The random force of a nominal fit follows such a recording as well, sample by sample, and score tests on top of
-        that see next to nothing.
+        The random force of a nominal fit follows such a recording sample by sample, so score tests at this fit are
+        nearly blind.
         """
         if fit.problem.active or any(observation.channel != "force" for observation in fit.problem.observations):
             return
-        self.say("calm start")
+        self.say("fit with a small random force")
         calm = refit_with_noise(fit)
         for key in self.candidates:
             hint = guess_large_force(fit.problem, key)
             if hint and calm.status != "diverged":
-                self.say(f"fit with much of {key}")
+                self.say(f"fit with a large {key}")
                 self._add_set(maximise(add_term(restart(calm), hint, hint.start)))
 
     def _fit_hint(self, fit: Fit, hopeless: float, hint: ScoreTest) -> Fit:
-        """Return the fit with one more term, begun at the fit with a simpler relative of it where there is one."""
+        """Return the fit with one more term, starting from the fit with a simpler related term if there is one."""
         for key in self.candidates:
             term_set = self.selection.fitted_sets.get(fit.problem.active | {key})
             if term_set and self._are_related(term_set.fit, key, hint.key):
@@ -350,11 +359,11 @@ class Selector:
         return fit_term(fit, hint, hopeless=hopeless)
 
     def _compute_hopeless(self) -> float:
-        """Return the log posterior below which a fit cannot matter any more."""
+        """Return the log posterior below which a fit is abandoned."""
         return max(v.fit.local.log_posterior for v in self.selection.fitted_sets.values()) - 30.0
 
     def _fit_swaps(self, fit: Fit) -> None:
-        """Fit each relative of a term in place of it, so that one that only stands in for another gives way."""
+        """Fit each related term in place of an active one (swap), because a term may only imitate a related one."""
         for key in sorted(fit.problem.active):
             known = self.selection.fitted_sets.get(fit.problem.active - {key})
             without = known.fit if known else self._add_set(maximise(fit.problem.remove_term(key, fit.values))).fit
@@ -369,16 +378,16 @@ class Selector:
                     continue
                 self.say(f"{other} in place of {key}")
                 hint = run_score_test(without, slopes, other)
-                if hint.gain > self.limits.promising and hint.distinct > SAME:
+                if hint.gain > self.limits.promising and hint.distinct > LEAST_DISTINCT:
                     self._add_set(fit_term(without, hint, hopeless=self._compute_hopeless()))
 
     def _drop_terms(self) -> None:
-        """Drop terms until none is left without which the set has more weight."""
+        """Drop terms until each remaining term is decisive (backward elimination)."""
         while self._drop_one_term():
             pass
 
     def _drop_one_term(self) -> bool:
-        """Drop a term without which the set has more weight."""
+        """Drop one term that is not decisive, and return whether there was one."""
         chosen = self.selection.chosen
         here = self.selection.fitted_sets[chosen.problem.active]
         for key in sorted(chosen.problem.active):
@@ -389,16 +398,16 @@ class Selector:
             )
             self.selection.fit_discrepancy(term_set)
             self.selection.settle_comparison(here, term_set, self.limits.decisive)
-            told = here.weight > term_set.weight + self.limits.decisive
-            if not told or not self.selection.compute_log_odds(here, term_set) > self.limits.decisive:
-                self.selection.tied |= {key} if told else set()
+            decisive = here.weight > term_set.weight + self.limits.decisive
+            if not decisive or not self.selection.compute_log_odds(here, term_set) > self.limits.decisive:
+                self.selection.tied |= {key} if decisive else set()
                 self.selection.chosen = term_set.fit
                 return True
         return False
 
     @staticmethod
     def _has_many_parameters(fit: Fit, key: str) -> bool:
-        """Return whether a term has so many parameters that it is tried only where a simpler relative promises much."""
+        """Return whether a term has so many parameters that it is tested only if a related one is promising."""
         return len(find_term(fit.problem, key)[1]) >= MANY_PARAMETERS
 
     @staticmethod

@@ -1,4 +1,4 @@
-"""How far the amplitudes of terms stand out of their errors, where something with a memory may be left over."""
+"""The significance of the amplitudes of terms by robust covariance, for residuals that may be autocorrelated."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from lostmotion.inference.natural import sort_slots
 from lostmotion.likelihood.problem import Problem
 
 REFERENCE = 3.0
-"""An amplitude counts when it is this many robust standard deviations from nothing."""
+"""The number of standard deviations at which the significance of several amplitudes is compared with that of one."""
 
 
 def measure_significance(fit: Fit) -> tuple[float, float]:
-    """Return the least amplitude in robust standard deviations, and how much wider those are than usual.
+    """Return the smallest amplitude in robust standard deviations, and the ratio of robust to usual deviations.
 
-    The signed amplitudes of a term are one: a wave has a cosine and a sine, and either may be nothing.
+    The signed amplitudes of a term count together: a wave has a cosine and a sine, and one of them may be zero.
     """
     robust, usual = compute_robust_covariance(fit), fit.local.covariance
     groups = [at for term in sorted(fit.problem.active) for at in _list_amplitudes(fit.problem, term)]
@@ -30,7 +30,7 @@ def measure_significance(fit: Fit) -> tuple[float, float]:
 
 
 def _list_amplitudes(problem: Problem, key: str) -> list[list[int]]:
-    """Return where the amplitudes of a term stand among the free parameters, those together that count as one."""
+    """Return the indices of the amplitudes of a term among the free parameters, in groups that count together."""
     slots, _ = sort_slots(problem, key)
     alone = [[problem.keys.index(s.key)] for s in slots if s.param.low >= 0.0]
     signed = [problem.keys.index(s.key) for s in slots if s.param.low < 0.0]
@@ -38,6 +38,6 @@ def _list_amplitudes(problem: Problem, key: str) -> list[list[int]]:
 
 
 def compute_deviations(amplitudes: Array, covariance: Array) -> float:
-    """Return how many standard deviations of one normal number are as rare as these amplitudes are if nothing is."""
+    """Return the equivalent number of standard deviations of one normal variable for amplitudes with a covariance."""
     squared = float(amplitudes @ np.linalg.pinv(covariance) @ amplitudes)
     return math.sqrt(squared * REFERENCE**2 / chdtri(len(amplitudes), 2.0 * ndtr(-REFERENCE)))

@@ -1,4 +1,8 @@
-"""The course of a selection: the sets of terms that were visited, what they are worth, and their probabilities."""
+"""The sets of terms that a selection has fitted, their comparison with a generic smooth force, and their probabilities.
+
+Each set of terms is compared together with a model discrepancy (`rival.py`). The log evidence that the discrepancy adds
+is either predicted by a local expansion about a fit, or confirmed by a fit with the smooth forces.
+"""
 
 from __future__ import annotations
 
@@ -21,21 +25,22 @@ from lostmotion.inference.rival import (
 from lostmotion.settings import RivalSettings
 
 CLOSE = 12.0
-"""Sets that are so close to the best in log weight are fitted again, and kept for comparison."""
+"""Sets within this distance of the best in log weight are refitted, and kept for comparison."""
 BEAM = 3
+"""The number of sets of one size that are extended in each round."""
 LEAST_GAIN = -10.0
-"""What a discrepancy is worth at most whose promise does not come true: known values and channels that are left open
-cost about so much where they explain nothing."""
+"""The least gain of a discrepancy without effect: free known values and channel errors that explain nothing reduce the
+log evidence by about this much."""
 
 MOST_ADDITIONS, WORTHWHILE = 2, 6.0
-"""So often smooth forces are added to a fit with some of them, where they promise so much more log evidence."""
+"""Smooth forces are added to a fit at most this number of times, if they predict at least this gain in log evidence."""
 MOST_CORRECTIONS = 3
-"""So often the channels of a recording are put right where their flaws promise much."""
+"""Channels are corrected at most this number of times, if their errors predict a large gain."""
 
 
 @dataclass(frozen=True)
 class TermSet:
-    """A set of terms with its fit and its log posterior weight (log evidence plus log prior of the set)."""
+    """A fitted set of terms with its fit and its log posterior weight (log evidence plus log prior of the set)."""
 
     terms: frozenset[str]
     fit: Fit
@@ -43,10 +48,10 @@ class TermSet:
 
 
 class DiscrepancyFit(NamedTuple):
-    """What smooth forces have won when they were fitted: log evidence, their log price, and what is promised `beside`.
+    """The fit of a set with the smooth forces of its discrepancy: gain in log evidence, log penalty, predicted rest.
 
-    That rest, wrong known values and channels, is believed up to a limit. `fit` is the one with the smooth
-    forces, to the recordings as they are, and `right` the one to recordings whose channels were put right.
+    `rest` is the gain that errors of known values and channels predict in addition, up to a limit. `fit` is the fit
+    with smooth forces to the uncorrected recordings, `corrected` the fit to recordings with corrected channels.
     """
 
     evidence: float
@@ -57,16 +62,16 @@ class DiscrepancyFit(NamedTuple):
 
     @property
     def free_values_cost(self) -> float:
-        """What known values and channels that are left open cost at the most, as far as it was measured."""
+        """The measured change of log evidence by free known values and channel errors, at most zero."""
         return max(LEAST_GAIN, min(self.rest, 0.0))
 
     def compute_gain(self, inflation: float) -> float:
-        """Return the log evidence that was won, where likelihoods count by one over `worse`."""
+        """Return the gain in log evidence, with log-likelihoods divided by `inflation`."""
         return self.evidence / inflation - self.price + self.rest
 
 
 def _evaluate_fit(found: tuple[Fit, float] | None, fit: Fit) -> DiscrepancyFit | None:
-    """Return what a fit with smooth forces has won over the one without; None where there is none."""
+    """Return the evaluated fit with smooth forces, compared with the fit without; None if there is none."""
     if found is None or found[0].status == "diverged":
         return None
     best, price, rest = _add_smooth_forces(*found)
@@ -88,9 +93,9 @@ def _evaluate_fit(found: tuple[Fit, float] | None, fit: Fit) -> DiscrepancyFit |
 
 
 def _add_smooth_forces(best: Fit, price: float) -> tuple[Fit, float, DiscrepancyExpansion]:
-    """Return a fit with smooth forces, and with more of them as long as these promise news and it comes true.
+    """Return a fit with smooth forces, its log penalty, and its expansion.
 
-    With it its log price, and the expansion about it.
+    Further smooth forces are added as long as they predict a further gain and the fit confirms it.
     """
     rest = expand_fit(best)
     for _ in range(MOST_ADDITIONS):
@@ -105,13 +110,13 @@ def _add_smooth_forces(best: Fit, price: float) -> tuple[Fit, float, Discrepancy
 
 
 def _limit_gain(rest: DiscrepancyExpansion) -> float:
-    """Return what is believed of the promise of an expansion about a fit with smooth forces: no more than a limit."""
+    """Return the predicted gain of an expansion about a fit with smooth forces, up to a limit."""
     promised, limits = rest.predict_gain(), rest.fit.problem.settings.rival
     return min(promised if promised < limits.absurd else rest.compute_fixed_gain(rest.inflation), limits.much)
 
 
 class KnownLogOdds(NamedTuple):
-    """The log odds of a set over another one, and what they were worked out from."""
+    """The log odds of a set over another one, and the fits from which they were computed."""
 
     basis: tuple[object, ...]
     value: float
@@ -131,14 +136,16 @@ class SimplestTerms:
 
 @dataclass
 class Selection:
-    """The course of a selection: the nominal fit, every set visited, the hints of the first round, the set chosen.
+    """The state of a selection: the nominal fit, all fitted sets, the score tests of the first round, the chosen set.
 
-    `declined` names terms with evidence that was not believed, since what is left over has a memory. `rivals` holds the
-    expansions of fits with the discrepancy that every name has to beat, `unbeaten` the terms that did not. `stopped`
-    says that the search ended at its bound. `withdrawn` are terms that held-out data spoke against: no set with one of
-    them is weighed. `scored` holds the log score of held-out data that sets have won over the best of what stands
-    against them: it is added to their log odds. `simplest` replaces the probabilities where the chosen terms are only
-    the simplest explanation.
+    `declined` are terms with evidence that is not reliable, because the residuals are autocorrelated. `expansions` has
+    the expansion of each set with the discrepancy, and `tied` the terms that are supported by the evidence but not
+    better than a smooth force. `stopped` states that the search ended at its limit. `withdrawn` are terms that held-out
+    data refuted: sets with one of them have no probability. `heldout_gains` are differences in the log score of
+    held-out data, which are added to the log odds of sets. `simplest` replaces the probabilities if the chosen set is
+    only the simplest explanation. `discrepancy_fits` has the fit of the discrepancy of each set for which one was made,
+    `known_log_odds` the log odds that were computed, and `imitations` the pairs of sets, one a part of the other, for
+    which smooth forces were fitted in place of the additional terms.
     """
 
     nominal: Fit
@@ -158,23 +165,23 @@ class Selection:
 
     @property
     def limits(self) -> RivalSettings:
-        """What is usual on real machines."""
+        """The usual imperfections of real machines."""
         return self.nominal.problem.settings.rival
 
     def expansion(self, term_set: TermSet) -> DiscrepancyExpansion:
-        """Return the expansion of a visited set with the discrepancy; it is made once for each fit."""
+        """Return the expansion of a set with its discrepancy; it is computed once for each fit."""
         known = self.expansions.get(term_set.terms)
         if known is None or known[0] is not term_set.fit:
             self.expansions[term_set.terms] = (term_set.fit, expand_fit(term_set.fit))
         return self.expansions[term_set.terms][1]
 
     def compute_log_odds(self, term_set: TermSet, over: TermSet) -> float:
-        """Return the log odds of a set over another one where either stands beside the discrepancy.
+        """Return the log odds of a set over another one, both with the discrepancy.
 
-        What one-step errors win is divided by how much their scores scatter more than independent ones would. Where
-        the other is a part of the set, it is also asked what it is worth seen from here: with a random force that
-        is no larger than it has to be once the terms are in. A part is feared by all that its discrepancy promises; the
-        set itself is believed by what comes true (`check`). Where both were fitted, fits are compared.
+        Differences in log-likelihood are divided by the inflation of the scatter of scores by autocorrelation. If the
+        other set is a subset, it is also evaluated by the expansion about the larger set, in which the random force is
+        no larger than necessary. The subset counts with the whole predicted gain of its discrepancy, the larger set
+        only with the gain that a fit confirms (`fit_discrepancy`). If both were fitted, the fits are compared.
         """
         if term_set.terms < over.terms:
             return -self.compute_log_odds(over, term_set)
@@ -194,9 +201,9 @@ class Selection:
         return known.value
 
     def fit_discrepancy(self, term_set: TermSet) -> None:
-        """Fit the smooth forces of the discrepancy of a set where they promise much: from then on what they win counts.
+        """Fit the smooth forces of the discrepancy of a set if they predict a large gain; the fitted gain counts then.
 
-        Such a fit costs as much as a hundred score tests, so it is made only of sets on which a choice depends.
+        Such a fit costs as much as a hundred score tests, so it is made only for sets that can decide a choice.
         """
         if not self._has_discrepancy_fit(term_set):
             if self.expansion(term_set).find_best().gain >= self.limits.much:
@@ -205,21 +212,21 @@ class Selection:
                 self.discrepancy_fits[term_set.terms] = (term_set.fit, None)
 
     def _fit_smooth_forces(self, term_set: TermSet) -> None:
-        """Fit the discrepancy beside a set, and note what it has won."""
+        """Fit the discrepancy beside a set, and store the result."""
         self.discrepancy_fits[term_set.terms] = (
             term_set.fit,
             _evaluate_fit(fit_discrepancy(self.expansion(term_set)), term_set.fit),
         )
 
     def discrepancy_fit(self, term_set: TermSet) -> DiscrepancyFit | None:
-        """Return what the smooth forces of a set have won when they were fitted; None where they were not."""
+        """Return the fit of the discrepancy of a set; None if none was made."""
         return self.discrepancy_fits[term_set.terms][1] if self._has_discrepancy_fit(term_set) else None
 
     def settle_comparison(self, term_set: TermSet, over: TermSet, needed: float) -> None:
-        """Check a set where that may decide whether it leads by as much as is needed.
+        """Fit discrepancies where this can decide whether the log odds of a set over another one exceed `needed`.
 
-        A check makes a lead smaller, but where slopes about the set turn out to mean nothing. Where the discrepancy of
-        one of the two was fitted, that of the other is fitted too, however little it promises.
+        Such a fit reduces the log odds, unless the expansion about the set is not valid. If the discrepancy of one of
+        the two sets was fitted, that of the other is fitted too, even if it predicts a small gain.
         """
         if (
             self.compute_log_odds(term_set, over) > needed
@@ -235,9 +242,9 @@ class Selection:
             self._fit_imitation(term_set, over)
 
     def _fit_imitation(self, term_set: TermSet, over: TermSet) -> None:
-        """Fit smooth forces in place of the terms that a set has beyond a part of it, as slopes about it say they can.
+        """Fit smooth forces in place of the terms that a set has in addition to a subset, starting from its expansion.
 
-        What they win is won by the part; from then on fits alone tell how far the set is ahead of it.
+        The gain counts for the subset; from then on the log odds of the two sets are computed from fits only.
         """
         known = self.discrepancy_fit(over)
         if known is None or self.discrepancy_fit(term_set) is None:
@@ -251,7 +258,7 @@ class Selection:
         return term_set.terms in self.discrepancy_fits and self.discrepancy_fits[term_set.terms][0] is term_set.fit
 
     def predict_smooth_gain(self) -> float:
-        """Return the log evidence that smooth forces promise beside the chosen set, where its expansion is known."""
+        """Return the gain in log evidence that smooth forces predict beside the chosen set; 0 without an expansion."""
         terms = self.chosen.problem.active
         if terms not in self.expansions:
             return 0.0
@@ -259,7 +266,7 @@ class Selection:
         return expansion.find_best().gain - expansion.compute_fixed_gain(expansion.inflation)
 
     def estimate_confirmed_gain(self, term_set: TermSet, inflation: float) -> float:
-        """Return the log evidence that a discrepancy adds to a set; once it is checked, no more than comes true."""
+        """Return the log evidence that a discrepancy adds to a set; if it was fitted, at most the confirmed gain."""
         expansion = self.expansion(term_set)
         promised, won = expansion.find_best(inflation).gain, self.discrepancy_fit(term_set)
         if won is None:
@@ -270,11 +277,11 @@ class Selection:
         )
 
     def estimate_largest_gain(self, term_set: TermSet, inflation: float, more: frozenset[str] = frozenset()) -> float:
-        """Return the log evidence that a discrepancy may add to a part of a set: promised or fitted, whichever is more.
+        """Return the log evidence that a discrepancy may add to a subset: the larger of predicted and fitted gain.
 
-        Where scores have a long memory what a fit wins is mostly that memory, and the promise alone counts. Of an
-        absurd promise that did not come true no more than `absurd` is feared, but where it stands against `more`: terms
-        that an engineer looks for last.
+        If scores have a long autocorrelation, a fitted gain is mostly that of the autocorrelation, and only the
+        predicted gain counts. A predicted gain that a fit does not confirm counts up to `absurd`, except against `more`
+        terms with a prior penalty for uncommon causes.
         """
         promised = self.expansion(term_set).find_best(inflation).gain
         won = self.discrepancy_fit(term_set) if inflation < self.limits.lasting else None
@@ -285,7 +292,7 @@ class Selection:
 
     @staticmethod
     def _compare_penalties(term_set: TermSet, over: TermSet) -> float:
-        """Return by how much the terms of a set cost more than those of another one."""
+        """Return the prior penalty of a set less that of another one."""
         return (term_set.fit.log_evidence - term_set.weight) - (over.fit.log_evidence - over.weight)
 
     def _evaluate_log_odds(self, term_set: TermSet, over: TermSet) -> float:
@@ -301,7 +308,7 @@ class Selection:
         return min(lead, own - here.predict_gain(dropped, inflation=inflation) - prices)
 
     def _compare_by_fits(self, term_set: TermSet, over: TermSet) -> float:
-        """Return the lead of a set over a part of it by what smooth forces promise or win beside either."""
+        """Return the log odds of a set over a subset from predicted or fitted gains of smooth forces beside either."""
         here, inflation = self.expansion(term_set), self.expansion(term_set).inflation
         won = self.discrepancy_fit(term_set) if self.discrepancy_fit(over) and inflation < self.limits.lasting else None
         own = (
@@ -318,25 +325,25 @@ class Selection:
         )
 
     def is_expansion_valid(self, term_set: TermSet) -> bool:
-        """Return whether slopes about a set say what happens: a body at rest answers small forces not at all.
+        """Return whether the expansion about a set is valid; a body at rest, for instance, ignores small forces.
 
-        They do not where they promise much and nothing of it comes true.
+        It is not valid if it predicts a very large gain and a fit confirms nothing of it.
         """
         won = self.discrepancy_fit(term_set)
         return won is None or won.evidence > 0.0 or self.expansion(term_set).find_best().gain < self.limits.absurd
 
     def probabilities(self) -> dict[frozenset[str], float]:
-        """Return the posterior probability of each set among those visited, but for sets that were not believed.
+        """Return the posterior probability of each fitted set, without sets of declined or withdrawn terms.
 
-        Sets of which the expansion is known are weighed beside the discrepancy, all others by their evidence alone: by
-        that they come behind those, and weigh no more than the least of them. No set is ahead of a part of it by more
-        than was confirmed.
+        Sets with an expansion are compared together with the discrepancy; the others are compared by evidence, and are
+        at most as probable as the least probable of the former. The log odds of a set over a subset are at most those
+        that were confirmed.
         """
-        doubted = (self.declined | self.withdrawn) - self.chosen.problem.active
-        believed = {k: v for k, v in self.fitted_sets.items() if not k & doubted}
+        excluded = (self.declined | self.withdrawn) - self.chosen.problem.active
+        considered = {k: v for k, v in self.fitted_sets.items() if not k & excluded}
         chosen = self.fitted_sets[self.chosen.problem.active]
-        log_odds = {k: v.weight - chosen.weight for k, v in believed.items()}
-        known = [terms for terms in believed if terms in self.expansions and terms != chosen.terms]
+        log_odds = {k: v.weight - chosen.weight for k, v in considered.items()}
+        known = [terms for terms in considered if terms in self.expansions and terms != chosen.terms]
         log_odds |= {terms: -self.compute_log_odds(chosen, self.fitted_sets[terms]) for terms in known}
         for (more, fewer), lead in sorted(self.known_log_odds.items(), key=lambda known: len(known[0][0])):
             if fewer < more and more in log_odds and fewer in log_odds and more != chosen.terms:
@@ -350,19 +357,19 @@ class Selection:
         return {k: w / total for k, w in raw.items()}
 
     def list_close_fits(self) -> list[Fit]:
-        """Return the fits of the best sets but for the chosen one, as far as they are close to it."""
+        """Return the fits of the best sets that are close to the chosen one, without that one."""
         top = self.fitted_sets[self.chosen.problem.active].weight - CLOSE
         good = [v for v in self.fitted_sets.values() if v.weight > top and v.fit is not self.chosen]
         return [v.fit for v in sorted(good, key=lambda v: -v.weight)[:BEAM]]
 
     def inclusion(self, key: str) -> float:
-        """Return the posterior probability that a term is at work."""
+        """Return the posterior inclusion probability of a term."""
         if self.simplest:
             return self.simplest.probabilities.get(key, 0.0)
         return sum(p for terms, p in self.probabilities().items() if key in terms)
 
     def gain(self, key: str) -> float:
-        """Return the log evidence that the term alone adds to the nominal model, or what its score test bounds."""
+        """Return the log evidence that a term alone adds to the nominal model, or a bound from its score test."""
         alone = self.fitted_sets.get(frozenset({key}))
         if alone:
             return alone.fit.log_evidence - self.nominal.log_evidence
