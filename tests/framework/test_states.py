@@ -117,9 +117,7 @@ def test_a_change_at_the_very_beginning_may_be_a_wrong_known_value(time, sure):
 def test_a_name_that_leaves_most_of_the_force_missing_is_likely(left, sure):
     after = fit_of({f"{FRICTION}.force": 1.0}, [FRICTION])
     doubts = list_warnings(diagnosis(after, {(FRICTION,): 1.0}, left=missing(left)), FRICTION)
-    assert (
-        doubts == [] if sure else ["60% of the missing force is still" in doubt for doubt in doubts] == [True]
-    )
+    assert doubts == [] if sure else ["60% of the missing force is still" in doubt for doubt in doubts] == [True]
 
 
 def test_a_sure_term_is_named_and_one_with_rivals_is_not():
