@@ -11,7 +11,7 @@ from lostmotion.case import CaseFile
 from lostmotion.contracts import Array, Interface, Model, SensorTerm, Values, place_of
 from lostmotion.errors import DataError
 from lostmotion.inference.fit import Fit, maximise
-from lostmotion.inference.learned import LearnedCurve, OverTime
+from lostmotion.inference.learned import LearnedTerm, OverTime
 from lostmotion.inference.locate import (
     Curve,
     average_curve,
@@ -393,6 +393,6 @@ def _find_place(system: System, key: str) -> Interface:
 def list_physical_keys(fit: Fit) -> list[str]:
     """Return the keys of the physical parameters of a fit, without noise levels and coefficients of curves."""
     system = fit.problem.system
-    curves = tuple(f"{k}." for k, t in zip(system.keys, system.terms, strict=True) if isinstance(t, LearnedCurve))
+    curves = tuple(f"{k}." for k, t in zip(system.keys, system.terms, strict=True) if isinstance(t, LearnedTerm))
     physical = [f.key for f in fit.problem.free if f.level not in LEVELS]
     return [k for k in physical if not (curves and k.startswith(curves))]

@@ -15,7 +15,7 @@ import numpy as np
 
 from lostmotion.contracts import Array, Interface, place_of
 from lostmotion.inference.fit import Fit, Sensitivity, compute_robust_covariance, maximise, restart, solve_scaled
-from lostmotion.inference.learned import LearnedCurve, compute_spread
+from lostmotion.inference.learned import LearnedTerm, compute_spread
 from lostmotion.inference.natural import find_term
 from lostmotion.inference.surfaces import RICHER, OverHistory, Surface, list_all_curves
 from lostmotion.likelihood.problem import FreeParameter, Problem
@@ -65,7 +65,7 @@ def add_all_curves(fit: Fit) -> Fit:
     All terms stay, so one kernel serves any active set. A system that has the curves is returned unchanged.
     """
     problem, old = fit.problem, fit.problem.system
-    if any(isinstance(term, LearnedCurve) for term in old.terms):
+    if any(isinstance(term, LearnedTerm) for term in old.terms):
         return fit
     driven = all(observation.harmonic.omega > 0.0 for observation in problem.observations)
     curves = list_all_curves(old.model, driven=driven)
@@ -94,7 +94,7 @@ def smooth_motions(fit: Fit, places: Sequence[Interface]) -> Motions:
     return found
 
 
-def _find_ranges(fit: Fit, curve: LearnedCurve, moved: Motions) -> dict[str, float]:
+def _find_ranges(fit: Fit, curve: LearnedTerm, moved: Motions) -> dict[str, float]:
     """Return middle and half width of the range of a curve's variable, for a surface of both variables."""
     time = fit.problem.scales.time
     found = _centre_range(*_find_range(fit, curve, curve.over, moved, time))
@@ -107,7 +107,7 @@ def _centre_range(low: float, high: float) -> dict[str, float]:
     return {"middle": 0.5 * (low + high), "half": 0.5 * (high - low)}
 
 
-def _find_range(fit: Fit, curve: LearnedCurve, over: str, moved: Motions, time: float) -> tuple[float, float]:
+def _find_range(fit: Fit, curve: LearnedTerm, over: str, moved: Motions, time: float) -> tuple[float, float]:
     """Return the least and the greatest value of a variable in all recordings, with a narrow margin.
 
     `time` (s) is the memory time of a hidden state.
@@ -132,7 +132,7 @@ def _find_ends(moved: Array) -> tuple[float, float]:
     return float(low), float(high)
 
 
-def compute_coefficient_size(term: LearnedCurve, problem: Problem) -> float:
+def compute_coefficient_size(term: LearnedTerm, problem: Problem) -> float:
     """Return the natural size of the coefficients of a curve: the drive, in their dimension."""
     scales = problem.scales
     return term.params[0].dimension.scale(scales.force, scales.length, scales.time)
@@ -173,9 +173,9 @@ def _choose_smoothness(fit: Fit, slopes: Sensitivity, key: str) -> CurveTest:
     return max(options, key=lambda s: s.gain)
 
 
-def _find_curve(problem: Problem, key: str) -> LearnedCurve:
+def _find_curve(problem: Problem, key: str) -> LearnedTerm:
     term, _ = find_term(problem, key)
-    if not isinstance(term, LearnedCurve):
+    if not isinstance(term, LearnedTerm):
         raise TypeError(f"{key} is no learned curve")
     return term
 
@@ -259,7 +259,7 @@ class Band:
     A surface is given on the grid of `at` and `beside`, with the values (points of both) in rows.
     """
 
-    term: LearnedCurve
+    term: LearnedTerm
     at: Array
     mean: Array
     covariance: Array

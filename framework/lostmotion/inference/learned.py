@@ -52,7 +52,7 @@ def compute_spectrum(waves: Array, length: float) -> Array:
 
 
 @dataclass(frozen=True)
-class LearnedCurve(Term):
+class LearnedTerm(Term):
     """A force that is learned as a curve: a sum of `count` sines of one variable.
 
     `depends` names the covariates of the force, `times` the factor of the curve. The kernel reads the curve from a
@@ -129,7 +129,7 @@ class LearnedCurve(Term):
 
 
 @dataclass(frozen=True)
-class OverPosition(LearnedCurve):
+class OverPosition(LearnedTerm):
     """A force that depends on the position."""
 
     cells: int = 2 * CELLS
@@ -142,7 +142,7 @@ class OverPosition(LearnedCurve):
 
 
 @dataclass(frozen=True)
-class OverVelocity(LearnedCurve):
+class OverVelocity(LearnedTerm):
     """A force that depends on the velocity."""
 
     source: int = VELOCITY
@@ -154,7 +154,7 @@ class OverVelocity(LearnedCurve):
 
 
 @dataclass(frozen=True)
-class FrictionOverPosition(LearnedCurve):
+class FrictionOverPosition(LearnedTerm):
     """Friction of a size that depends on the position; it sticks as `coulomb_friction` does."""
 
     factor: int = AGAINST_MOTION
@@ -168,7 +168,7 @@ class FrictionOverPosition(LearnedCurve):
 
 
 @dataclass(frozen=True)
-class DragOverPosition(LearnedCurve):
+class DragOverPosition(LearnedTerm):
     """A viscous drag of which the coefficient depends on the position."""
 
     factor: int = DRAG
@@ -181,7 +181,7 @@ class DragOverPosition(LearnedCurve):
 
 
 @dataclass(frozen=True)
-class OverTime(LearnedCurve):
+class OverTime(LearnedTerm):
     """A force that changes slowly during a recording; after its end it keeps its last value."""
 
     source: int = TIME_PASSED
@@ -193,7 +193,7 @@ class OverTime(LearnedCurve):
 
 
 @dataclass(frozen=True)
-class OverPhase(LearnedCurve):
+class OverPhase(LearnedTerm):
     """A force that repeats with each period of the drive; `middle` and `half` are not used."""
 
     source: int = PHASE
@@ -226,16 +226,16 @@ def _make_phases(count: int) -> Array:
     return np.asarray(np.tile([0.5 * math.pi, 0.0], count // 2), dtype=float)
 
 
-def compute_spread(term: LearnedCurve | type[LearnedCurve], length: float) -> Array:
+def compute_spread(term: LearnedTerm | type[LearnedTerm], length: float) -> Array:
     """Return the prior standard deviation (count,) of each coefficient of a curve, for a force of unit deviation."""
     return term.spread(length)
 
 
-def list_covariates(terms: Sequence[LearnedCurve]) -> list[str]:
+def list_covariates(terms: Sequence[LearnedTerm]) -> list[str]:
     """Return the covariates on which the sum of some curves depends, each once."""
     return list(dict.fromkeys(_name_at_place(name, term) for term in terms for name in term.depends))
 
 
-def _name_at_place(name: str, term: LearnedCurve) -> str:
+def _name_at_place(name: str, term: LearnedTerm) -> str:
     moving = name not in ("time", "phase") and term.at != "ground"
     return f"{name} at {term.at}" if moving else name

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.inference.learned import LearnedCurve
+from lostmotion.inference.learned import LearnedTerm
 from lostmotion.inference.natural import find_term, list_tried_values, sort_slots
 from lostmotion.inference.shape_scan import MOST_SAMPLES, SmoothedMotion, list_shapes
 from lostmotion.likelihood.problem import Problem
@@ -63,7 +63,7 @@ def _list_static(problem: Problem) -> list[str]:
         if (
             term.acts == "motion"
             and not term.states
-            and not isinstance(term, LearnedCurve)
+            and not isinstance(term, LearnedTerm)
             and "acceleration" not in term.needs
         ):
             found.append(key)

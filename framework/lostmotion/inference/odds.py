@@ -36,7 +36,7 @@ from lostmotion.inference.fit import BLOCKS, Fit, Sensitivity
 from lostmotion.inference.learned import (
     DragOverPosition,
     FrictionOverPosition,
-    LearnedCurve,
+    LearnedTerm,
     OverPhase,
     OverPosition,
     OverTime,
@@ -53,7 +53,7 @@ LEAST = 1e-6
 MOST_SAMPLES = 8000
 """Longer recordings are represented by evenly spread stretches, because a curve has dozens of coefficients."""
 
-NAMES: Mapping[type[LearnedCurve], str] = {
+NAMES: Mapping[type[LearnedTerm], str] = {
     OverPosition: "position",
     OverVelocity: "velocity",
     FrictionOverPosition: "sign of velocity",
@@ -63,7 +63,7 @@ NAMES: Mapping[type[LearnedCurve], str] = {
 }
 """The covariate of each curve: friction with a level over position counts as the sign of the velocity, and damping with
 a coefficient over position as the velocity."""
-SIMPLEST: Mapping[type[LearnedCurve], int] = {
+SIMPLEST: Mapping[type[LearnedTerm], int] = {
     OverPosition: 1,
     OverVelocity: 1,
     OverTime: 1,
@@ -91,7 +91,7 @@ def compute_log_ratios(fit: Fit) -> dict[str, LikelihoodRatio]:
     slopes = compute_slopes(wider)
     found: dict[str, list[LikelihoodRatio]] = {}
     for key, term in zip(wider.problem.system.keys, wider.problem.system.terms, strict=True):
-        if isinstance(term, LearnedCurve) and type(term) in NAMES and key not in wider.problem.active:
+        if isinstance(term, LearnedTerm) and type(term) in NAMES and key not in wider.problem.active:
             found.setdefault(name_covariate(term), []).append(_compute_ratio(wider, slopes, key, term))
     return {name: LikelihoodRatio(*map(compute_log_mean, zip(*values, strict=True))) for name, values in found.items()}
 
@@ -110,7 +110,7 @@ def _shorten_recordings(problem: Problem) -> Problem:
     return problem.on(tuple(part for one in problem.observations for part in list_stretches(one, share)))
 
 
-def _compute_ratio(fit: Fit, slopes: Sensitivity, key: str, term: LearnedCurve) -> LikelihoodRatio:
+def _compute_ratio(fit: Fit, slopes: Sensitivity, key: str, term: LearnedTerm) -> LikelihoodRatio:
     """Return the log likelihood ratio of one curve, averaged over its priors."""
     joint, k = join_curve(fit, slopes, key), len(slopes.theta)
     try:
@@ -148,13 +148,13 @@ def compute_inflation(sums: Array, information: Array, root: Array) -> float:
     return max(1.0, scatter / stated) if stated > 0.0 else 1.0
 
 
-def name_covariate(term: LearnedCurve) -> str:
+def name_covariate(term: LearnedTerm) -> str:
     """Return the covariate of a curve with its place."""
     name = NAMES[type(term)]
     return name if term.at == "ground" or name in ("time", "phase") else f"{name} at {term.at}"
 
 
-def _list_prior_roots(term: LearnedCurve) -> Iterator[list[Array]]:
+def _list_prior_roots(term: LearnedTerm) -> Iterator[list[Array]]:
     """Yield square roots (count, rank) of prior covariances for a unit drive: smooth curves, then the simplest one."""
     yield [_make_diagonal(size * compute_spread(term, length)) for size, length in itertools.product(SIZES, LENGTHS)]
     if type(term) in SIMPLEST:

@@ -24,7 +24,7 @@ from lostmotion.inference.candidates import compute_slopes
 from lostmotion.inference.channel_errors import Change, ChannelError, list_channel_errors
 from lostmotion.inference.curves import Motions, add_all_curves, add_curve, compute_coefficient_size, smooth_motions
 from lostmotion.inference.fit import BLOCKS, Fit, Sensitivity, maximise, restart, solve_scaled
-from lostmotion.inference.learned import LearnedCurve, OverPhase, OverPosition, OverTime, OverVelocity, compute_spread
+from lostmotion.inference.learned import LearnedTerm, OverPhase, OverPosition, OverTime, OverVelocity, compute_spread
 from lostmotion.inference.natural import find_term
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import FreeParameter, Problem
@@ -251,7 +251,7 @@ def expand_fit(fit: Fit) -> DiscrepancyExpansion:
 
 
 def _remove_constants(
-    fit: Fit, terms: dict[str, LearnedCurve], groups: Sequence[CoefficientGroup], rows: tuple[Array, Array]
+    fit: Fit, terms: dict[str, LearnedTerm], groups: Sequence[CoefficientGroup], rows: tuple[Array, Array]
 ) -> None:
     """Remove the constant force from the derivatives `rows` (coefficients, readings) of smooth forces, in place.
 
@@ -282,7 +282,7 @@ def _act_on_same_bodies(place: Interface, body: Interface) -> bool:
     return (place.row, place.against) == (body.row, body.against)
 
 
-def _average_along_motion(fit: Fit, key: str, term: LearnedCurve, moved: Motions) -> Array:
+def _average_along_motion(fit: Fit, key: str, term: LearnedTerm, moved: Motions) -> Array:
     """Return the mean (count,) of each wave of a smooth force along the recorded motion."""
     if isinstance(term, OverPhase):
         return np.zeros(term.count)

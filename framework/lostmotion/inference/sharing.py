@@ -21,7 +21,7 @@ from scipy.special import chdtrc
 from lostmotion.case import SensorSpec
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import MANY, Fit, compute_sensitivity, maximise, raise_random_force, restart
-from lostmotion.inference.learned import LearnedCurve
+from lostmotion.inference.learned import LearnedTerm
 from lostmotion.inference.setup import separate_levels
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.observation import Observation
@@ -167,7 +167,7 @@ def _release_parameters(shared: Fit) -> tuple[SharedValues, float]:
 def list_curves(problem: Problem) -> tuple[str, ...]:
     """Return the keys of the learned curves that act in a problem."""
     terms = zip(problem.system.keys, problem.system.terms, strict=True)
-    return tuple(key for key, term in terms if isinstance(term, LearnedCurve) and key in problem.active)
+    return tuple(key for key, term in terms if isinstance(term, LearnedTerm) and key in problem.active)
 
 
 def _fit_beginnings(fit: Fit) -> Fit:

@@ -20,7 +20,7 @@ from lostmotion.inference.learned import (
     WIDER,
     DragOverPosition,
     FrictionOverPosition,
-    LearnedCurve,
+    LearnedTerm,
     OverPhase,
     OverPosition,
     OverTime,
@@ -48,7 +48,7 @@ def _make_surface_params(second: Dimension) -> tuple[Param, ...]:
 
 
 @dataclass(frozen=True)
-class Surface(LearnedCurve):
+class Surface(LearnedTerm):
     """A force that is learned over position and a second variable."""
 
     wide: int = WIDE
@@ -151,7 +151,7 @@ class OverPositionAndPhase(Surface):
 
 
 @dataclass(frozen=True)
-class OverHistory(LearnedCurve):
+class OverHistory(LearnedTerm):
     """A force that depends on the history of the motion: a curve over the extension of a spring behind a dashpot.
 
     Its state z follows dz/dt = v - z / time: for a long time it is the position, for a short one the velocity.
@@ -185,19 +185,19 @@ class OverHistory(LearnedCurve):
         return np.asarray(lfilter([1.0], [1.0, -kept], np.concatenate([[0.0], pushed])))
 
 
-KINDS: tuple[type[LearnedCurve], ...] = (OverPosition, OverVelocity, FrictionOverPosition, DragOverPosition)
-CLOCKS: tuple[type[LearnedCurve], ...] = (OverTime, OverPhase)
-RICHER: tuple[type[LearnedCurve], ...] = (OverPlane, OverPositionAndPhase, OverHistory)
+KINDS: tuple[type[LearnedTerm], ...] = (OverPosition, OverVelocity, FrictionOverPosition, DragOverPosition)
+CLOCKS: tuple[type[LearnedTerm], ...] = (OverTime, OverPhase)
+RICHER: tuple[type[LearnedTerm], ...] = (OverPlane, OverPositionAndPhase, OverHistory)
 """Tried where curves over one variable do not suffice."""
 
 
-def list_all_curves(model: Model, *, driven: bool) -> tuple[LearnedCurve, ...]:
+def list_all_curves(model: Model, *, driven: bool) -> tuple[LearnedTerm, ...]:
     """Return every curve that can be learned in a model: of the motion at each place, of time and drive at the first.
 
     `driven` says that all recordings have a drive with one frequency.
     """
-    moving: tuple[type[LearnedCurve], ...] = (*KINDS, OverPlane, OverHistory)
-    timed: tuple[type[LearnedCurve], ...] = (*CLOCKS, OverPositionAndPhase)
+    moving: tuple[type[LearnedTerm], ...] = (*KINDS, OverPlane, OverHistory)
+    timed: tuple[type[LearnedTerm], ...] = (*CLOCKS, OverPositionAndPhase)
     own = [kind(at=place.name) for place in model.interfaces for kind in moving]
     clocks = [kind for kind in timed if driven or "omega" not in kind.needs]
     return (*own, *(kind(at=model.interfaces[0].name) for kind in clocks))

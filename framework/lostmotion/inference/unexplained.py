@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from lostmotion.inference.candidates import compute_slopes
 from lostmotion.inference.curves import CHOICES, ROUNDS, add_all_curves, fit_curve, run_curve_test
 from lostmotion.inference.fit import Fit, maximise
-from lostmotion.inference.learned import LearnedCurve
+from lostmotion.inference.learned import LearnedTerm
 from lostmotion.inference.natural import find_term
 from lostmotion.inference.penalties import compute_penalty
 from lostmotion.inference.random_force import compute_random_force_gain
@@ -47,10 +47,10 @@ class UnknownForce:
         return 1.0 / (1.0 + math.exp(-min(self.gain, 500.0)))
 
     @property
-    def terms(self) -> tuple[LearnedCurve, ...]:
+    def terms(self) -> tuple[LearnedTerm, ...]:
         """The learned terms, in the order in which they were selected."""
         terms = [find_term(self.fit.problem, key)[0] for key in self.keys]
-        return tuple(term for term in terms if isinstance(term, LearnedCurve))
+        return tuple(term for term in terms if isinstance(term, LearnedTerm))
 
 
 @dataclass
@@ -73,7 +73,7 @@ class Search:
     def price(self, problem: Problem, key: str) -> float:
         """Return the log prior penalty of a term, as in the selection, or of a curve with its chosen smoothness."""
         term, _ = find_term(problem, key)
-        if isinstance(term, LearnedCurve):
+        if isinstance(term, LearnedTerm):
             return math.log(max(self.many, 1)) + 1.0 + CHOICES
         return compute_penalty(term, self.many, problem.settings)
 
@@ -89,7 +89,7 @@ class Search:
         slopes = compute_slopes(fit)
         shapes = []
         for key, term in zip(fit.problem.system.keys, fit.problem.system.terms, strict=True):
-            own = isinstance(term, LearnedCurve) and isinstance(term, RICHER) == richer
+            own = isinstance(term, LearnedTerm) and isinstance(term, RICHER) == richer
             if own and key not in fit.problem.active:
                 self.say(f"score test of {key}")
                 shapes.append(run_curve_test(fit, slopes, key))
@@ -135,7 +135,7 @@ class CurveSearch:
             if fit is nominal:
                 return before, search
         before = _shorten_fit(add_all_curves(nominal))
-        learned = sum(isinstance(term, LearnedCurve) for term in before.problem.system.terms)
+        learned = sum(isinstance(term, LearnedTerm) for term in before.problem.system.terms)
         search = Search(self.many + learned, self.say)
         search.visit(before)
         self.kept.append((nominal, before, search))
@@ -211,7 +211,7 @@ def _shorten_fit(fit: Fit) -> Fit:
 
 def _list_curves(problem: Problem) -> tuple[str, ...]:
     pairs = zip(problem.system.keys, problem.system.terms, strict=True)
-    active = {key for key, term in pairs if isinstance(term, LearnedCurve) and key in problem.active}
+    active = {key for key, term in pairs if isinstance(term, LearnedTerm) and key in problem.active}
     seen = dict.fromkeys(f.key.rpartition(".")[0] for f in problem.free)
     return tuple(key for key in seen if key in active)
 
