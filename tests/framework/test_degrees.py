@@ -33,7 +33,7 @@ def test_angles_are_degrees_within_the_context():
 
 
 def test_an_interval_turns_into_degrees_and_others_stay():
-    assert str(Interval(math.pi, 0.0, 2 * math.pi, "rad").with_angles_in("deg")) == "180 deg [0, 360]"
+    assert str(Interval(math.pi, 0.0, 2 * math.pi, "rad").with_angles_in("deg")) == "180.0 deg [0.0, 360.0]"
     assert Interval(1.0, 0.0, 2.0, "rad").with_angles_in("rad").unit == "rad"
     assert Interval(1.0, 0.0, 2.0, "N m").with_angles_in("deg").unit == "N m"
 

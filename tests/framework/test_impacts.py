@@ -84,7 +84,9 @@ def test_no_hits_in_noise_sines_and_silence():
 def test_a_double_hit_is_said():
     force = pulse(1000, 20, 80.0) + pulse(12340, 20, 80.0) + pulse(12401, 20, 14.4)
     (note,) = note_hits(force, DT)
-    assert note.startswith("hit 2 at 1.234 s is a double hit: a second contact of 18% of its peak follows after 6.1 ms")
+    assert note.startswith(
+        "hit 2 at 1.234 s is a double hit: a second contact of 18 % of its peak follows after 6.1 ms"
+    )
     assert not list(note_hits(pulse(1000, 20, 80.0), DT))
 
 

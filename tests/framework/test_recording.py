@@ -72,7 +72,7 @@ def test_a_cut_keeps_both_ends(tmp_path: Path, how: dict[str, object]) -> None:
             SPEC,
             ["excitation 'u'", "NaN", "sample 7", "4 in a row", "t_start"],
         ),
-        ({"u": spoilt(FORCE, slice(0, 400, 100), np.nan)}, SPEC, ["excitation 'u'", "4 of 400", "1%"]),
+        ({"u": spoilt(FORCE, slice(0, 400, 100), np.nan)}, SPEC, ["excitation 'u'", "4 of 400", "1 %"]),
         ({"x": spoilt(POSITION, slice(0, 310), np.nan)}, SPEC, ["response 'x'", "90 readings in 400", "100"]),
         ({"x": spoilt(POSITION, slice(None), np.nan)}, SPEC, ["no reading at all"]),
         ({"x": spoilt(POSITION, 9, -np.inf)}, SPEC, ["infinite", "sample 9"]),

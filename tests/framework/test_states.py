@@ -110,14 +110,14 @@ def test_a_name_has_to_win_three_times_what_has_no_name_beside_it(gain, sure):
 def test_a_change_at_the_very_beginning_may_be_a_wrong_known_value(time, sure):
     after = fit_of({f"{CHANGE}.change": 1.0, f"{CHANGE}.time": time}, [CHANGE])
     doubts = list_warnings(diagnosis(after, {(CHANGE,): 1.0}), CHANGE)
-    assert doubts == [] if sure else ["first 3.0% of the recording" in doubt for doubt in doubts] == [True]
+    assert doubts == [] if sure else ["first 3 % of the recording" in doubt for doubt in doubts] == [True]
 
 
 @pytest.mark.parametrize(("left", "sure"), [(0.6, False), (0.4, True)])
 def test_a_name_that_leaves_most_of_the_force_missing_is_likely(left, sure):
     after = fit_of({f"{FRICTION}.force": 1.0}, [FRICTION])
     doubts = list_warnings(diagnosis(after, {(FRICTION,): 1.0}, left=missing(left)), FRICTION)
-    assert doubts == [] if sure else ["60% of the missing force is still" in doubt for doubt in doubts] == [True]
+    assert doubts == [] if sure else ["60 % of the missing force is still" in doubt for doubt in doubts] == [True]
 
 
 def test_a_sure_term_is_named_and_one_with_rivals_is_not():

@@ -49,10 +49,10 @@ def diagnosed(slow, *names, white=0.0):
 @pytest.mark.parametrize(
     ("force", "error", "told"),
     [
-        ((2.0, 1.0), (0.2, 0.1), "force falls from 2 to 1 N (rms), and * from 20.0% to 10.0%"),
-        ((2.0, 1.0), (0.1, 0.2), "force falls from 2 to 1 N (rms), and * rises from 10.0% to 20.0%"),
-        ((1.0, 2.0), (0.1, 0.2), "force rises from 1 to 2 N (rms), and * from 10.0% to 20.0%"),
-        ((1.0, 2.0), (0.2, 0.1), "force rises from 1 to 2 N (rms), and * falls from 20.0% to 10.0%"),
+        ((2.0, 1.0), (0.2, 0.1), "force falls from 2 to 1 N (rms), and * from 20 % to 10 %"),
+        ((2.0, 1.0), (0.1, 0.2), "force falls from 2 to 1 N (rms), and * rises from 10 % to 20 %"),
+        ((1.0, 2.0), (0.1, 0.2), "force rises from 1 to 2 N (rms), and * from 10 % to 20 %"),
+        ((1.0, 2.0), (0.2, 0.1), "force rises from 1 to 2 N (rms), and * falls from 20 % to 10 %"),
     ],
 )
 def test_what_grows_is_not_said_to_fall(monkeypatch, force, error, told):
@@ -71,13 +71,13 @@ def test_noise_that_may_be_motion_is_doubted():
     assert note_large_noise(diagnosed([0.2])) == []
     assert note_large_noise(diagnosed([0.0], white=0.7)) == []
     assert note_large_noise(diagnosed([0.0], white=0.9))[0].startswith(
-        "The estimated noise is 90% of the held-out readings"
+        "The estimated noise is 90 % of the held-out readings"
     )
     assert note_large_noise(diagnosed([0.5]))[0].startswith(
-        "The estimated noise is autocorrelated and is 50% of the held-out readings"
+        "The estimated noise is autocorrelated and is 50 % of the held-out readings"
     )
     (only,) = note_large_noise(diagnosed([0.1, 0.9], "front", "rear"))
-    assert only.startswith("The estimated noise of rear is autocorrelated and is 90%")
+    assert only.startswith("The estimated noise of rear is autocorrelated and is 90 %")
 
 
 @pytest.mark.parametrize(("mechanism", "words"), [("random_force", "open"), ("unknown", "open"),

@@ -11,7 +11,7 @@ from lostmotion.analysis.period import MAX_RETURN_PERIODS, MotionEvidence, find_
 from lostmotion.analysis.signs import collect_signs, format_estimate, is_growing, measure_turn
 from lostmotion.contracts import Series
 from lostmotion.defaults import SURROGATE_OF_CYCLES
-from lostmotion.results import percent
+from lostmotion.results import decimals_of, percent
 from lostmotion.results.analysis import MotionKind, Sign, State, Strength
 
 MEASURED_SIGNS = ("exponent", "dimension", "entropy")
@@ -174,9 +174,11 @@ def _judge_regular(it: SignedEvidence) -> Verdict | None:
     tested = bool(it.tests) and all(s.state == "for" for s in it.tests)
     if exponent.status != "regular" or not np.isfinite(exponent.value) or not tested:
         return None
+    decimals = decimals_of(exponent.value, exponent.low, exponent.high, 2)
+    value, low, high = (f"{number:.{decimals}f}" for number in (exponent.value, exponent.low, exponent.high))
     says = (
         "Neighbouring states do not diverge, but the motion does not repeat after any number of periods: "
-        f"the exponent is {exponent.value:.2g} {exponent.unit} [{exponent.low:.2g}, {exponent.high:.2g}]."
+        f"the exponent is {value} {exponent.unit} [{low}, {high}]."
     )
     return it.make_verdict("quasiperiodic", says, "likely")
 

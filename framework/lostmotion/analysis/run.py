@@ -246,7 +246,10 @@ def _convert_unit(estimate: Estimate, request: AnalysisRequest, base: BasePeriod
 def _run_tests(
     raw: Series, third_party: MethodWatch, request: AnalysisRequest, say: ProgressCallback
 ) -> tuple[SurrogateTest, ...]:
-    """Return the surrogate tests of the raw series, since noise reduction makes any series look deterministic."""
+    """Return the surrogate tests of the raw series, since noise reduction makes any series look deterministic.
+
+    A usual test that the recording is too short for is left out with a note; one that was asked for is refused.
+    """
     names = request.surrogates or ((SURROGATE, SURROGATE_OF_CYCLES) if raw.period else (SURROGATE,))
     statistic, tests = _make_quantifier(third_party.registry, STATISTIC), []
     for stream, name in zip(request.make_rng("surrogates").spawn(len(names)), names, strict=True):
@@ -262,7 +265,12 @@ def _run_tests(
             jobs=request.jobs,
             level=request.settings.motion.level,
         )
-        tests.append(third_party("surrogate", name, raw.x, partial(test, rng=stream)))
+        try:
+            tests.append(third_party("surrogate", name, raw.x, partial(test, rng=stream)))
+        except DataError as err:
+            if name in request.surrogates or name == SURROGATE:
+                raise
+            third_party.said.append(f"The test against {name.replace('_', ' ')} surrogates was left out: {err}.")
     found = tuple(test for test in tests if test)
     return found or _run_tests(raw, third_party, replace(request, surrogates=(SURROGATE,)), say)
 

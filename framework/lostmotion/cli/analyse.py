@@ -89,7 +89,10 @@ def _format_numbers(found: Analysis) -> list[str]:
 
 
 def _format_measure(found: Measure) -> str:
+    from lostmotion.results import rounded
+
     if found.value != found.value:
         return f"no value: {found.says}"
     unit = "" if found.unit == "1" else f" {found.unit}"
-    return f"{found.value:.3g}{unit}  95 % [{found.low:.3g}, {found.high:.3g}]  {found.says}".rstrip()
+    value, low, high = (rounded(number, 3) for number in (found.value, found.low, found.high))
+    return f"{value}{unit}  95 % [{low}, {high}]  {found.says}".rstrip()

@@ -27,6 +27,7 @@ from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import filter_recording
 from lostmotion.likelihood.problem import RANDOM
 from lostmotion.quantities import TIME
+from lostmotion.results import percent, rounded
 
 MOST_COMPARED = 3
 """The number of sets, of each size, whose predictions are compared."""
@@ -53,7 +54,8 @@ def find_unconfirmed(outcome: Outcome, observations: Sequence[Observation]) -> d
             warnings[key] = (
                 "The model is wrong in other ways too, and free runs over held-out data are not significantly better"
                 f" with this term: they are better in {int(np.sum(errors < without))} of {len(errors)} parts (error"
-                f" {_compute_rms(errors):.2%} of the response with it, {_compute_rms(without):.2%} without it)."
+                f" {percent(_compute_rms(errors), 3)} of the response with it,"
+                f" {percent(_compute_rms(without), 3)} without it)."
             )
     return warnings
 
@@ -250,7 +252,8 @@ def describe_usual_delay(d: SearchResult, key: str) -> str:
     if not samples <= d.settings.rival.late:
         return ""
     return (
-        f"A delay of {samples:.2g} samples is usual in acquisition systems, and the model is wrong in other ways too."
+        f"A delay of {rounded(samples)} samples is usual in acquisition systems, and the model is"
+        " wrong in other ways too."
     )
 
 

@@ -18,7 +18,7 @@ from lostmotion.likelihood.predict import observe_states, simulate_run
 from lostmotion.quantities import quantity_of, unit_of
 from lostmotion.recording.warnings import is_impulsive
 from lostmotion.report.words import choose_scale, to_words
-from lostmotion.results import percent
+from lostmotion.results import percent, rounded
 from lostmotion.results.behaviour import DecayCycles, Decays
 from lostmotion.settings import DEFAULT, NoteSettings
 from lostmotion.signals.decay import Decay, decay_of
@@ -99,7 +99,9 @@ def note_restarts(observation: Observation) -> Iterator[str]:
     """Yield a note if a vibration starts again in a recording without any input."""
     if not observation.free:
         return
-    times = [f"{place * observation.dt:.4g} s" for place in onsets_of(observation.response, observation.dt) if place]
+    times = [
+        f"{rounded(place * observation.dt, 4)} s" for place in onsets_of(observation.response, observation.dt) if place
+    ]
     if times:
         where = times[0] if len(times) == 1 else f"{', '.join(times[:-1])} and {times[-1]}"
         yield (
@@ -158,7 +160,7 @@ def _describe_decay(d: SearchResult, measured: Measured, models: dict[str, list[
     opening = ""
     if len(measured) > 1:
         begun = (d.shown.begin + stretch.start) * d.shown.dt
-        opening = f"Of {len(measured)} decays, that from {begun:.4g} s has the largest range: "
+        opening = f"Of {len(measured)} decays, that from {rounded(begun, 4)} s has the largest range: "
     words = says(decay, scale.unit, factor=scale.factor)
     parts = [
         _compare_decays(_name_model(d, name), decay, made[widest], d.settings.note) for name, made in models.items()
@@ -200,8 +202,8 @@ def _describe_range(values: Array, share: float, what: str, unit: str = "") -> s
     """Return for example "a decrement of 0.094 at all amplitudes", or its first and last values during the decay."""
     middle, first, last = (float(v) for v in (np.median(values), values[0], values[-1]))
     if abs(last - first) < share * abs(middle):
-        return f"{what} of {middle:.3g}{unit} at all amplitudes"
-    return f"{what} that changes from {first:.3g} to {last:.3g}{unit}"
+        return f"{what} of {rounded(middle, 3)}{unit} at all amplitudes"
+    return f"{what} that changes from {rounded(first, 3)} to {rounded(last, 3)}{unit}"
 
 
 def compute_largest_error(seen: Decay, made: Decay, name: str, limits: NoteSettings = DEFAULT.note) -> float:

@@ -26,6 +26,7 @@ from lostmotion.inference.disagreement import (
 from lostmotion.likelihood.observation import Observation
 from lostmotion.quantities import unit_of
 from lostmotion.report.words import chance
+from lostmotion.results import rounded
 from lostmotion.results.mismatch import (
     BothTrends,
     ByRecording,
@@ -136,10 +137,10 @@ def _describe_worst(worst: Mapping[str, WorstWindow], hits: bool, count: int) ->
 
 
 def _describe_place(worst: WorstWindow, hits: bool, count: int) -> str:
-    ratio = f"{worst.ratio:.2g} times the variance expected, {chance(worst.p)} over {count}"
+    ratio = f"{rounded(worst.ratio)} times the variance expected, {chance(worst.p)} over {count}"
     if hits:
-        return f"after hit {worst.window + 1}, at {worst.begin:.4g} s ({ratio} hits)"
-    return f"between {worst.begin:.3g} and {worst.end:.3g} s ({ratio} windows)"
+        return f"after hit {worst.window + 1}, at {rounded(worst.begin, 4)} s ({ratio} hits)"
+    return f"between {rounded(worst.begin, 3)} and {rounded(worst.end, 3)} s ({ratio} windows)"
 
 
 def compare_by_recording(
@@ -214,8 +215,8 @@ def _describe_levels(
     row, tend = rows[at], tends.after if when == "after" else tends.before
     model = "model" if when == "after" else "nominal model"
     said = (
-        f"Of {len(rows)} recordings the {model} disagrees most in {row.name} (level {row.level:.3g} {row.unit}"
-        f" rms, {means[at]:.2g} times the variance expected, {chance(float(p[at]))})"
+        f"Of {len(rows)} recordings the {model} disagrees most in {row.name} (level {rounded(row.level, 3)} {row.unit}"
+        f" rms, {rounded(means[at])} times the variance expected, {chance(float(p[at]))})"
     )
     if tend and tend.p <= level:
         said += f"; the disagreement {'grows' if tend.correlation > 0.0 else 'falls'} with the level ({chance(tend.p)})"

@@ -19,7 +19,7 @@ from lostmotion.inference.mixture import draw_posterior
 from lostmotion.inference.natural import find_term
 from lostmotion.likelihood.predict import Horizon
 from lostmotion.quantities import unit_of
-from lostmotion.results import Interval, percent
+from lostmotion.results import Interval, percent, rounded
 from lostmotion.results.diagnosis import Mechanism
 
 DRAWS = 2000
@@ -91,8 +91,9 @@ def explain_withheld(outcome: Outcome) -> str:
         return ""
     model = "model" if outcome.diagnosis.found else "nominal model"
     return (
-        f"The {model} is not valid: the error of its free runs over held-out data is {outcome.after.nrmse:.0%} of the"
-        f" response, and the noise is {floor:.1%}. What is missing remains open, and intervals are withheld."
+        f"The {model} is not valid: the error of its free runs over held-out data is"
+        f" {percent(outcome.after.nrmse)} of the"
+        f" response, and the noise is {percent(floor)}. What is missing remains open, and intervals are withheld."
     )
 
 
@@ -116,7 +117,7 @@ def _make_entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> Me
     own = {s.param.name: after.get(s.key) or _make_interval(np.full(1, held[s.key]), s.unit) for s in slots}
     why = explain_withheld(outcome)
     shown_own = {name: i.with_angles_in(outcome.angle) for name, i in own.items()}
-    numbers = {name: f"{i.median:.3g} {i.unit}" if why else str(i) for name, i in shown_own.items()}
+    numbers = {name: f"{rounded(i.median, 3)} {i.unit}" if why else str(i) for name, i in shown_own.items()}
     numbers |= {q.name: q.words[q.choices.index(own[q.name].median)] for q in term.params if q.words}
     sentence = term.physics.format(**numbers) + _name_sensor(d, term)
     if term.at in list_other_places(system.model):
@@ -153,9 +154,9 @@ def _make_quantised_entry(d: SearchResult, key: str) -> Mechanism:
     channel = next((s.channel for s in d.shown.sensors if s.place == term.at), d.shown.channel)
     unit = unit_of(channel, d.after.problem.system.model.motion)
     own = {s.param.name: Interval(v, v - 1.96 * sd, v + 1.96 * sd, unit) for s, v, sd in rows}
-    sentence = term.physics.format(**{name: f"{i.median:.3g} {i.unit}" for name, i in own.items()}) + _name_sensor(
-        d, term
-    )
+    sentence = term.physics.format(
+        **{name: f"{rounded(i.median, 3)} {i.unit}" for name, i in own.items()}
+    ) + _name_sensor(d, term)
     return Mechanism(
         mechanism=term.name,
         at=term.at,

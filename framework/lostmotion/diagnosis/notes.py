@@ -18,6 +18,7 @@ from lostmotion.inference.unseen import smooth_body_position
 from lostmotion.likelihood.initial import shows_place
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.space import LEVELS
+from lostmotion.results import percent, rounded
 
 EDGE = 1e-3
 
@@ -62,8 +63,9 @@ def _note_ar1_noise(d: SearchResult) -> list[str]:
             share = ar1 / problem.measurement(theta, 0, i)
             whose = f" of {sensor.label}" if len(d.shown.sensors) > 1 else ""
             notes.append(
-                f"{share:.0%} of the variance of the measurement noise{whose} is autocorrelated, with a time constant"
-                f" of {lasts:.2g} s; the fit includes this."
+                f"{percent(share)} of the variance of the measurement noise{whose} is autocorrelated,"
+                " with a time constant"
+                f" of {rounded(lasts)} s; the fit includes this."
             )
     return notes
 
@@ -78,7 +80,7 @@ def note_large_noise(outcome: Outcome) -> list[str]:
             whose = f" of {sensor.label}" if len(d.shown.sensors) > 1 else ""
             kind = " is autocorrelated and" if ar1 > limits.coloured else ""
             notes.append(
-                f"The estimated noise{whose}{kind} is {share:.0%} of the held-out readings: it may be motion that the"
+                f"The estimated noise{whose}{kind} is {percent(share)} of the held-out readings: it may be motion that the"
                 " model does not describe, such as another mode, or the sensor may not measure what the case states"
                 " (check its sign and place). In both cases the result is not valid."
             )
@@ -103,7 +105,8 @@ def _note_bounds(d: SearchResult) -> list[str]:
         if f.level not in LEVELS and "." not in f.parameter and not f.low + reach < at < f.high - reach:
             bound = f.value(f.low if at <= f.low + reach else f.high)
             notes.append(
-                f"{f.key} is at the bound {bound:.4g} {f.unit} of its prior: widen the prior, or check the known"
+                f"{f.key} is at the bound {rounded(bound, 4)} {f.unit} of its prior: widen the prior,"
+                " or check the known"
                 " values; the found terms may compensate for a wrong value."
             )
     return notes
@@ -117,7 +120,7 @@ def _note_large_errors(outcome: Outcome) -> list[str]:
     if far < d.settings.note.error:
         return []
     return [
-        f"The error of free runs over held-out data is {far:.2g} times the measurement noise: either something is"
+        f"The error of free runs over held-out data is {rounded(far)} times the measurement noise: either something is"
         " missing that one-step errors do not show, or small errors of the state grow fast."
     ]
 
@@ -136,9 +139,10 @@ def note_unknown_position(fit: Fit, observation: Observation) -> list[str]:
             " on it."
         ]
     rotation, share = fit.problem.system.model.motion == "rotation", 100.0 * reach / amplitude
-    size = f"{reach:.2g} rad" if rotation else f"{1e3 * reach:.2g} mm"
+    size = f"{rounded(reach)} rad" if rotation else f"{rounded(1e3 * reach)} mm"
     return [
         f"No sensor measures the position: it is known to +-{size} only (2 standard deviations, largest over the"
-        f" recording), {share:.2g} % of its amplitude. The intervals of what depends on the position, such as a gap,"
+        f" recording), {rounded(share)} % of its amplitude. The intervals of what depends on the"
+        " position, such as a gap,"
         " include this."
     ]

@@ -9,6 +9,7 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.likelihood.observation import Observation
+from lostmotion.results import rounded
 from lostmotion.settings import DEFAULT, NoteSettings
 from lostmotion.signals.repetition import SAME, Repetition, repeated_share, repetition_of
 
@@ -58,7 +59,8 @@ def _note_repeated_heldout(
     looks = [count_cycles(o, limits) for o, _ in again]
     cyclic = all(one is not None and one.distinct < limits.distinct for one in looks)
     return [
-        f"{what} the motion of the fitted part ({least:.4g} % of its variance): the predictions are a test for this"
+        f"{what} the motion of the fitted part ({rounded(least, 4)} % of its variance): the"
+        " predictions are a test for this"
         f" {'cycle' if cyclic else 'motion'} only."
     ]
 
@@ -72,7 +74,8 @@ def _note_equal_cycles(observations: Sequence[Observation], limits: NoteSettings
             these = f"The {looks.cycles} cycles of {observation.name}"
             notes.append(
                 f"{these} are equivalent to {looks.distinct:.1f} distinct cycles (the mean cycle is"
-                f" {100.0 * looks.share:.4g} % of the variance). More cycles like these only reduce the noise; record"
+                f" {rounded(100.0 * looks.share, 4)} % of the variance). More cycles like these only"
+                " reduce the noise; record"
                 " another level, frequency or waveform to obtain another motion."
             )
     return notes

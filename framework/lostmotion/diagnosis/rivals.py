@@ -18,6 +18,7 @@ from lostmotion.inference.term_sets import TermSet
 from lostmotion.likelihood.system import key_of
 from lostmotion.quantities import unit_of
 from lostmotion.report.words import sentence, to_words
+from lostmotion.results import rounded
 from lostmotion.results.diagnosis import Confusion, DecidingExcitation
 
 MOST_RIVALS = 2
@@ -120,7 +121,7 @@ def _describe_rival(d: SearchResult, term: Term, p: float) -> str:
     if p > d.settings.name.worth:
         return f"{sentence(_name_term(term))} has a probability of {p:.2f} after this recording."
     return (
-        f"This recording does not exclude {_name_term(term)}: its probability is {p:.2g} only because of the prior"
+        f"This recording does not exclude {_name_term(term)}: its probability is {rounded(p)} only because of the prior"
         " penalty of its further parameters."
     )
 
@@ -137,14 +138,17 @@ def _describe_proposal(d: SearchResult, term: Term, p: float, proposal: Proposal
             f"{opening} No excitation within the limits is expected to distinguish them by more than"
             f" {max(gain, 0.0):.1f} in log evidence: measure this part of the machine separately."
         )
-    against = f"{gain / repeat:.2g} times as much as a repetition" if repeat >= 1.0 else "a repetition by less than 1"
+    against = (
+        f"{rounded(gain / repeat)} times as much as a repetition" if repeat >= 1.0 else "a repetition by less than 1"
+    )
     whose = ""
     if proposal.counted == (1,):
-        whose = f" if it is {_name_term(term)} (if it is not, by {max(proposal.ways[0], 0.0):.2g})"
+        whose = f" if it is {_name_term(term)} (if it is not, by {rounded(max(proposal.ways[0], 0.0))})"
     if proposal.counted == (0,):
-        whose = f" if it is not {_name_term(term)} (if it is, by {max(proposal.ways[1], 0.0):.2g})"
+        whose = f" if it is not {_name_term(term)} (if it is, by {rounded(max(proposal.ways[1], 0.0))})"
     return (
-        f"{opening} {_describe_experiment(d, proposal)}: this should distinguish them by {gain:.2g} in log evidence"
+        f"{opening} {_describe_experiment(d, proposal)}: this should distinguish them by"
+        f" {rounded(gain)} in log evidence"
         f"{whose}, {against}."
     )
 
@@ -154,8 +158,8 @@ def _describe_experiment(d: SearchResult, proposal: Proposal) -> str:
     e, old = proposal.excitation, d.selection.chosen.problem.observations[0].travel
     change = e.level / old if old else 1.0
     verb = "Raise the drive to" if change > 1.05 else "Lower the drive to" if change < 0.95 else "Keep the drive at"
-    low, high = (f"{f:.3g}" for f in e.band)
+    low, high = (f"{rounded(f, 3)}" for f in e.band)
     shape = f"at {low} Hz" if low == high else f"and make it a {e.waveform} from {low} to {high} Hz"
     if e.waveform == "two tones":
         shape = f"and make it two tones, of {low} and {high} Hz"
-    return f"{verb} {e.level:.3g} {_find_drive_unit(d)} {shape}"
+    return f"{verb} {rounded(e.level, 3)} {_find_drive_unit(d)} {shape}"

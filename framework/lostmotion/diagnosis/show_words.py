@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from lostmotion.report.words import span
+from lostmotion.results import rounded
 from lostmotion.results.behaviour import (
     DimensionInterval,
     Distance,
@@ -49,7 +50,7 @@ def _describe_score(last: ModelBehaviour, floor: NoiseFloor) -> str:
     opening = "Log density of held-out samples, one step ahead"
     if short < 0.02:
         return f"{opening}: equal to the value that the last model predicts."
-    return f"{opening}: {short:.2g} per sample below the value that the last model predicts."
+    return f"{opening}: {rounded(short)} per sample below the value that the last model predicts."
 
 
 def _describe_error(last: ModelBehaviour, floor: NoiseFloor, horizon: HorizonLength) -> str:
@@ -58,7 +59,7 @@ def _describe_error(last: ModelBehaviour, floor: NoiseFloor, horizon: HorizonLen
     opening = f"Error of free runs over {length}, relative to the standard deviation of the response"
     if ratio < 1.2:
         return f"{opening}: no more than the measurement noise."
-    return f"{opening}: {ratio:.2g} times the measurement noise."
+    return f"{opening}: {rounded(ratio)} times the measurement noise."
 
 
 def _describe_valid_time(last: ModelBehaviour) -> str:
@@ -79,10 +80,10 @@ def _describe_distance(entry: Distance, strobed: bool, limits: NoteSettings) -> 
         return f"{opening}: the free run diverges."
     closing = "the noise floor is the distance between the halves of the recording"
     if entry.p < limits.distance:
-        return f"{opening}: the difference is significant (p = {entry.p:.2g}); {closing}."
+        return f"{opening}: the difference is significant (p = {rounded(entry.p)}); {closing}."
     if entry.p < limits.distance_open:
-        return f"{opening}: the difference may be significant (p = {entry.p:.2g}); {closing}."
-    return f"{opening}: the difference is not significant (p = {entry.p:.2g}); {closing}."
+        return f"{opening}: the difference may be significant (p = {rounded(entry.p)}); {closing}."
+    return f"{opening}: the difference is not significant (p = {rounded(entry.p)}); {closing}."
 
 
 def _describe_exponent(entry: ExponentInterval, *, driven: bool) -> str:
@@ -90,7 +91,7 @@ def _describe_exponent(entry: ExponentInterval, *, driven: bool) -> str:
     if math.isnan(entry.low):
         return f"{opening}; the recording is too short for an interval."
     kind = "positive, chaos" if entry.low > 0.0 else "negative, no chaos" if entry.high < 0.0 else "its sign is open"
-    return f"{opening}, with the scatter over ten blocks: {kind} ({entry.value:.3g} 1/s)."
+    return f"{opening}, with the scatter over ten blocks: {kind} ({rounded(entry.value, 3)} 1/s)."
 
 
 def _describe_dimension(recorded: DimensionInterval, model: DimensionInterval) -> str:
@@ -108,5 +109,5 @@ def _describe_whiteness(p: float, certain: float) -> str:
     if p < certain:
         return "Ljung-Box test of one-step errors: they are autocorrelated, so a part of them can be predicted."
     if p < 5.0 * certain:
-        return f"Ljung-Box test of one-step errors: they may be autocorrelated (p = {p:.2g})."
+        return f"Ljung-Box test of one-step errors: they may be autocorrelated (p = {rounded(p)})."
     return "Ljung-Box test of one-step errors: they are not distinguishable from white noise."

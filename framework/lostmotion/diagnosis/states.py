@@ -15,6 +15,7 @@ from lostmotion.inference.natural import find_term
 from lostmotion.inference.penalties import are_related
 from lostmotion.quantities import TIME
 from lostmotion.report.words import to_words
+from lostmotion.results import percent, rounded
 from lostmotion.results.diagnosis import Mechanism, OpenTerm
 from lostmotion.settings import DEFAULT, NameSettings
 
@@ -60,14 +61,14 @@ def _warn_of_probability(d: SearchResult, key: str) -> Iterator[str]:
     if d.selection.simplest:
         yield (
             "It explains the fitted data better than any learned curve and predicts held-out data as well as one; but a"
-            f" small generic smooth force explains about as much, so its probability is {p:.2g}."
+            f" small generic smooth force explains about as much, so its probability is {rounded(p)}."
         )
         return
     if p > d.settings.name.sure:
         return
     others = _list_alternatives(d, key)
     verb = "alternatives are" if len(others) > 1 else "alternative is"
-    yield f"Its probability is {p:.2g}; the {verb} {', '.join(others) or 'a generic smooth force'}."
+    yield f"Its probability is {rounded(p)}; the {verb} {', '.join(others) or 'a generic smooth force'}."
 
 
 def _warn_of_equal_terms(d: SearchResult, key: str) -> Iterator[str]:
@@ -105,7 +106,7 @@ def _warn_of_heldout_decision(d: SearchResult, key: str) -> Iterator[str]:
     if chosen in d.selection.heldout_gains and key in d.selection.tied:
         yield (
             "On the fitted data a small generic smooth force explains about as much as this term; held-out data decide"
-            f" for the term, by {d.selection.heldout_gains[chosen]:.2g} in log score."
+            f" for the term, by {rounded(d.selection.heldout_gains[chosen])} in log score."
         )
 
 
@@ -114,13 +115,13 @@ def _warn_of_rest(d: SearchResult, key: str) -> Iterator[str]:
     limits = d.settings.name
     if d.learned and compute_gain(d, key) < limits.beside * d.learned.gain:
         yield (
-            f"It adds {compute_gain(d, key):.3g} in log evidence, and the unexplained force beside it adds"
-            f" {d.learned.gain:.3g}: the term may be a part of that force."
+            f"It adds {rounded(compute_gain(d, key), 3)} in log evidence, and the unexplained force beside it adds"
+            f" {rounded(d.learned.gain, 3)}: the term may be a part of that force."
         )
     elif d.unexplained and d.left:
         share = float(np.std(d.left.missing.force) / np.std(d.located.missing.force))
         if share > limits.remains:
-            yield f"With it, {share:.0%} of the missing force is still missing."
+            yield f"With it, {percent(share)} of the missing force is still missing."
 
 
 def compute_gain(d: SearchResult, key: str) -> float:
@@ -152,8 +153,9 @@ def warn_of_moved_amplitudes(d: SearchResult, key: str) -> Iterator[str]:
         old, new = without.fit.values[f.key], chosen.values[f.key]
         if abs(new - old) > max(limits.moved * sds[f.key], limits.moved_share * abs(old)):
             yield (
-                f"The {name} of {to_words(owner.partition('@')[0])} is {old:.3g} {f.unit} without"
-                f" {to_words(key.partition('@')[0])} and {new:.3g} {f.unit} with it: either it was not identified, or"
+                f"The {name} of {to_words(owner.partition('@')[0])} is {rounded(old, 3)} {f.unit} without"
+                f" {to_words(key.partition('@')[0])} and {rounded(new, 3)} {f.unit} with it: either"
+                " it was not identified, or"
                 " the further term is wrong."
             )
 
@@ -173,7 +175,10 @@ def _warn_of_long_delay(d: SearchResult, key: str) -> Iterator[str]:
     period = 2.0 * math.pi * d.after.problem.scales.time
     share = abs(d.after.values[late[0].key]) / period
     if share > d.settings.name.late:
-        yield f"A delay of {share:.0%} of a natural period is unusual: measure the delay between the channels directly."
+        yield (
+            f"A delay of {percent(share)} of a natural period is unusual: measure the delay between"
+            " the channels directly."
+        )
 
 
 def _warn_of_early_change(d: SearchResult, key: str) -> Iterator[str]:
@@ -186,7 +191,8 @@ def _warn_of_early_change(d: SearchResult, key: str) -> Iterator[str]:
         share = (d.after.values[slot.key] - float(fitted.time[0])) / (fitted.samples * fitted.dt)
         if share < d.settings.name.early:
             yield (
-                f"The change is complete within the first {max(share, 0.0):.1%} of the recording: a wrong known value"
+                f"The change is complete within the first {percent(max(share, 0.0))} of the"
+                " recording: a wrong known value"
                 " has the same effect."
             )
 

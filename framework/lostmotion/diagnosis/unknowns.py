@@ -25,7 +25,7 @@ from lostmotion.inference.surfaces import OverHistory, Surface
 from lostmotion.inference.unexplained import UnknownForce
 from lostmotion.quantities import LENGTH, NUMBER, SPEED, TIME, Dimension
 from lostmotion.report.words import to_words
-from lostmotion.results import Interval
+from lostmotion.results import Interval, percent, rounded
 from lostmotion.results.diagnosis import LearnedCurve, LookAlike, Mechanism, ProposedFormula
 from lostmotion.results.mismatch import ForceDependence
 
@@ -56,7 +56,7 @@ def make_learned_entry(d: SearchResult) -> Mechanism:
     size = Interval(rms, max(rms - BAND * sd, 0.0), rms + BAND * sd, unit)
     depends = list_covariates(unknown.terms)
     share = rms / d.after.problem.scales.force
-    size_of = f"{rms:.3g} {unit} rms, {share:.2%} of {d.yardstick}"
+    size_of = f"{rounded(rms, 3)} {unit} rms, {percent(share)} of {d.yardstick}"
     alike, share_of_likeness, looks = _compare_with_library(d)
     text = f"A force of {size_of}, is missing {_explain_missing_name(d, unknown)}"
     return Mechanism(
@@ -105,7 +105,7 @@ def _compare_with_library(d: SearchResult) -> tuple[tuple[LookAlike, ...], float
     several = len(problem.system.model.interfaces) > 1
     names = [to_words(term.name) + (f" at {term.at}" if several else "") for term in terms]
     alike = tuple(LookAlike(term.name, term.at) for term in terms)
-    return alike, found.share, f", looks like {' and '.join(names)} ({found.share:.0%} of its variance)"
+    return alike, found.share, f", looks like {' and '.join(names)} ({percent(found.share)} of its variance)"
 
 
 def make_unnamed_entry(d: SearchResult) -> Mechanism:
@@ -115,7 +115,7 @@ def make_unnamed_entry(d: SearchResult) -> Mechanism:
     rms = float(np.std(located.missing.force))
     unit = _find_unit(d, Dimension(1, 0, 0))
     share = rms / d.after.problem.scales.force
-    size = f"{rms:.3g} {unit} rms, {share:.1%} of {d.yardstick}"
+    size = f"{rounded(rms, 3)} {unit} rms, {percent(share)} of {d.yardstick}"
     on = f"depends on {join_names(depends)}" if depends else "depends on nothing that was recorded"
     return Mechanism(
         mechanism="unknown" if depends else "random_force",
@@ -243,5 +243,5 @@ def describe_dependence(located: ForceLocation, learned: UnknownForce | None = N
         p_value=compute_p_values(located.odds) if located.odds else by_share,
         p_value_of_share=by_share,
         significant=tuple(located.significant),
-        against=f"{against}, at {located.limits.level:.0%} over all covariates together",
+        against=f"{against}, at {percent(located.limits.level)} over all covariates together",
     )

@@ -27,7 +27,7 @@ from lostmotion.inference.penalties import compute_penalty
 from lostmotion.likelihood.system import key_of
 from lostmotion.quantities import unit_of
 from lostmotion.report.words import chance, sentence, span, to_words
-from lostmotion.results import rounded
+from lostmotion.results import percent, rounded
 from lostmotion.results.diagnosis import (
     Both,
     BothTrue,
@@ -124,8 +124,8 @@ def _describe_p_value(p: float, certain: float) -> str:
     if p < certain:
         return f"One-step errors are autocorrelated (Ljung-Box {chance(p)}): a part of them can still be predicted."
     if p < 5.0 * certain:
-        return f"One-step errors may be autocorrelated (Ljung-Box p = {p:.2g})."
-    return f"One-step errors are not distinguishable from white noise (Ljung-Box p = {p:.2g})."
+        return f"One-step errors may be autocorrelated (Ljung-Box p = {rounded(p)})."
+    return f"One-step errors are not distinguishable from white noise (Ljung-Box p = {rounded(p)})."
 
 
 def list_sensors(d: SearchResult) -> tuple[SensorFacts, ...]:
@@ -291,7 +291,7 @@ def summarise(outcome: Outcome, found: Sequence[Mechanism], rest: Sequence[OpenT
         return (
             "Nothing is missing that this recording can show.",
             f"The free-running prediction error of the nominal model over {time} of held-out data is"
-            f" {outcome.before.nrmse:.1%} of the response; the noise alone is {floor:.1%}.",
+            f" {percent(outcome.before.nrmse)} of the response; the noise alone is {percent(floor)}.",
             *note_large_noise(outcome),
         )
     left = [f"Open: {row.says}" for row in rest[:MOST_OPEN]]
@@ -311,8 +311,9 @@ def summarise(outcome: Outcome, found: Sequence[Mechanism], rest: Sequence[OpenT
     opening.append(
         f"With {'it' if len(found) == 1 else 'them'} the unexplained force{_describe_body(d)} {verbs[0]} from"
         f" {sizes[0]} to {sizes[1]} {new.unit} (rms), and the free-running prediction error of held-out"
-        f" data over {time}{verbs[1]} from {errors[0]:.1%} to {errors[1]:.1%} of the response; the noise alone is"
-        f" {floor:.1%}."
+        f" data over {time}{verbs[1]} from {percent(errors[0])} to {percent(errors[1])} of the"
+        " response; the noise alone is"
+        f" {percent(floor)}."
     )
     opening += note_large_noise(outcome)
     if d.unexplained:

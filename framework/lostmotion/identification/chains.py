@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from lostmotion.contracts import Array
+from lostmotion.results import rounded
 from lostmotion.settings import DEFAULT, ChainSettings
 
 GROUPS = 4
@@ -35,7 +36,7 @@ class ChainQuality:
         """Return the convergence criteria that are not met; `before` is the longest autocorrelation time before."""
         slowest = max(self.slowest, 1.0)
         checks = {  # written so that NaN fails too
-            f"{self.steps} steps are less than {limits.long:g} autocorrelation times of {slowest:.3g}": not (
+            f"{self.steps} steps are less than {limits.long:g} autocorrelation times of {rounded(slowest, 3)}": not (
                 self.steps >= limits.long * slowest
             ),
             "the autocorrelation time still grows": not self.slowest - before < limits.steady * self.slowest,

@@ -16,6 +16,7 @@ import numpy as np
 from lostmotion.contracts import Array
 from lostmotion.identification.normal_scores import Scores
 from lostmotion.identification.t_mixture import TMixture, compute_root
+from lostmotion.results import percent
 
 MAX_ROUNDS = 12
 EFFICIENCY_GOAL = 0.82
@@ -131,7 +132,7 @@ def adapt_mixture(
     count, least = max(24 * (mixture.size + 1), 8 * mixture.kernels), 4.0 * (mixture.size + 1)
     for turn in range(MAX_ROUNDS):
         share = population.grow(add_guard_kernel(mixture), count, rng)
-        watch(0, f"pilot draws, {share:.0%} effective")
+        watch(0, f"pilot draws, {percent(share)} effective")
         if share > LATE_EFFICIENCY_GOAL and mixture.kernels > MANY_KERNELS:
             break
         shares = population.compute_weights(least)

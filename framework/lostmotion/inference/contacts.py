@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from lostmotion.inference.fit import Fit
+from lostmotion.results import rounded
 
 
 def list_short_contacts(fit: Fit) -> list[str]:
@@ -17,9 +18,10 @@ def list_short_contacts(fit: Fit) -> list[str]:
             lasts = np.pi * np.sqrt(problem.system.inertia(full, place) / stiff) if stiff > 0.0 else np.inf
             if lasts < observation.dt:
                 notes.append(
-                    f"{observation.name}: a bounce at the {place.name} lasts {lasts:.2g} s and samples are"
-                    f" {observation.dt:.2g} s apart. The motion between them is not measured, so intervals may be too"
+                    f"{observation.name}: a bounce at the {place.name} lasts {rounded(lasts)} s and samples are"
+                    f" {rounded(observation.dt)} s apart. The motion between them is not measured, so"
+                    " intervals may be too"
                     " narrow and findings wrong:"
-                    f" sample at {2.0 / lasts:.2g} Hz or more."
+                    f" sample at {rounded(2.0 / lasts)} Hz or more."
                 )
     return notes

@@ -14,9 +14,12 @@ from lostmotion.inference.odds import LikelihoodRatio, list_likely
 from lostmotion.inference.shares import Covariate, Share, list_significant
 from lostmotion.likelihood.latent import LatentForce
 from lostmotion.likelihood.observation import Observation
+from lostmotion.results import percent
 from lostmotion.settings import DEFAULT, LocateSettings
 
 BINS = 25
+SHOWN_ERROR = 0.005
+"""A standard error of a share below this is not shown: it would read as nothing."""
 
 
 @dataclass(frozen=True)
@@ -146,16 +149,17 @@ def _describe_share(
 ) -> str:
     """Return the share of a force that a covariate explains, and its log likelihood ratio."""
     share = found[name]
-    explains = f"which explains {share.value:.0%} +- {share.error:.0%} of its variance"
+    error = f" +- {percent(share.error)}" if share.error >= SHOWN_ERROR else ""
+    explains = f"which explains {percent(share.value)}{error} of its variance"
     if not odds:
         return explains
     if share.value < least:
-        explains = f"which explains less than {least:.0%} of the variance of the smoothed force"
+        explains = f"which explains less than {percent(least)} of the variance of the smoothed force"
     return f"{explains} (log likelihood ratio {odds[name].log:.0f})"
 
 
 def _format_share(name: str, found: Mapping[str, Share]) -> str:
-    return f"{name} ({found[name].value:.0%})"
+    return f"{name} ({percent(found[name].value)})"
 
 
 def _prefer_sign(name: str, found: Mapping[str, Share], as_much: float) -> str:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from lostmotion.errors import DataError
 from lostmotion.recording.spec import Hold
+from lostmotion.results import percent
 from lostmotion.settings import DEFAULT
 
 Array = NDArray[np.float64]
@@ -139,7 +140,7 @@ def _refuse_lost(missing: NDArray[np.bool_], what: str, source: str) -> None:
     raise DataError(
         f"{source}: {what}: {_format_count(missing)}, the first at sample {int(np.argmax(missing))}, "
         f"{longest_run(missing)} in a row; all are wanted, since the model is driven by them; "
-        f"up to {BRIDGE} in a row, and fewer than {BRIDGED:.0%} of all, are interpolated: fill them, "
+        f"up to {BRIDGE} in a row, and fewer than {percent(BRIDGED)} of all, are interpolated: fill them, "
         "or cut them out with t_start and t_end"
     )
 
@@ -153,7 +154,7 @@ def _check_missing(missing: NDArray[np.bool_], what: str, source: str, may_miss:
     found, first = _format_count(missing), int(np.argmax(missing))
     if count >= LOST * missing.size:
         raise DataError(
-            f"{source}: {what}: {found}, the first at sample {first}; fewer than {LOST:.0%} are wanted: "
+            f"{source}: {what}: {found}, the first at sample {first}; fewer than {percent(LOST)} are wanted: "
             "cut them out with t_start and t_end, or record again"
         )
     return (f"{what}: {found}, at most {longest_run(missing)} in a row; they are bridged, not filled",)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from lostmotion.errors import DataError
 from lostmotion.recording.spec import Hold
+from lostmotion.results import percent
 
 Array = NDArray[np.float64]
 JITTER = 0.01
@@ -215,7 +216,7 @@ def _refuse_jitter(time: Array, source: str) -> None:
     off = int(np.count_nonzero(np.abs(steps - dt) > JITTER * dt))
     raise DataError(
         f"{source}: the time steps run from {steps.min():.4g} s to {steps.max():.4g} s, {off} of {steps.size} "
-        f"more than {JITTER:.0%} from {dt:.4g} s: resample to an even step; if only the time stamps jitter, "
+        f"more than {percent(JITTER)} from {dt:.4g} s: resample to an even step; if only the time stamps jitter, "
         f"give rate = {1 / dt:.6g} in place of time"
     )
 

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from lostmotion.errors import DataError, LostMotionError
 from lostmotion.report import style
-from lostmotion.report.words import DASH
+from lostmotion.report.words import DASH, typeset
 from lostmotion.storage import save_text
 
 E = TypeVar("E")
@@ -99,4 +99,5 @@ def load_template(name: str, package: str) -> Template:
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    pages.filters["typeset"] = typeset
     return pages.get_template(name)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import Any, NamedTuple
 
-from lostmotion.results import DEGREES, Interval
+from lostmotion.results import DEGREES, TINY, Interval, decimals_of
 
 RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 PREFIXED = {"m", "rad", "N", "N m", "m/s", "rad/s", "m/s^2", "V", "A"}
@@ -94,6 +94,13 @@ def typeset(text: str) -> str:
     return raised.replace(" +- ", " ± ").replace(" %", "\N{NO-BREAK SPACE}%")
 
 
+def split_headline(says: Sequence[str], longest: int = 160) -> list[str]:
+    """Return the parts of an answer, the first of which is the headline: of a long one its first sentence alone."""
+    first, *rest = says
+    head, stop, tail = first.partition(". ") if len(first) > longest else (first, "", "")
+    return [f"{head}.", tail, *rest] if stop else [first, *rest]
+
+
 def to_words(name: str) -> str:
     """Return a name such as `coulomb_friction` as words: `Coulomb friction`."""
     return (
@@ -150,8 +157,10 @@ def format_quantity(value: Any, unit: str) -> str:
 
 
 def percent(value: Any) -> str:
-    """Return a share as a percentage with at most two figures, or a dash."""
-    return figures(100 * value, 2) + " %" if isinstance(value, int | float) and math.isfinite(value) else DASH
+    """Return a share as a percentage with at most two figures, or a dash; a tiny one is said to be less."""
+    if not isinstance(value, int | float) or not math.isfinite(value):
+        return DASH
+    return f"< {figures(100.0 * TINY)} %" if 0.0 < abs(value) < TINY else figures(100 * value, 2) + " %"
 
 
 def probability(value: Any) -> str:
@@ -180,7 +189,7 @@ def interval(told: Interval | None, shown: Scale | None = None) -> str:
     if told.withheld:
         return f"{figures(factor * told.median, 3)} {format_unit(unit)}".rstrip() + ", interval withheld"
     ends = [factor * end for end in (told.median, told.low, told.high)]
-    decimals = _decimals(ends[2] - ends[1], ends[0])
+    decimals = max(_decimals(ends[2] - ends[1], ends[0]), decimals_of(ends[0], math.nan, math.nan, 2))
     median, low, high = (_signed(f"{end:.{decimals}f}") for end in ends)
     return f"{median} [{low}, {high}] {format_unit(unit)}".rstrip()
 

@@ -12,6 +12,10 @@ from numpy.typing import NDArray
 from lostmotion.codec import described
 
 Array = NDArray[np.float64]
+TINY = 1e-4
+"""A share below this is told as less than it."""
+SMALL, LARGE = 1e-5, 1e7
+"""Between these a number is written with decimals, and else with a power of ten."""
 
 
 def rounded(value: float, digits: int = 2) -> str:
@@ -19,9 +23,22 @@ def rounded(value: float, digits: int = 2) -> str:
     return f"{float(f'{value:.{digits}g}'):g}"
 
 
-def percent(share: float) -> str:
-    """Return a share in per cent, with two significant digits, or as a whole number from 100 % on."""
-    return f"{rounded(100.0 * share)} %" if abs(share) < 1.0 else f"{100.0 * share:.0f} %"
+def percent(share: float, digits: int = 2) -> str:
+    """Return a share in per cent, with so many significant digits, or as a whole number from 100 % on.
+
+    One below `TINY` is said to be less than that.
+    """
+    if 0.0 < abs(share) < TINY:
+        return f"less than {rounded(100.0 * TINY)} %"
+    return f"{rounded(100.0 * share, digits)} %" if abs(share) < 1.0 else f"{100.0 * share:.0f} %"
+
+
+def decimals_of(median: float, low: float, high: float, least: int) -> int:
+    """Return the decimals that show `least` figures of a median and two of the width of its interval."""
+    sizes = [abs(median) / 10.0 ** (least - 1)] if median and math.isfinite(median) else []
+    width = high - low
+    sizes += [width / 30.0] if math.isfinite(width) and width > 0.0 else []
+    return min(15, max(0, *(-math.floor(math.log10(size)) for size in sizes))) if sizes else 0
 
 
 DEGREES: Mapping[str, str] = {"rad": "deg", "rad/s": "deg/s", "rad/s^2": "deg/s^2"}
@@ -50,7 +67,11 @@ class Interval:
 
     def __str__(self) -> str:
         unit = "" if self.unit == "1" else f" {self.unit}"
-        return f"{self.median:.4g}{unit} [{self.low:.4g}, {self.high:.4g}]"
+        if not SMALL <= abs(self.median) < LARGE:
+            return f"{self.median:.4g}{unit} [{self.low:.4g}, {self.high:.4g}]"
+        decimals = decimals_of(self.median, self.low, self.high, 4)
+        median, low, high = (f"{value:.{decimals}f}" for value in (self.median, self.low, self.high))
+        return f"{median}{unit} [{low}, {high}]"
 
 
 STATUSES: Mapping[str, str] = {

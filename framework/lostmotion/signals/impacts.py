@@ -275,7 +275,8 @@ def note_hits(force: ArrayLike, dt: float) -> Iterator[str]:
     for number, hit in enumerate(hits_of(force, dt), 1):
         if hit.double:
             yield (
-                f"hit {number} at {hit.start * dt:.4g} s is a double hit: a second contact of {hit.second:.0%} of its "
+                f"hit {number} at {hit.start * dt:.4g} s is a double hit: a second contact of"
+                f" {100.0 * hit.second:.0f} % of its "
                 f"peak follows after {1e3 * hit.after:.3g} ms; both are inputs that were measured, so the model is "
                 "driven by both; a free decay begins after the second one only"
             )

@@ -10,7 +10,7 @@ from scipy.interpolate import CubicSpline
 
 from lostmotion.contracts import Array, Series
 from lostmotion.kernels.threads import spread
-from lostmotion.results import Estimate
+from lostmotion.results import Estimate, percent
 from lostmotion_plugins.quantifiers.divergence import (
     BLOCKS,
     RESOLVED_SAMPLES,
@@ -146,10 +146,13 @@ def _refuse_unpaired(repeats: float, paired: float, details: Mapping[str, float]
     """Return the refusal of a recording in which too few points have a neighbour."""
     if repeats > 0.5:
         says = (
-            f"{repeats:.0%} of the points repeat exactly: the motion is periodic within the resolution of the sensor."
+            f"{percent(repeats)} of the points repeat exactly: the motion is periodic within the"
+            " resolution of the sensor."
         )
         return refuse("regular", says, ({}, details))
-    says = f"Only {paired:.0%} of the points have a neighbour at another time: record longer, or lower the dimension."
+    says = (
+        f"Only {percent(paired)} of the points have a neighbour at another time: record longer, or lower the dimension."
+    )
     return refuse("too_few_neighbours", says, ({}, details))
 
 
@@ -179,7 +182,10 @@ def _make_estimate(found: Growth, details: Mapping[str, float], curve: Mapping[s
     """Return the estimate with its interval, or a refusal where most pairs are closer than the noise."""
     low, high = found.interval(details["embedding_error"])
     if found.lost > MOST_NOISY:
-        says = f"{found.lost:.0%} of the pairs are closer than the noise: clean the series, or measure with less noise."
+        says = (
+            f"{percent(found.lost)} of the pairs are closer than the noise: clean the series, or"
+            " measure with less noise."
+        )
         return refuse("below_noise", says, (curve, details))
     says = _describe_doubt(found.rate, (low, high), details["e_folds"])
     return Estimate(found.rate, low, high, "uncertain" if says else "ok", UNIT, curve, says, details)
@@ -205,7 +211,10 @@ def _explain_flat(behind: Behind, details: Mapping[str, float]) -> Estimate:
     curve = collect_curves(made, c, c.log[0])
     if made.locked and c.unrelated < PERIODIC_SHARE * made.size:
         share = c.unrelated / made.size
-        says = f"The motion repeats with the drive: periods differ by only {share:.1%} of the motion, as due to noise."
+        says = (
+            f"The motion repeats with the drive: periods differ by only {percent(share)} of the"
+            " motion, as due to noise."
+        )
         return refuse("regular", says, (curve, details))
     at = min(made.window, c.far.shape[1] - 1)
     if c.far[0, at] > 0.25 * c.unrelated:

@@ -9,7 +9,7 @@ import numpy as np
 
 from lostmotion.contracts import Array, Quantifier, Series
 from lostmotion.kernels.neighbours import nearest, several
-from lostmotion.results import Estimate
+from lostmotion.results import Estimate, percent
 from lostmotion.signals import delay_vectors
 from lostmotion_plugins.quantifiers._kernels_divergence import walk
 from lostmotion_plugins.quantifiers.divergence import Indices
@@ -52,7 +52,7 @@ class Wolf(Quantifier[Series]):
         tie = 1e-9 * float(data.x.std())
         queries = np.arange(1, len(points) - steps, steps)
         if (repeats := _share_repeats(points, e.theiler, queries, tie)) > MOST_REPEATS:
-            return refuse("regular", f"{repeats:.0%} of the points repeat exactly: the motion is periodic.")
+            return refuse("regular", f"{percent(repeats)} of the points repeat exactly: the motion is periodic.")
         found, _ = several(points, self.choice, theiler=e.theiler, norm="euclidean", least=tie, queries=queries)
         near = np.full((len(points), self.choice), -1)
         near[queries] = found

@@ -98,5 +98,7 @@ def _format_target(target: Target) -> str:
     found = target.rate
     if not found.of:
         return f"{target.state:<9}  {target.what}"
-    share = f"{found.hits}/{found.of} = {found.share:.0%} [{found.low:.0%}, {found.high:.0%}]"
-    return f"{target.state:<9}  {target.what}: {share}, wanted {target.at_least:.0%} to {target.at_most:.0%}"
+    from lostmotion.results import percent
+
+    share = f"{found.hits}/{found.of} = {percent(found.share)} [{percent(found.low)}, {percent(found.high)}]"
+    return f"{target.state:<9}  {target.what}: {share}, wanted {percent(target.at_least)} to {percent(target.at_most)}"

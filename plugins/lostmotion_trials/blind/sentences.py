@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from lostmotion.results import percent
 from lostmotion_trials.blind.results import ProofSummary, Rate
 
 FEW_CASES = 40
@@ -67,7 +68,8 @@ def _describe_rest(summary: ProofSummary) -> Iterator[str]:
         yield f"The 95 % intervals hold {covered.hits} of {covered.of} true parameters."
     if held.shares:
         yield (
-            f"On held-out data the found model reaches {held.median_share:.0%} of the improvement of the true model"
+            f"On held-out data the found model reaches {percent(held.median_share)} of the"
+            " improvement of the true model"
             " (median)."
         )
     if summary.failed:

@@ -13,6 +13,7 @@ from lostmotion.contracts import Array
 from lostmotion.diagnosis.report.hero import save_hero
 from lostmotion.diagnosis.run import run_diagnosis
 from lostmotion.registry import Registry
+from lostmotion.results import percent
 from lostmotion.results.diagnosis import Diagnosis, Mechanism
 from lostmotion_trials.demo.conceal import AMPLITUDE, FREQUENCY, FRICTION, HIDDEN, conceal_joint, write_case
 
@@ -106,8 +107,11 @@ def _describe_improvement(diagnosis: Diagnosis) -> str:
     fit = diagnosis.fit
     before, after = fit.before.nrmse, fit.after.nrmse
     over = f"{fit.after.horizon:g} {fit.horizon_unit}"
-    floor = f"noise {fit.noise_floor_nrmse:.1%}"
+    floor = f"noise {percent(fit.noise_floor_nrmse)}"
     if not diagnosis.found:
-        return f"held out   error {after:.1%} of the response over {over} ({floor})"
+        return f"held out   error {percent(after)} of the response over {over} ({floor})"
     ratio = f", {before / after:.0f} times less" if after > 0 and math.isfinite(before) and before > 2 * after else ""
-    return f"held out   error falls from {before:.1%} to {after:.1%} of the response over {over}{ratio} ({floor})"
+    return (
+        f"held out   error falls from {percent(before)} to {percent(after)} of the response over"
+        f" {over}{ratio} ({floor})"
+    )

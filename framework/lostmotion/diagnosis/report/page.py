@@ -25,7 +25,7 @@ from lostmotion.diagnosis.report import (
 from lostmotion.diagnosis.report.evidence import RERUN_HINT, Evidence, read_evidence
 from lostmotion.report import style
 from lostmotion.report.pages import PageSection, draw_sections, load_template, write_page
-from lostmotion.report.words import typeset
+from lostmotion.report.words import split_headline, typeset
 
 SECTIONS: tuple[PageSection[Evidence], ...] = (
     PageSection("prediction", "Recording and prediction", prediction.draw, prediction.caption),
@@ -59,7 +59,7 @@ def render(evidence: Evidence) -> str:
     return load_template("page.html.j2", __package__).render(
         title=result.title,
         badge=opening.make_badge(result),
-        answer=[typeset(part) for part in result.says],
+        answer=[typeset(part) for part in split_headline(result.says)],
         model=result.model,
         numbers=numbers,
         mechanisms=mechanisms,

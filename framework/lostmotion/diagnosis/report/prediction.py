@@ -52,7 +52,7 @@ def caption(evidence: Evidence) -> str:
     if not has_prediction(evidence):
         return "The recording, with the held-out part shaded, and a few enlarged periods."
     closing = (
-        " The vermillion curve deviates from the black one where the missing physics acts; the blue one should follow"
+        " The vermillion curve deviates from the recording where the missing physics acts; the blue one should follow"
         " it."
         if len(_list_forecasts(evidence)) > 1
         else " Without missing physics, the prediction follows the recording until noise and chaos separate them."

@@ -14,6 +14,8 @@ from lostmotion.results.diagnosis import Candidate, Mechanism
 
 CANDIDATES_SHOWN = 16
 LARGEST_LOSS = 20.0
+LIKELY = 0.5
+"""A candidate above this probability is among the best sets of terms."""
 
 
 def draw(evidence: Evidence) -> Figure | None:
@@ -29,17 +31,29 @@ def draw(evidence: Evidence) -> Figure | None:
 
 def caption(evidence: Evidence) -> str:
     """Return the caption of the figure."""
-    hidden = len(evidence.result.ranking) - CANDIDATES_SHOWN
+    rows = rank_candidates(evidence)
+    hidden = len(evidence.result.ranking) - len(rows)
     check = evidence.result.evidence.says
     rest = f" The {hidden} lowest-ranked candidates are not drawn." if hidden > 0 else ""
     rest += f" {check}" if check else ""
-    gains = [_get_gain(one, 0.0) for one in rank_candidates(evidence)]
+    gains = [_get_gain(one, 0.0) for one in rows]
     cut = " ◂ marks a truncated bar." if gains and min(gains) < _find_reach(gains)[1] else ""
     return (
         "Each candidate was fitted with all parameters of the model free. The bar is the gain in log evidence over the "
         "nominal model; a gain of 5 is strong, and a gain near zero or below means that the term is not needed. The "
         "column on the right is the posterior probability among all candidates: that of the best sets of terms, each "
-        f"with a small smooth force in addition{_describe_price(evidence)}." + cut + rest
+        f"with a small smooth force in addition{_describe_price(evidence)}." + _explain_order(rows) + cut + rest
+    )
+
+
+def _explain_order(rows: list[Candidate]) -> str:
+    """Return why a long bar may come with a small probability, where the figure shows that."""
+    best = max((_get_gain(one, -math.inf) for one in rows if one.probability > LIKELY), default=math.inf)
+    if not any(_get_gain(one, -math.inf) > best and one.probability <= LIKELY for one in rows):
+        return ""
+    return (
+        " A bar is the gain of a candidate alone: where several act together, one that gains more alone may belong to"
+        " none of the best sets."
     )
 
 
@@ -55,8 +69,14 @@ def _describe_price(evidence: Evidence) -> str:
 
 
 def rank_candidates(evidence: Evidence, most: int = CANDIDATES_SHOWN) -> list[Candidate]:
-    """Return the entries of the ranking, largest gain first; candidates without a gain come last."""
-    return sorted(evidence.result.ranking, key=lambda one: -_get_gain(one, -math.inf))[:most]
+    """Return the entries of the ranking, largest gain first; candidates without a gain come last.
+
+    The mechanisms that were found are always among them, whatever each gains alone.
+    """
+    found = {_make_key(one) for one in evidence.result.found}
+    rows = sorted(evidence.result.ranking, key=lambda one: -_get_gain(one, -math.inf))
+    late = [one for one in rows[most:] if _make_key(one) in found]
+    return rows[: most - len(late)] + late
 
 
 def draw_bars(axes: Axes, evidence: Evidence, rows: list[Candidate]) -> None:

@@ -14,7 +14,7 @@ from lostmotion.diagnosis.report.versions import Version, list_versions
 from lostmotion.report import style
 from lostmotion.report.pages import Grid
 from lostmotion.report.words import DASH, figures, with_unit
-from lostmotion.results import Array
+from lostmotion.results import Array, percent
 from lostmotion.results.mismatch import DisagreementOverTime
 
 COLOUR_RANGE = 3.0
@@ -95,7 +95,7 @@ def caption(evidence: Evidence) -> str:
     return (
         f"{worst}{shaded} For each {window}: the mean squared one-step prediction error over the variance that the"
         " model predicts for it, 1 for a correct model. Significance is tested by permutations of blocks of errors,"
-        f" at {level:.0%} over all windows together. {recordings.says if recordings else ''}"
+        f" at {percent(level)} over all windows together. {recordings.says if recordings else ''}"
     ).rstrip()
 
 
