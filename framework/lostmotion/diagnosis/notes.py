@@ -80,8 +80,8 @@ def note_large_noise(outcome: Outcome) -> list[str]:
             whose = f" of {sensor.label}" if len(d.shown.sensors) > 1 else ""
             kind = " is autocorrelated and" if ar1 > limits.coloured else ""
             notes.append(
-                f"The estimated noise{whose}{kind} is {percent(share)} of the held-out readings: it may be motion that the"
-                " model does not describe, such as another mode, or the sensor may not measure what the case states"
+                f"The estimated noise{whose}{kind} is {percent(share)} of the held-out readings: it may be motion that"
+                " the model does not describe, such as another mode, or the sensor may not measure what the case states"
                 " (check its sign and place). In both cases the result is not valid."
             )
     return notes
