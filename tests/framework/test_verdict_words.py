@@ -17,6 +17,7 @@ from lostmotion.likelihood.observation import Observation, Sensor
 from lostmotion.results import Interval
 from lostmotion.results.diagnosis import Mechanism
 from lostmotion.results.mismatch import UnexplainedForce
+from lostmotion.settings import DEFAULT
 from lostmotion_plugins.models.basic import LinearOscillator
 
 
@@ -38,7 +39,9 @@ def diagnosed(slow, *names, white=0.0):
     )
     after = SimpleNamespace(problem=problem, theta=np.zeros(0))
     problem.system = SimpleNamespace(model=LinearOscillator())
-    diagnosis = SimpleNamespace(after=after, shown=shown, found=("friction",), named=(), unexplained=False)
+    diagnosis = SimpleNamespace(
+        after=after, shown=shown, found=("friction",), named=(), unexplained=False, settings=DEFAULT
+    )
     scales, horizon = [1.0] * len(shown.sensors), SimpleNamespace(number=1, unit="drive periods")
     return SimpleNamespace(diagnosis=diagnosis, after=SimpleNamespace(scales=scales), horizon=horizon)
 

@@ -11,7 +11,6 @@ from lostmotion.diagnosis.confirming import find_unconfirmed
 from lostmotion.diagnosis.search import list_fitted_keys
 from lostmotion.inference.candidates import compute_slopes, fit_term, run_score_test
 from lostmotion.inference.rival import (
-    MOST_CORRECTION,
     compute_log_evidence,
     correct_channels,
     expand_fit,
@@ -196,8 +195,8 @@ def test_a_channel_is_put_right_as_far_as_flaws_are_usual(tmp_path):
     twice = correct_channels(expand_fit(once.fit), once)
     widths = expansion.widths[-len(once.sizes) :]
     for right in (once, twice):
-        assert np.all(np.abs(right.sizes) <= MOST_CORRECTION * widths * (1.0 + 1e-12))
-    assert np.any(np.abs(twice.sizes) > 0.99 * MOST_CORRECTION * widths)
+        assert np.all(np.abs(right.sizes) <= DEFAULT.rival.correction * widths * (1.0 + 1e-12))
+    assert np.any(np.abs(twice.sizes) > 0.99 * DEFAULT.rival.correction * widths)
 
 
 @pytest.mark.parametrize(

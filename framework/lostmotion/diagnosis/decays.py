@@ -20,6 +20,7 @@ from lostmotion.recording.warnings import is_impulsive
 from lostmotion.report.words import choose_scale, to_words
 from lostmotion.results import percent, rounded
 from lostmotion.results.behaviour import DecayCycles, Decays
+from lostmotion.settings import DEFAULT, NoteSettings
 from lostmotion.signals.decay import Decay, decay_of
 from lostmotion.signals.impacts import hits_of, onsets_of
 from lostmotion.signals.trends import says
@@ -31,14 +32,10 @@ BOUND = 1e3
 """A free run beyond this multiple of the largest reading has diverged."""
 PARTS, FEWEST = 8, 3
 """Parts of a decay in which a model is compared with the recording, and the fewest cycles of a part."""
-KNOWN, SURE, OVERLAP = 0.02, 3.0, 5
-"""Relative standard error up to which a part counts; standard errors of a significant difference; number of
-neighbouring cycles with common noise."""
+OVERLAP = 5
+"""The number of neighbouring cycles with common noise."""
 REACH = 1.2
 """Ratio of amplitudes by which the ends of the decay of a model are extrapolated."""
-LEVEL, NEAR, CLOSE = 0.05, 0.15, 0.02
-"""Relative change of a decrement that counts as none; relative errors of decrement and frequency up to which a model
-agrees with the recording."""
 NONE_MEASURED = (
     "No free decay could be measured: this requires at least four cycles of one mode that exceed the noise and fall by"
     " at least 10 %."
@@ -165,7 +162,9 @@ def _describe_decay(d: SearchResult, measured: Measured, models: dict[str, list[
         begun = (d.shown.begin + stretch.start) * d.shown.dt
         opening = f"Of {len(measured)} decays, that from {rounded(begun, 4)} s has the largest range: "
     words = says(decay, scale.unit, factor=scale.factor)
-    parts = [_compare_decays(_name_model(d, name), decay, made[widest]) for name, made in models.items()]
+    parts = [
+        _compare_decays(_name_model(d, name), decay, made[widest], d.settings.note) for name, made in models.items()
+    ]
     compared = "; ".join(parts)
     return f"{opening}{words if not opening else words[:1].lower() + words[1:]} {compared[:1].upper()}{compared[1:]}."
 
@@ -180,33 +179,34 @@ def _name_model(d: SearchResult, version: str) -> str:
     return f"the model with {' and '.join([', '.join(terms[:-1]), terms[-1]] if len(terms) > 1 else terms)}"
 
 
-def _compare_decays(who: str, seen: Decay, made: Decay | None) -> str:
+def _compare_decays(who: str, seen: Decay, made: Decay | None, limits: NoteSettings) -> str:
     """Return a clause on the difference between the decay of a model and the recorded one."""
     if made is None:
         return f"a free run of {who} has no measurable decay"
-    loss, pitch = compute_largest_error(seen, made, "decrement"), compute_largest_error(seen, made, "frequency")
+    loss, pitch = (compute_largest_error(seen, made, name, limits) for name in ("decrement", "frequency"))
     if math.isnan(loss):
         return f"{who} has too few amplitudes in common with the recording for a comparison"
-    if loss < NEAR and pitch < CLOSE:
+    if loss < limits.decrement and pitch < limits.frequency:
         return (
             f"{who} has the recorded decrement to within {percent(loss)} and the frequency to within {percent(pitch)}"
         )
+    loss_range = _describe_range(made.decrement, limits.decay_change, "a decrement")
+    pitch_range = _describe_range(made.frequency, 0.1 * limits.decay_change, "a frequency", " Hz")
     return (
-        f"{who} decays with {_describe_range(made.decrement, 'a decrement')}, up to {percent(loss)} from the recorded"
-        " one, and"
-        f" {_describe_range(made.frequency, 'a frequency', ' Hz')}, up to {percent(pitch)} from it"
+        f"{who} decays with {loss_range}, up to {percent(loss)} from the recorded one, and {pitch_range}, up to"
+        f" {percent(pitch)} from it"
     )
 
 
-def _describe_range(values: Array, what: str, unit: str = "") -> str:
+def _describe_range(values: Array, share: float, what: str, unit: str = "") -> str:
     """Return for example "a decrement of 0.094 at all amplitudes", or its first and last values during the decay."""
     middle, first, last = (float(v) for v in (np.median(values), values[0], values[-1]))
-    if abs(last - first) < (LEVEL if not unit else 0.1 * LEVEL) * abs(middle):
+    if abs(last - first) < share * abs(middle):
         return f"{what} of {rounded(middle, 3)}{unit} at all amplitudes"
     return f"{what} that changes from {rounded(first, 3)} to {rounded(last, 3)}{unit}"
 
 
-def compute_largest_error(seen: Decay, made: Decay, name: str) -> float:
+def compute_largest_error(seen: Decay, made: Decay, name: str, limits: NoteSettings = DEFAULT.note) -> float:
     """Return the largest relative error of a model in the recorded `name`, over at most eight parts of the decay.
 
     Only common amplitudes are compared; NaN if there are too few. Cycles are weighted by the squared amplitude. A part
@@ -226,7 +226,7 @@ def compute_largest_error(seen: Decay, made: Decay, name: str) -> float:
         model, true = (float(np.average(v[inside], weights=weights[inside])) for v in (expected, values))
         error = math.sqrt(OVERLAP * float(np.sum((weights * errors)[inside] ** 2))) / float(np.sum(weights[inside]))
         apart, scale = abs(model - true), max(abs(true), 1e-300)
-        return apart / scale, error < KNOWN * scale or apart > SURE * error
+        return apart / scale, error < limits.decay_known * scale or apart > limits.decay_certain * error
 
     parts = np.array_split(np.arange(shared.size), min(PARTS, shared.size // FEWEST))
     counted = [share for share, counts in map(part, parts) if counts]

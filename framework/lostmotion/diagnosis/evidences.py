@@ -7,10 +7,7 @@ import numpy as np
 from lostmotion.diagnosis.search import SearchResult
 from lostmotion.inference.evidence import sample_evidence
 from lostmotion.results.diagnosis import EvidenceCheck, SampledEvidence
-
-FEWEST = 15.0
-"""With fewer effective draws the sampled evidence is not used."""
-APART = 3.0
+from lostmotion.settings import NoteSettings
 
 
 def check_evidence(diagnosis: SearchResult, rng: np.random.Generator) -> EvidenceCheck:
@@ -18,18 +15,18 @@ def check_evidence(diagnosis: SearchResult, rng: np.random.Generator) -> Evidenc
     if diagnosis.after is diagnosis.before:
         return EvidenceCheck()
     before, after = (sample_evidence(fit, rng) for fit in (diagnosis.before, diagnosis.after))
-    return EvidenceCheck(before, after, _describe_evidence(before, after))
+    return EvidenceCheck(before, after, _describe_evidence(before, after, diagnosis.settings.note))
 
 
-def _describe_evidence(before: SampledEvidence, after: SampledEvidence) -> str:
+def _describe_evidence(before: SampledEvidence, after: SampledEvidence, limits: NoteSettings) -> str:
     laplace, sampled = after.laplace - before.laplace, after.sampled - before.sampled
     error = float(np.hypot(before.error, after.error))
-    if min(before.effective, after.effective) < FEWEST:
+    if min(before.effective, after.effective) < limits.draws:
         return (
             f"The findings raise the log evidence by {laplace:.1f} by Laplace's method; importance sampling cannot"
             " check this value, because too few draws have nearly all of the weight."
         )
-    same = abs(sampled - laplace) <= APART + 3.0 * error
+    same = abs(sampled - laplace) <= limits.evidence + 3.0 * error
     return (
         f"The findings raise the log evidence by {laplace:.1f} (Laplace's method) and {sampled:.1f} +- {error:.1f}"
         f" (importance sampling): {'the two agree' if same else 'they differ, so the probabilities are approximate'}."

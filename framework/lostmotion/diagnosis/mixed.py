@@ -13,8 +13,6 @@ from lostmotion.diagnosis.findings import draw_parameters
 from lostmotion.diagnosis.search import SearchResult, list_physical_keys
 from lostmotion.inference.setup import polish_fit
 
-OPEN = 0.05
-"""An explanation with a smaller share of the posterior is left out."""
 MOST = 3
 """The largest number of alternative explanations in the mixture."""
 
@@ -47,6 +45,6 @@ def draw_mixture(diagnosis: SearchResult, rng: np.random.Generator) -> Array:
 def _list_rivals(diagnosis: SearchResult) -> list[tuple[frozenset[str], float]]:
     """Return the other sets of terms with a share of the posterior, most probable first."""
     shares = diagnosis.selection.probabilities()
-    here = diagnosis.selection.chosen.problem.active
-    others = [(terms, p) for terms, p in shares.items() if terms != here and p > OPEN]
+    here, least = diagnosis.selection.chosen.problem.active, diagnosis.settings.name.mixed
+    others = [(terms, p) for terms, p in shares.items() if terms != here and p > least]
     return sorted(others, key=lambda pair: -pair[1])[:MOST]

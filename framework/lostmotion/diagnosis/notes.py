@@ -20,13 +20,7 @@ from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.space import LEVELS
 from lostmotion.results import percent, rounded
 
-FAR = 5.0
-"""Held-out errors of an adequate model that are this many times the noise deserve a warning."""
 EDGE = 1e-3
-VAGUE = 0.01
-"""A position that no sensor shows and that is known worse than to this share of its amplitude deserves a note."""
-LOUD, DEAFENING = 0.3, 0.8
-"""Noise with a memory, and any noise, that makes up this share of what a sensor shows may as well be motion."""
 
 
 def write_notes(outcome: Outcome, said: Sequence[str]) -> list[str]:
@@ -45,7 +39,7 @@ def write_notes(outcome: Outcome, said: Sequence[str]) -> list[str]:
             f"The search ended at its limit, after {len(d.selection.fitted_sets)} sets of terms: more terms may be"
             " missing."
         )
-    again = note_repetitions(_list_recordings(d), d.train, d.held)
+    again = note_repetitions(_list_recordings(d), d.train, d.held, d.settings.note)
     return [*said, *_note_unrecorded_inputs(d), *doubts, *again, *note_unknown_position(d.after, d.shown)]
 
 
@@ -79,16 +73,16 @@ def _note_ar1_noise(d: SearchResult) -> list[str]:
 def note_large_noise(outcome: Outcome) -> list[str]:
     """Return a note for each sensor whose estimated noise is so large, in held-out data, that it may be motion."""
     d, notes = outcome.diagnosis, []
-    problem, theta = d.after.problem, d.after.theta
+    problem, theta, limits = d.after.problem, d.after.theta, d.settings.note
     for i, (sensor, size) in enumerate(zip(d.shown.sensors, outcome.after.scales, strict=True)):
         ar1, share = (v**0.5 / size for v in (problem.ar1(theta, 0, i)[0], problem.measurement(theta, 0, i)))
-        if ar1 > LOUD or share > DEAFENING:
+        if ar1 > limits.coloured or share > limits.noise:
             whose = f" of {sensor.label}" if len(d.shown.sensors) > 1 else ""
+            kind = " is autocorrelated and" if ar1 > limits.coloured else ""
             notes.append(
-                f"The estimated noise{whose}{' is autocorrelated and' if ar1 > LOUD else ''} is {percent(share)} of the"
-                " held-out readings: it may be motion that the model does not describe, such as another mode, or the"
-                " sensor may not measure what the case states (check its sign and place). In both cases the result is"
-                " not valid."
+                f"The estimated noise{whose}{kind} is {percent(share)} of the held-out readings: it may be motion that"
+                " the model does not describe, such as another mode, or the sensor may not measure what the case states"
+                " (check its sign and place). In both cases the result is not valid."
             )
     return notes
 
@@ -123,7 +117,7 @@ def _note_large_errors(outcome: Outcome) -> list[str]:
     noises = [d.after.problem.measurement(d.after.theta, 0, i) ** 0.5 for i in range(len(d.shown.sensors))]
     errors = zip(outcome.after.by_sensor, outcome.after.scales, noises, strict=True)
     far = min(error * scale / noise for error, scale, noise in errors)
-    if far < FAR:
+    if far < d.settings.note.error:
         return []
     return [
         f"The error of free runs over held-out data is {rounded(far)} times the measurement noise: either something is"
@@ -137,7 +131,7 @@ def note_unknown_position(fit: Fit, observation: Observation) -> list[str]:
         return []
     place = smooth_body_position(fit, observation)
     reach, amplitude = 2.0 * float(place.sd.max()), math.sqrt(2.0) * float(place.mean.std())
-    if not reach > VAGUE * amplitude:
+    if not reach > fit.problem.settings.note.position * amplitude:
         return []
     if not (math.isfinite(reach) and reach < amplitude):
         return [

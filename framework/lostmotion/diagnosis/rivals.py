@@ -23,8 +23,6 @@ from lostmotion.results.diagnosis import Confusion, DecidingExcitation
 
 MOST_RIVALS = 2
 """Experiments are designed for this number of rivals, the most probable ones."""
-LEAST_GAIN = 3.0
-"""An experiment with a smaller expected log Bayes factor (odds of twenty) does not decide."""
 
 Proposals = Mapping[str, Proposal | None]
 
@@ -135,7 +133,7 @@ def _name_term(term: Term) -> str:
 def _describe_proposal(d: SearchResult, term: Term, p: float, proposal: Proposal) -> str:
     opening = _describe_rival(d, term, p)
     gain, repeat = proposal.gain, proposal.repeat
-    if gain < LEAST_GAIN:
+    if gain < d.settings.experiment.least:
         return (
             f"{opening} No excitation within the limits is expected to distinguish them by more than"
             f" {max(gain, 0.0):.1f} in log evidence: measure this part of the machine separately."

@@ -40,8 +40,6 @@ from lostmotion.likelihood.space import LEVELS
 from lostmotion.likelihood.system import System
 from lostmotion.settings import DEFAULT, LocateSettings, Settings
 
-MANY = 2
-"""So many terms together may stand in for one curve: then curves are tried although nothing is left over."""
 MOST_REPLACEMENTS = 3
 """The number of sets that are tried in place of a withdrawn one."""
 LARGEST = 1e100
@@ -194,7 +192,7 @@ def diagnose(
     suspicious = (
         known.unexplained
         or structured
-        or len(known.found) >= MANY
+        or len(known.found) >= settings.unknown.terms
         or selection.predict_smooth_gain() > settings.rival.much
     )
     if not suspicious:

@@ -97,7 +97,7 @@ def measure_behaviour(seen: ShownMotions, rng: np.random.Generator) -> Behaviour
         noise_floor=floor,
         units=replace(UNITS, valid_prediction_time=horizon.unit),
         horizon=horizon,
-        says=describe_behaviour(last, floor, horizon, strobed, driven=not d.shown.free, white=d.settings.name.white),
+        says=describe_behaviour(last, floor, horizon, strobed, driven=not d.shown.free, limits=d.settings),
     )
 
 

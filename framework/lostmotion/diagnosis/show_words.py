@@ -15,9 +15,8 @@ from lostmotion.results.behaviour import (
     ModelBehaviour,
     NoiseFloor,
 )
-from lostmotion.settings import DEFAULT
+from lostmotion.settings import DEFAULT, NoteSettings, Settings
 
-LUCK, DOUBTFUL = 0.01, 0.05
 TRANSIENT = "transient"
 """The status of a measure of attractors if the motion decays; it has no sentence."""
 
@@ -29,20 +28,20 @@ def describe_behaviour(
     strobed: bool,
     *,
     driven: bool = True,
-    white: float = DEFAULT.name.white,
+    limits: Settings = DEFAULT,
 ) -> MeasureTexts:
     """Return a sentence on each measure of the last model; `driven` states whether an input was recorded.
 
-    A p-value of whiteness below `white` is reported as a finding, and below five times that as a possibility.
+    A p-value of whiteness below `name.white` is reported as a finding, and below five times that as a possibility.
     """
     return MeasureTexts(
         heldout_log_score=_describe_score(last, floor),
         free_run_error=_describe_error(last, floor, horizon),
         valid_prediction_time=_describe_valid_time(last),
-        attractor_distance=_describe_distance(last.attractor_distance, strobed),
+        attractor_distance=_describe_distance(last.attractor_distance, strobed, limits.note),
         largest_exponent=_describe_exponent(last.largest_exponent, driven=driven),
         d2=_describe_dimension(floor.d2, last.d2),
-        whiteness=_describe_whiteness(last.whiteness.p, white),
+        whiteness=_describe_whiteness(last.whiteness.p, limits.name.white),
     )
 
 
@@ -70,7 +69,7 @@ def _describe_valid_time(last: ModelBehaviour) -> str:
     return f"{opening}."
 
 
-def _describe_distance(entry: Distance, strobed: bool) -> str:
+def _describe_distance(entry: Distance, strobed: bool, limits: NoteSettings) -> str:
     where = "Poincaré sections (one point per drive period)" if strobed else "points of position and velocity"
     opening = f"Energy distance between {where} of recording and free run"
     if entry.status == TRANSIENT:
@@ -80,9 +79,9 @@ def _describe_distance(entry: Distance, strobed: bool) -> str:
     if entry.status != "ok":
         return f"{opening}: the free run diverges."
     closing = "the noise floor is the distance between the halves of the recording"
-    if entry.p < LUCK:
+    if entry.p < limits.distance:
         return f"{opening}: the difference is significant (p = {rounded(entry.p)}); {closing}."
-    if entry.p < DOUBTFUL:
+    if entry.p < limits.distance_open:
         return f"{opening}: the difference may be significant (p = {rounded(entry.p)}); {closing}."
     return f"{opening}: the difference is not significant (p = {rounded(entry.p)}); {closing}."
 

@@ -8,17 +8,18 @@ from dataclasses import replace
 import numpy as np
 
 from lostmotion.inference.fit import MANY, Fit, maximise
-from lostmotion.likelihood.problem import RANDOM
-
-USUAL_EXCESS = 2.0 * math.log(3.0)
-"""A random force this far above the usual one, in log intensity, is reason to look for more."""
+from lostmotion.likelihood.problem import RANDOM, Problem
 
 
 def has_usual_random_force(fit: Fit) -> bool:
-    """Return whether the random force is at most three times the usual noise of the drive."""
-    return all(
-        at <= f.mean + USUAL_EXCESS for f, at in zip(fit.problem.free, fit.theta, strict=True) if f.parameter == RANDOM
-    )
+    """Return whether the random force is at most three times the usual noise of the drive (`locate.quiet`)."""
+    most = _compute_excess(fit.problem)
+    return all(at <= f.mean + most for f, at in zip(fit.problem.free, fit.theta, strict=True) if f.parameter == RANDOM)
+
+
+def _compute_excess(problem: Problem) -> float:
+    """Return the largest usual excess of the log intensity of the random force over its prior mean."""
+    return 2.0 * math.log(problem.settings.locate.quiet)
 
 
 def compute_random_force_gain(fit: Fit) -> float:
@@ -28,7 +29,7 @@ def compute_random_force_gain(fit: Fit) -> float:
     """
     problem, theta, frees = fit.problem, fit.theta.copy(), list(fit.problem.free)
     for i, free in enumerate(frees):
-        cap = free.mean + USUAL_EXCESS
+        cap = free.mean + _compute_excess(problem)
         if free.parameter == RANDOM and theta[i] > cap:
             theta[i], frees[i] = cap, replace(free, high=cap, start=cap)
     if np.array_equal(theta, fit.theta):

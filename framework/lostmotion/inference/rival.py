@@ -44,8 +44,6 @@ SHARES = (1.0, 0.5, 0.2, 0.0)
 ROUNDS_SMOOTH, ROUNDS_CORRECTED, ROUNDS_KNOWN = 3, 8, 20
 """Rounds of a fit with smooth forces, which starts at predicted values; of one with corrected channels; and of one with
 free known values only. The last two cost less per round."""
-MOST_CORRECTION = 3.0
-"""Channels are corrected by at most this number of prior standard deviations."""
 SWEEPS = 3
 PENALTY = math.log(len(SIZES) * len(LENGTHS))
 """The log prior penalty of a smooth force: one of all sizes and correlation lengths was chosen."""
@@ -364,7 +362,7 @@ class CorrectedFit:
 def correct_channels(expansion: DiscrepancyExpansion, before: CorrectedFit | None = None) -> CorrectedFit | None:
     """Return the fit to recordings that are corrected for channel errors; None where there are no channel errors.
 
-    The recordings of the expansion may have been corrected `before`. A correction is at most `MOST_CORRECTION` prior
+    The recordings of the expansion may have been corrected `before`. A correction is at most `rival.correction` prior
     standard deviations: a larger error is a term of its own, such as a wrong gain or a delay.
     """
     count, fit = len(expansion.channel_errors), expansion.fit
@@ -372,7 +370,8 @@ def correct_channels(expansion: DiscrepancyExpansion, before: CorrectedFit | Non
         return None
     best, observations = expansion.find_best(), fit.problem.observations
     widths, already = best.widths[-count:], before.sizes if before else np.zeros(count)
-    sizes = np.clip(already + best.mean[-count:], -MOST_CORRECTION * widths, MOST_CORRECTION * widths)
+    most = fit.problem.settings.rival.correction * widths
+    sizes = np.clip(already + best.mean[-count:], -most, most)
     wider, changes = (before.log_jacobian, before.changes) if before else (0.0, ())
     for gauge, size in zip(expansion.channel_errors, map(float, sizes - already), strict=True):
         observations = tuple(gauge.change(o, size) for o in observations)

@@ -26,17 +26,20 @@ from lostmotion.settings.diagnosis import (
 )
 from lostmotion.settings.identification import ChainSettings, LevelSettings, ModeSettings
 from lostmotion.settings.motion import MotionSettings
+from lostmotion.settings.notes import ExperimentSettings, NoteSettings
 from lostmotion.settings.recording import RecordingSettings
 
 __all__ = [
     "DEFAULT",
     "ChainSettings",
+    "ExperimentSettings",
     "HeldOutSettings",
     "LevelSettings",
     "LocateSettings",
     "ModeSettings",
     "MotionSettings",
     "NameSettings",
+    "NoteSettings",
     "RecordingSettings",
     "RivalSettings",
     "SelectSettings",
@@ -72,6 +75,8 @@ class Settings:
     unknown: UnknownSettings = field(default_factory=UnknownSettings)
     heldout: HeldOutSettings = field(default_factory=HeldOutSettings)
     name: NameSettings = field(default_factory=NameSettings)
+    note: NoteSettings = field(default_factory=NoteSettings)
+    experiment: ExperimentSettings = field(default_factory=ExperimentSettings)
     shared: SharedSettings = field(default_factory=SharedSettings)
     mode: ModeSettings = field(default_factory=ModeSettings)
     chain: ChainSettings = field(default_factory=ChainSettings)

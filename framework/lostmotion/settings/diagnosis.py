@@ -56,6 +56,9 @@ class LocateSettings:
         least=0.5,
         most=1.0,
     )
+    quiet: float = threshold(
+        3.0, "A random force of up to this many times the usual noise of the drive needs no further terms.", least=1.0
+    )
     quantisation: float = threshold(
         0.05,
         "Quantisation of the stored values counts when its variance exceeds this share of the noise variance.",
@@ -161,6 +164,9 @@ class RivalSettings:
         100.0,
         "A predicted gain above this of which a fit realises nothing shows that the local expansion is not valid.",
     )
+    correction: float = threshold(
+        3.0, "Channels are corrected by at most this many standard deviations of their usual errors."
+    )
     lasting: float = threshold(
         4.0,
         "From this excess of the scatter of scores on, their correlation is long and only predicted gains count.",
@@ -172,6 +178,9 @@ class RivalSettings:
 class UnknownSettings:
     """Learning an unexplained force as a curve, and describing it."""
 
+    terms: float = threshold(
+        2.0, "Curves are also tried when this many terms were found: together they may imitate one curve.", least=1.0
+    )
     hope: float = threshold(
         0.3, "Curves are tried that predict at least this share of the gain of the best set of terms.", most=1.0
     )
@@ -272,6 +281,9 @@ class NameSettings:
         0.05, "A set of terms with a larger share of the posterior is reported as a rival.", most=1.0
     )
     worth: float = threshold(0.01, "A term that was not found is listed when its probability is above this.", most=1.0)
+    mixed: float = threshold(
+        0.05, "Intervals include each alternative set of terms with a larger share of the posterior.", most=1.0
+    )
     related: float = threshold(
         math.log(20.0),
         (
