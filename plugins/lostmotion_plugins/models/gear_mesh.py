@@ -11,6 +11,15 @@ from lostmotion.quantities import DAMPING, FORCE, INERTIA, LENGTH, NUMBER, STIFF
 from lostmotion_plugins.laws import subtract_gap
 from lostmotion_plugins.models.lin import LinBacklash, ground
 
+MESH_GROUPS = (
+    Group("depth", "share of the stiffness that pulsates", "kappa", "kappa", lambda q, n: n),
+    Group(
+        "mesh_ratio", "frequency of the mesh over that of the drive", "omega_mesh / omega", "omega_mesh",
+        lambda q, n: n * q["drive.omega"],
+    ),
+)  # fmt: skip
+"""Dimensionless groups of the pulsating stiffness of a mesh."""
+
 
 @dataclass(frozen=True)
 class GearMesh(Model):
@@ -50,11 +59,7 @@ class GearMesh(Model):
         ),
         Group("alpha", "amplitude of the drive", "A / (k0 x0)", "drive.amplitude", lambda q, n: n * q["k0"] * q["x0"]),
         Group("load_ratio", "mean load", "preload / (k0 x0)", "preload", lambda q, n: n * q["k0"] * q["x0"]),
-        Group("depth", "share of the stiffness that pulsates", "kappa", "kappa", lambda q, n: n),
-        Group(
-            "mesh_ratio", "frequency of the mesh over that of the drive", "omega_mesh / omega", "omega_mesh",
-            lambda q, n: n * q["drive.omega"],
-        ),
+        *MESH_GROUPS,
     )  # fmt: skip
 
     @staticmethod

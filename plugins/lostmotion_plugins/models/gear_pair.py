@@ -11,6 +11,7 @@ from lostmotion.contracts import Array, Group, Interface, Model, Motion, Param
 from lostmotion.quantities import DAMPING, FORCE, INERTIA, LENGTH, NUMBER, STIFFNESS, Dimension
 from lostmotion_plugins.laws import subtract_gap
 from lostmotion_plugins.models.clearance_chain import ClearanceChain, second
+from lostmotion_plugins.models.gear_mesh import MESH_GROUPS
 from lostmotion_plugins.models.lin import ground
 
 
@@ -85,11 +86,7 @@ class GearPair(Model):
             "alpha", "amplitude of the drive", "A m / (m1 k0 x0)", "drive.amplitude",
             lambda q, n: n * q["k0"] * q["x0"] * q["m1"] / _reduce_inertia(q),
         ),
-        Group("depth", "share of the stiffness that pulsates", "kappa", "kappa", lambda q, n: n),
-        Group(
-            "mesh_ratio", "frequency of the mesh over that of the drive", "omega_mesh / omega", "omega_mesh",
-            lambda q, n: n * q["drive.omega"],
-        ),
+        *MESH_GROUPS,
     )  # fmt: skip
 
     @staticmethod

@@ -86,6 +86,14 @@ def _draw_cao(axes: Axes, dims: Array, values: Array, **options: Any) -> None:
     axes.set_xlabel("embedding dimension d")
 
 
+def _finish_e1(axes: Axes) -> None:
+    """Draw the line at 1, labels and limits of a plot of Cao's E1 alone."""
+    axes.axhline(1.0, color="#444444", lw=0.8)
+    axes.set_ylabel("Cao's E1")
+    axes.set_ylim(0.0, 1.1)
+    axes.legend(loc="lower right")
+
+
 def draw_fig19(data: CaoDrawing) -> Figure:
     """Return the figure with Cao's E1 and E2 over the dimension."""
     figure, axes = make_panels(1, 1, 3.6)
@@ -147,10 +155,7 @@ def draw_fig23(data: CleanedCaoDrawing) -> Figure:
     figure, axes = make_panels(1, 1, 3.6)
     _draw_cao(axes[0], data.dim, data.before, color=style.BEFORE, label="as recorded")
     _draw_cao(axes[0], data.dim_after, data.after, color=style.AFTER, ls="--", marker="s", label="cleaned")
-    axes[0].axhline(1.0, color="#444444", lw=0.8)
-    axes[0].set_ylabel("Cao's E1")
-    axes[0].set_ylim(0.0, 1.1)
-    axes[0].legend(loc="lower right")
+    _finish_e1(axes[0])
     return figure
 
 
@@ -180,10 +185,7 @@ def draw_fig13(data: NoisyCaoDrawing) -> Figure:
     figure, axes = make_panels(1, 1, 4.0)
     for k, (name, dims, e1) in enumerate(zip(data.names, data.dims, data.e1, strict=True)):
         _draw_cao(axes[0], dims, e1, color=COLOURS[k], marker=MARKS[k], label=name)
-    axes[0].axhline(1.0, color="#444444", lw=0.8)
-    axes[0].set_ylabel("Cao's E1")
-    axes[0].set_ylim(0.0, 1.1)
-    axes[0].legend(loc="lower right")
+    _finish_e1(axes[0])
     return figure
 
 
