@@ -155,7 +155,7 @@ def _format_choices(kind: Any) -> str:
 
 def _check_choice(x: Any, kind: Any) -> Any:
     if x not in get_args(kind):
-        raise TypeError(f"wanted {_format_choices(kind)}, found {x!r}")
+        raise TypeError(f"expected {_format_choices(kind)}, found {x!r}")
     return x
 
 
@@ -216,19 +216,19 @@ def _read_number(x: Any) -> float:
     if x is None:
         return math.nan
     if isinstance(x, bool) or not isinstance(x, int | float):
-        raise TypeError(f"wanted a number, found {x!r}")
+        raise TypeError(f"expected a number, found {x!r}")
     return float(x)
 
 
 def _read_whole(x: Any) -> int:
     if isinstance(x, bool) or not isinstance(x, int):
-        raise TypeError(f"wanted a whole number, found {x!r}")
+        raise TypeError(f"expected a whole number, found {x!r}")
     return x
 
 
 def _check_type(x: Any, kind: type[T], words: str) -> T:
     if not isinstance(x, kind):
-        raise TypeError(f"wanted {words}, found {x!r}")
+        raise TypeError(f"expected {words}, found {x!r}")
     return x
 
 

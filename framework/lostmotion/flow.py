@@ -117,7 +117,7 @@ def _make_parameters(system: System, values: Mapping[str, float]) -> Array:
                 raise ContractError(f"{system.model.name} lacks {slot.key} ({q.meaning}, {slot.unit}): give it a value")
         elif not (math.isfinite(value) and q.low <= value <= q.high and (value > 0.0 or slot.key not in inertias)):
             wanted = "a number above 0" if slot.key in inertias else f"a finite number from {q.low:g} to {q.high:g}"
-            raise ContractError(f"{slot.key} ({q.meaning}) is {value:g}: wanted {wanted} {slot.unit}")
+            raise ContractError(f"{slot.key} ({q.meaning}) is {value:g}: expected {wanted} {slot.unit}")
     return system.vector(given)
 
 
@@ -126,7 +126,7 @@ def _make_start(system: System, start: Array | None) -> Array:
     begin = np.zeros(system.states(system.everything))
     told = np.zeros(0) if start is None else np.asarray(start, dtype=float)
     if told.ndim != 1 or len(told) > len(begin) or not np.isfinite(told).all():
-        raise ContractError(f"the start is {told}: wanted up to {len(begin)} finite numbers")
+        raise ContractError(f"the start is {told}: expected up to {len(begin)} finite numbers")
     begin[: len(told)] = told
     return begin
 
@@ -135,10 +135,10 @@ def _read_drive(drive: Harmonic | tuple[float, float] | float) -> tuple[Harmonic
     """Return the drive, if there is one, and the period (s)."""
     beat = None if isinstance(drive, float | int) else drive if isinstance(drive, Harmonic) else Harmonic(*drive)
     if beat and not 0.0 < beat.omega < math.inf:
-        raise ContractError(f"the drive has omega = {beat.omega:g} rad/s: wanted a finite number above zero")
+        raise ContractError(f"the drive has omega = {beat.omega:g} rad/s: expected a finite number above zero")
     period = beat.period if beat else float(drive)  # type: ignore[arg-type]
     if not 0.0 < period < math.inf:
-        raise ContractError(f"the period is {period:g} s: wanted a finite time above zero")
+        raise ContractError(f"the period is {period:g} s: expected a finite time above zero")
     return beat, period
 
 

@@ -147,7 +147,7 @@ def unit_powers(unit: str, motion: str) -> tuple[float, float, float, float]:
         raise DataError(f"{unit!r} is not known as a unit: write for instance 'N/m'") from err
     powers = {name.strip("[]"): float(power) for name, power in base.dimensionality.items()}
     if strange := set(powers) - {"mass", "length", "time"}:
-        raise DataError(f"{unit!r} is a unit of {sorted(strange)[0]}: wanted one of mechanics, for instance 'N/m'")
+        raise DataError(f"{unit!r} is a unit of {sorted(strange)[0]}: expected one of mechanics, for instance 'N/m'")
     if abs(float(base.magnitude) - 1.0) > 1e-9:
         raise DataError(f"{unit!r} is {base.magnitude:g} times the SI unit: numbers of a case are in SI, write 'N/m'")
     force, time = powers.get("mass", 0.0), powers.get("time", 0.0) + 2.0 * powers.get("mass", 0.0)
@@ -177,7 +177,7 @@ def si_factor(unit: str, quantity: str) -> tuple[float, str]:
     for target in targets:
         if one.is_compatible_with(target) and _is_angular(unit) == ("rad" in target):
             return _require_positive(float(one.to(target).magnitude), unit, quantity), target
-    raise DataError(f"unit {unit!r} does not measure {quantity}: wanted one like {SI[quantity]!r}{_unit_hint(unit)}")
+    raise DataError(f"unit {unit!r} does not measure {quantity}: expected one like {SI[quantity]!r}{_unit_hint(unit)}")
 
 
 def _unit_hint(unit: str) -> str:
@@ -188,7 +188,7 @@ def _unit_hint(unit: str) -> str:
 
 def _require_positive(factor: float, unit: str, quantity: str) -> float:
     if not 0 < factor < math.inf:
-        raise DataError(f"unit {unit!r} of the {quantity} comes to a factor of {factor:g}: wanted a positive one")
+        raise DataError(f"unit {unit!r} of the {quantity} comes to a factor of {factor:g}: expected a positive one")
     return factor
 
 

@@ -101,7 +101,7 @@ def test_a_model_goes_to_another_process():
 
 
 REFUSED = {
-    "m*x'' + c*x' + k*x": "has the end where an operator or '=' is wanted, at character 19",
+    "m*x'' + c*x' + k*x": "has the end where an operator or '=' is expected, at character 19",
     "m*x'' + c*x = force + c*x'": "different dimensions, at character 23",
     "m*x'' + $x = force": "has '$', which is not allowed in an equation, at character 9",
     "m*x'' + foo(x) = force": "unknown function 'foo'",
@@ -112,10 +112,10 @@ REFUSED = {
     "m*x'' + k*x''' = force": "has the derivative x'''",
     "m*x'' + k' = force": "has the derivative k'",
     "m*x'' + a*b*x = force": "do not determine the units of a, b",
-    "m x'' = force": "where an operator or '=' is wanted, at character 3",
+    "m x'' = force": "where an operator or '=' is expected, at character 3",
     "__import__('os').system('true') = m*x''": "which is not allowed in an equation",
     "m*force'' = 1": "has another meaning already",
-    "": "is wanted, at character 1",
+    "": "is expected, at character 1",
     "m*x'' + 1e999*x = force": "has '1e999', which is not a finite number, at character 9",
     "(" * 60 + "m*x''" + ")" * 60 + " = force": "nests more than",
 }

@@ -133,7 +133,9 @@ def test_rest_and_nonsense_are_answered():
         with pytest.raises(ContractError, match="above zero"):
             flow_of(LinearOscillator(), SOFT, drive=wrong)
     for bad in (math.nan, -1.0):
-        with pytest.raises(ContractError, match=r"c \(viscous friction\) is .*: wanted a finite number from 0 to inf"):
+        with pytest.raises(
+            ContractError, match=r"c \(viscous friction\) is .*: expected a finite number from 0 to inf"
+        ):
             flow_of(LinearOscillator(), {**SOFT, "c": bad}, drive=2.0)
     with pytest.raises(ContractError, match=r"m .* above 0 kg"):
         flow_of(LinearOscillator(), {**SOFT, "m": 0.0}, drive=2.0)

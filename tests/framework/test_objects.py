@@ -78,7 +78,7 @@ def test_a_frame_a_dataset_and_a_file_are_the_same_recording(tmp_path):
         ({"inputs": {"force": U[:-1]}}, "differ in length"),
         ({"inputs": {"push": U}, "units": {"push": "N", "position": "mm"}}, "is no input of a model"),
         ({"sensors": {}}, "has no sensor"),
-        ({"noise": {"position": "pink"}}, "wanted one of white, ar1, quantised"),
+        ({"noise": {"position": "pink"}}, "expected one of white, ar1, quantised"),
         ({"sensors": {"position": np.stack([X, X])}}, "one number for each sample"),
         ({"sensors": {"position": ["a"] * N}}, "instead of numbers"),
     ],
@@ -113,7 +113,7 @@ def test_a_case_is_written_and_read_again(tmp_path):
         ({"model": "lin_backlas"}, "did you mean 'lin_backlash'"),
         ({"model": "m*x'' + = force"}, "at character"),
         ({"known": {"m": 1.0, "c": 1.0}}, "both known and estimated"),
-        ({"estimate": {"c": (1, 2)}}, "wanted lm.LogUniform"),
+        ({"estimate": {"c": (1, 2)}}, "expected lm.LogUniform"),
         ({"recordings": []}, "needs a Recording"),
     ],
 )

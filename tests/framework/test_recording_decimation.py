@@ -80,7 +80,7 @@ def test_lost_samples_are_bridged_or_stay_lost() -> None:
 
 def test_a_factor_that_makes_no_sense_is_refused() -> None:
     assert np.array_equal(decimate(TIME, 1), TIME)
-    with pytest.raises(ValueError, match="wanted 1 or more"):
+    with pytest.raises(ValueError, match="expected 1 or more"):
         decimate(TIME, 0)
     with pytest.raises(ValueError, match="too few"):
         decimate(TIME[:50], 40)

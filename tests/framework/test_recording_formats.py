@@ -195,5 +195,5 @@ def test_wrong_places(tmp_path: Path) -> None:
         np.save(file, TIME)
     with pytest.raises(DataError, match="single array"):
         columns_of(tmp_path / "one.npz")
-    with pytest.raises(DataError, match="wanted one of csv"):
+    with pytest.raises(DataError, match="expected one of csv"):
         columns_of(tmp_path / "run.xlsx")

@@ -80,7 +80,7 @@ def test_the_unit_of_time(name: str, table: str | None, given: str | None, unit:
 @pytest.mark.parametrize(
     ("name", "table", "given", "words"),
     [("t", "ms", "s", "in ms by its header and in s by the case"), ("time_ms", None, "us", "in us by the case"),
-     ("t", "mm", None, "in mm by its header, which is no time"), ("t", None, "mm", "not a time: wanted s, ms")],
+     ("t", "mm", None, "in mm by its header, which is no time"), ("t", None, "mm", "not a time: expected s, ms")],
 )  # fmt: skip
 def test_units_that_cannot_be_meant(name: str, table: str | None, given: str | None, words: str) -> None:
     with pytest.raises(DataError, match=words):

@@ -66,8 +66,8 @@ def case_of(known, estimate=None):
 
 @pytest.mark.parametrize(("name", "value"), [("m", -1.0), ("m", 0.0), ("c", -8.0), ("k", -1e4)])
 def test_a_known_value_that_no_machine_has_is_refused(name, value):
-    """A negative mass made a diagnosis run away for minutes."""
-    with pytest.raises(CaseError, match=rf"^{name} \(.*is {value:g}, wanted "):
+    """A negative mass made a diagnosis run for minutes."""
+    with pytest.raises(CaseError, match=rf"^{name} \(.*is {value:g}, expected "):
         make_known(oscillator(), case_of({**KNOWN, name: value}))
 
 
@@ -115,7 +115,7 @@ class Lost:
 
 
 def test_a_term_without_a_finite_force_is_refused():
-    """Where a filter ran away with a sound term, the term promises nothing, and is not blamed."""
+    """Where a filter diverged with a correct term, the term promises nothing, and no error is attributed to it."""
     observation = Observation.of("seen", np.sin(np.arange(40.0)), np.zeros((40, 1)), 0.1, "position")
     fit = SimpleNamespace(problem=SimpleNamespace(system=oscillator(Rootless, Plain), observations=(observation,)))
     with pytest.raises(ContractError, match="force of rootless is not a finite number"):

@@ -177,7 +177,7 @@ def test_one_owner_may_not_offer_a_name_twice(installed):
             "coulom_friction",
             r"no term is called 'coulom_friction' \(did you mean 'coulomb_friction'\?\): there are",
         ),
-        ("model", "coulomb_friction", "'coulomb_friction' is a term, and a model was wanted"),
+        ("model", "coulomb_friction", "'coulomb_friction' is a term, and a model was expected"),
         ("modle", "lin_backlash", r"no kind 'modle' of plugin \(did you mean 'model'\?\)"),
         ("denoiser", "schreiber", "no denoiser is called 'schreiber'"),
     ],

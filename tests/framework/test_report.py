@@ -181,7 +181,9 @@ def test_a_key_that_is_absent_is_named(tmp_path, key):
 def test_a_value_of_another_type_is_told_at_its_key(tmp_path):
     facts = made.mismatch()
     facts["found"][0]["parameters"]["force"]["median"] = "much"
-    with pytest.raises(DataError, match=r"wanted a number, found 'much' @ \.found\[0\]\.parameters\['force'\]\.median"):
+    with pytest.raises(
+        DataError, match=r"expected a number, found 'much' @ \.found\[0\]\.parameters\['force'\]\.median"
+    ):
         write_report(made.write(tmp_path, facts))
 
 

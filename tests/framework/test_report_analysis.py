@@ -220,7 +220,7 @@ def test_folder_without_an_analysis_is_refused(tmp_path):
     [
         ({"signs": [{"sign": "a", "name": "a", "state": "odd", "says": "", "excludes": ""}]}, "found 'odd' @ .signs"),
         ({"signs": ["text"]}, "signs"),
-        ({"says": ["One.", "Two."]}, "wanted a text"),
+        ({"says": ["One.", "Two."]}, "expected a text"),
         ({"delay": None}, "delay"),
         ({"strength": None}, "strength"),
     ],

@@ -24,7 +24,7 @@ from lostmotion.results.identification import (
 
 ORIGIN = Origin("identify", {"python": "3"}, {"terms": ["a"], "thresholds": {"select": {"decisive": 3.0}}}, 0, {})
 SAMPLING = Sampling(
-    walkers=16, steps=100, burn_in=10, acceptance=0.4, autocorrelation_time=2.0, lacks=("more steps are wanted",)
+    walkers=16, steps=100, burn_in=10, acceptance=0.4, autocorrelation_time=2.0, lacks=("more steps are needed",)
 )
 
 

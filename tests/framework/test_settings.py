@@ -38,8 +38,8 @@ def test_a_change_makes_new_ones_and_the_rest_stays():
     ("values", "says"),
     [
         ({"select.decisiv": 4.0}, "no setting 'select.decisiv'.*'select.decisive'"),
-        ({"heldout.share": 0.9}, "heldout.share is 0.9: wanted a number from 0.05 to 0.7"),
-        ({"name.sure": "much"}, "name.sure is 'much': wanted a number"),
+        ({"heldout.share": 0.9}, "heldout.share is 0.9: expected a number from 0.05 to 0.7"),
+        ({"name.sure": "much"}, "name.sure is 'much': expected a number"),
         ({"name.sure": float("nan")}, "name.sure is nan"),
         ({"chain.long": math.inf}, "chain.long is inf"),
     ],

@@ -19,7 +19,7 @@ from lostmotion_plugins.quantifiers.correlation_curves import measure_flatness
 from lostmotion_plugins.quantifiers.dimension import MOST_SCATTER, MOST_TILT
 
 PERIOD = 0.1
-NOTHING = Estimate.refused("no_scaling_region", "There is no straight piece.")
+NOTHING = Estimate.refused("no_scaling_region", "There is no scaling region.")
 GROWN = {"e_folds": 1.6, "fit_begin": 0.5, "fit_end": 1.7}
 EXPONENTS = {
     "for": Estimate(2.0, 1.5, 2.5, "ok", "1/s", details=GROWN),

@@ -158,19 +158,19 @@ WRONG = {
     ),
     "parameter": ((*LIN, "--set", "gapp=1"), "no parameter 'gapp'"),
     "twice": ((*LIN, "--set", "m=1"), "gives m twice"),
-    "word": ((*LIN, "--set", "k1=stiff"), "k1 of --set is 'stiff': wanted a finite number"),
+    "word": ((*LIN, "--set", "k1=stiff"), "k1 of --set is 'stiff': expected a finite number"),
     "no pair": ((*LIN, "--set", "k1"), "has 'k1': write key=value"),
-    "bounds": (("lin_backlash", "--set", "m=1,c=-8,k0=1,x0=1"), "c (viscous damping) is -8: wanted a value from 0"),
-    "inertia": (("lin_backlash", "--set", "m=0,c=8,k0=1,x0=1"), "m (mass) is 0: wanted a value above 0 kg"),
+    "bounds": (("lin_backlash", "--set", "m=1,c=-8,k0=1,x0=1"), "c (viscous damping) is -8: expected a value from 0"),
+    "inertia": (("lin_backlash", "--set", "m=0,c=8,k0=1,x0=1"), "m (mass) is 0: expected a value above 0 kg"),
     "state": ((*LIN, "--initial", "positon=1"), "did you mean 'position'?"),
     "term": ((*LIN, "--term", "coulomb_fricton:force=1"), "did you mean 'coulomb_friction'?"),
     "term parameter": ((*LIN, "--term", "coulomb_friction:forse=1"), "did you mean 'force'?"),
     "term value": ((*LIN, "--term", "coulomb_friction"), "lacks coulomb_friction.force (friction force, N)"),
     "place": ((*LIN, "--term", "coulomb_friction@base:force=1"), "acts at 'base', but lin_backlash has ground"),
-    "samples": ((*LIN, "--rate", "0.1"), "is 0.2 samples: wanted 2 to 2500000"),
-    "rate": ((*LIN, "--rate", "-5"), "the rate is -5: wanted"),
-    "size": ((*LIN, "--duration", "1e9"), "is 5e+11 samples: wanted 2 to"),
-    "noise": ((*LIN, "--noise", "-1"), "the noise is -1: wanted a share"),
+    "samples": ((*LIN, "--rate", "0.1"), "is 0.2 samples: expected 2 to 2500000"),
+    "rate": ((*LIN, "--rate", "-5"), "the rate is -5: expected"),
+    "size": ((*LIN, "--duration", "1e9"), "is 5e+11 samples: expected 2 to"),
+    "noise": ((*LIN, "--noise", "-1"), "the noise is -1: expected a share"),
     "stiff": (("lin_backlash", "--set", "m=1,c=8,k0=4e16,x0=0.005"), "is too stiff: 2e+08 rad/s ask for"),
     "huge": ((*LIN, "--drive", "step:size=1e300"), "the drive reaches 1e+300: check its unit"),
     "fast": (
@@ -178,7 +178,7 @@ WRONG = {
         "reaches 300 Hz, which 500 samples per second cannot show",
     ),
     "endless": ((*LIN, "--drive", "noise:rms=1,bandwidth=1e200"), "drive noise up to 1e+200 Hz for 2 s is too long"),
-    "lines": ((*LIN, "--drive", "multisine:rms=1,low=1,high=2,lines=1e9"), "wanted a whole number up to 10000"),
+    "lines": ((*LIN, "--drive", "multisine:rms=1,low=1,high=2,lines=1e9"), "expected a whole number up to 10000"),
 }
 
 
@@ -202,8 +202,8 @@ def test_mistakes_are_sentences(name, tmp_path):
         ("harmonic:amplitude=big,omega=1", "amplitude of drive harmonic is 'big'"),
         ("harmonic:amplitude=1,omega=1,harmonics=a/b", "harmonics of drive harmonic is 'a'"),
         ("multisine:rms=1,low=5,high=1", "low must be below high"),
-        ("multisine:rms=1,low=1,high=5,lines=2.5", "wanted a whole number"),
-        ("step:size=1,rise=0", "rise of drive step is 0: wanted more than zero"),
+        ("multisine:rms=1,low=1,high=5,lines=2.5", "expected a whole number"),
+        ("step:size=1,rise=0", "rise of drive step is 0: expected more than zero"),
     ],
 )
 def test_mistakes_in_a_drive_are_sentences(drive, says):

@@ -173,7 +173,7 @@ def wild(self, data, *, rng):
 
 METHODS = [
     (spoiled(Crest, "guest_q_raises", estimate=raises), "raised ZeroDivisionError (all is lost)"),
-    (spoiled(Crest, "guest_q_float", estimate=lambda self, data, *, rng: 3.0), "an Estimate was wanted"),
+    (spoiled(Crest, "guest_q_float", estimate=lambda self, data, *, rng: 3.0), "an Estimate was expected"),
     (
         spoiled(Crest, "guest_q_nan", estimate=lambda self, data, *, rng: Estimate(math.nan, 0.0, 1.0, "ok")),
         "returned the status 'ok' with the value nan",
@@ -186,11 +186,11 @@ METHODS = [
     (spoiled(Shuffle, "guest_s_raises", draw=raises), "raised ZeroDivisionError"),
     (
         spoiled(Shuffle, "guest_s_short", draw=lambda self, series, *, draws, rng: np.zeros((2, 3))),
-        "finite rows of at most 1200 samples were wanted",
+        "finite rows of at most 1200 samples were expected",
     ),
     (spoiled(Mean3, "guest_d_raises", clean=raises), "raised ZeroDivisionError"),
     (
         spoiled(Mean3, "guest_d_short", clean=lambda self, series, *, noise, rng: series.x[:5]),
-        "finite values were wanted",
+        "finite values were expected",
     ),
 ]

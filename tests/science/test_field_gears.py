@@ -128,7 +128,7 @@ def test_closed_teeth_swing_at_the_frequency_of_both_wheels():
 
 @pytest.mark.parametrize("open_", [True, False])
 def test_the_fastest_rate_is_that_of_both_wheels_where_only_the_first_is_known_to_move(open_):
-    """A light second wheel is the fastest part; steps for the first alone let the filter run away."""
+    """A light second wheel is the fastest part; steps for the first alone let the filter diverge."""
     system, light, c = System(GearPair("rotation")), 1e-3, 0.5
     full = system.vector(WHEELS | {"c": c, "m2": light, "x0": 10.0 if open_ else 1e-6})
     states = np.zeros((9, 4))

@@ -54,7 +54,7 @@ def test_a_case_that_is_there_is_not_lost(place):
     [
         (("--drive", "Forse"), "did you mean 'Force'?"),
         (("--factor", "Force=much"), "'much' is not a number"),
-        (("--unit", "Force"), "wanted COLUMN=VALUE"),
+        (("--unit", "Force"), "expected COLUMN=VALUE"),
         (("--unit", "Laser=V"), "measures none of force, position"),
         (
             ("--model", "robot_joint", "--response", "Force", "--drive", "Laser"),

@@ -46,7 +46,7 @@ def _clean_samples(series: Series, denoiser: Denoiser, noise: float, rng: np.ran
     if x.shape != series.x.shape or not np.isfinite(x).all():
         raise ContractError(
             f"{denoiser.name} returned an array {x.shape} with {int((~np.isfinite(x)).sum())} values that are not "
-            f"finite, and {series.x.shape} finite values were wanted: write to its author"
+            f"finite, and {series.x.shape} finite values were expected: write to its author"
         )
     return x
 

@@ -21,7 +21,7 @@ def embed(values: ArrayLike, embedder: Embedder, *, dt: float, period: float | N
     `period` (s) is that of the drive, if there is one. Raises `DataError` for values that cannot be analysed.
     """
     if not (math.isfinite(dt) and dt > 0.0):
-        raise DataError(f"the sampling step is {dt:g} s: a positive number of seconds is wanted")
+        raise DataError(f"the sampling step is {dt:g} s: a positive number of seconds is needed")
     if period is not None and not (math.isfinite(period) and period > 0.0):
         raise DataError(f"the period of the drive is {period:g} s: give a positive one, or none")
     x = checked(values)
@@ -36,7 +36,7 @@ def _require_sound(chosen: Embedding, name: str) -> None:
     if not whole or chosen.lag < 1 or chosen.dim < 1 or chosen.theiler < 0 or chosen.status not in STATUSES:
         raise ContractError(
             f"{name} chose lag {chosen.lag!r}, dim {chosen.dim!r}, theiler {chosen.theiler!r}, status "
-            f"{chosen.status!r}: whole numbers of at least 1, 1 and 0 and a known status are wanted"
+            f"{chosen.status!r}: whole numbers of at least 1, 1 and 0 and a known status are needed"
         )
 
 

@@ -24,7 +24,7 @@ def quantify(data: Data, quantifier: Quantifier[Data], *, rng: np.random.Generat
 
 def _explain_violation(estimate: object) -> str:
     if not isinstance(estimate, Estimate):
-        return f"returned {type(estimate).__name__}, and an Estimate was wanted"
+        return f"returned {type(estimate).__name__}, and an Estimate was expected"
     if estimate.status not in STATUSES:
         return f"returned the status {estimate.status!r}, which is none of {', '.join(STATUSES)}"
     if estimate.status == "ok" and not math.isfinite(estimate.value):

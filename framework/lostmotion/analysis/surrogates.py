@@ -98,7 +98,7 @@ def _check_piece(series: Series, surrogate: Surrogate, drawn: Array, draws: int)
     if drawn.ndim != 2 or len(drawn) != draws or not np.isfinite(drawn).all() or drawn.shape[1] > series.n:
         raise ContractError(
             f"{surrogate.name} returned an array {drawn.shape}, and {draws} finite rows of at most {series.n} samples "
-            "were wanted: write to its author"
+            "were expected: write to its author"
         )
     part = surrogate.piece(series)
     if part.stop - part.start != drawn.shape[1]:

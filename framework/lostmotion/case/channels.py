@@ -39,7 +39,7 @@ def sensors_of(fields: Fields) -> tuple[Channel, ...]:
         return (_read_pair(fields, "response", RESPONSES),)
     found = tuple(_read_sensor(entry) for entry in fields.entries("sensors"))
     if not found:
-        raise fields.error("has sensors = []: at least one sensor is wanted")
+        raise fields.error("has sensors = []: at least one sensor is needed")
     given = Counter(sensor.name for sensor in found if sensor.name)
     if twice := [name for name, count in given.items() if count > 1]:
         raise fields.error(f"has two sensors named {twice[0]!r}: give each its own name")
@@ -86,7 +86,7 @@ def _read_sensor(table: Fields) -> Channel:
     table.only(SENSOR)
     channel, name = table.text("channel"), table.maybe_text("name") or ""
     if bad := [char for char in SEPARATORS if char in name]:
-        raise table.error(f"has the name {name!r} with {bad[0]!r} in it: wanted one without {' '.join(SEPARATORS)}")
+        raise table.error(f"has the name {name!r} with {bad[0]!r} in it: expected one without {' '.join(SEPARATORS)}")
     noise = table.choice("noise", KINDS) if "noise" in table.values else "white"
     made = Channel(table.text("column"), _read_quantity(table, "channel"), table.text("unit"), of=_model_name(channel))
     return _check_unit(table, replace(made, name=name, noise=cast(Kind, noise)))

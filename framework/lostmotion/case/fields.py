@@ -41,7 +41,7 @@ class Fields:
         """Return an error on the value of `key`."""
         value = self.values[key]
         found = f"{_WORDS.get(type(value), type(value).__name__)} ({_format_value(value)})"[:80]
-        return self.error(f"has {found} as {key!r}: wanted {wanted}")
+        return self.error(f"has {found} as {key!r}: expected {wanted}")
 
     def text(self, key: str) -> str:
         """Return a text that is not blank; the key must be there."""
@@ -92,7 +92,7 @@ class Fields:
         """Return a text that is among `known`."""
         value, known = self.text(key), list(known)
         if value not in known:
-            raise self.error(f"has {key} = {value!r}{nearest(value, known)}: wanted one of {', '.join(known)}")
+            raise self.error(f"has {key} = {value!r}{nearest(value, known)}: expected one of {', '.join(known)}")
         return value
 
     def texts(self, key: str) -> tuple[str, ...]:

@@ -79,7 +79,7 @@ def _read_drive_unit(fields: Fields, unit: str) -> tuple[float, str]:
         return si_factor(unit, "base_position")
     except DataError as err:
         raise fields.error(
-            f"has unit = {unit!r}: wanted the unit of a force (N, N m) or of a base motion (m, rad, deg)"
+            f"has unit = {unit!r}: expected the unit of a force (N, N m) or of a base motion (m, rad, deg)"
         ) from err
 
 

@@ -169,7 +169,7 @@ def _read_text(path: Path) -> str:
         text = path.read_text(encoding="utf-8-sig")
     except (OSError, ValueError) as err:
         if isinstance(err, UnicodeDecodeError):
-            raise CaseError(f"{path.name} is not text in UTF-8: wanted a case in TOML, save it as UTF-8") from err
+            raise CaseError(f"{path.name} is not text in UTF-8: expected a case in TOML, save it as UTF-8") from err
         said = getattr(err, "strerror", None) or err
         raise CaseError(f"{path.name} cannot be read ({said}): give the path of a case file") from err
     if any(line.count(".") > DOTS for line in text.splitlines()):  # the TOML parser is slow for keys of many parts

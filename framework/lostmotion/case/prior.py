@@ -51,7 +51,7 @@ class Prior:
         for name in ("sd", "median", "sd_log", "half_sd"):
             value = getattr(self, name)
             if value is not None and not 0 < value < math.inf:
-                raise CaseError(f"has {name} = {value:g}: wanted a positive one")
+                raise CaseError(f"has {name} = {value:g}: expected a positive one")
         if self.kind in ("uniform", "log-uniform"):
             self._check_span()
 

@@ -68,7 +68,7 @@ def _split_pairs(given: tuple[str, ...], option: str) -> list[tuple[str, str]]:
     pairs = [text.rpartition("=") for text in given]
     for text, (name, mark, value) in zip(given, pairs, strict=True):
         if not (name and mark and value):
-            raise click.UsageError(f"{option} {text!r} is not understood: wanted COLUMN=VALUE, as {option} F=1")
+            raise click.UsageError(f"{option} {text!r} is not understood: expected COLUMN=VALUE, as {option} F=1")
     return [(name, value) for name, _, value in pairs]
 
 

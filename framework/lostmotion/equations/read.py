@@ -126,7 +126,7 @@ class _Parser:
         """Return the expected token and move on; raise an error if another token is found."""
         token = self.here
         if token.kind != wanted and not (token.kind == "sign" and token.text == wanted):
-            raise error(self.text, token.at, f"has {token.shown} where {words} is wanted")
+            raise error(self.text, token.at, f"has {token.shown} where {words} is expected")
         self.place += token.kind != "end"
         return token
 

@@ -74,7 +74,7 @@ def equations_of(
     """
     texts = tuple(texts)
     if not 0 < len(texts) <= MOST:
-        raise CaseError(f"equations has {len(texts)} entries: wanted one equation for each body, {MOST} at most")
+        raise CaseError(f"equations has {len(texts)} entries: expected one equation for each body, {MOST} at most")
     sides = [read(text) for text in texts]
     every = [node for pair in sides for side in pair for node in side.nodes()]
     coordinates = _find_coordinates(texts, sides)

@@ -40,8 +40,8 @@ class ChainQuality:
                 self.steps >= limits.long * slowest
             ),
             "the autocorrelation time still grows": not self.slowest - before < limits.steady * self.slowest,
-            f"the effective sample size is {self.ess.min():.0f}, and {ess:g} is wanted": not self.ess.min() >= ess,
-            f"R-hat is {self.rhat.max():.3f}, and {limits.agreed:g} at most is wanted": not self.rhat.max()
+            f"the effective sample size is {self.ess.min():.0f}, and {ess:g} is needed": not self.ess.min() >= ess,
+            f"R-hat is {self.rhat.max():.3f}, and at most {limits.agreed:g} is allowed": not self.rhat.max()
             <= limits.agreed,
         }
         return tuple(words for words, failed in checks.items() if failed)

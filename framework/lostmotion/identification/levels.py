@@ -288,7 +288,7 @@ def _explain_mismatch(found: Map, wanted: LevelNumbers, group: Sequence[int]) ->
     if settings.model != wanted.model.name:
         return f"is of {settings.model}"
     if {*found.axes} != {*names}:
-        return f"is over {', '.join(found.axes)}, and {', '.join(names)} are wanted"
+        return f"is over {', '.join(found.axes)}, and {', '.join(names)} are needed"
     for name in names:
         low, high = wanted.find_range(group, name)
         ends = found.dataset[name].to_numpy()
@@ -297,7 +297,7 @@ def _explain_mismatch(found: Map, wanted: LevelNumbers, group: Sequence[int]) ->
     if FREQUENCY_RATIO not in names:
         ratio = wanted.fixed[f"{FREQUENCY_RATIO} {group[0]}"]
         if not math.isclose(settings.fixed.get(FREQUENCY_RATIO, math.nan), ratio, rel_tol=RATIO_TOLERANCE):
-            return f"has a frequency ratio of {settings.fixed.get(FREQUENCY_RATIO)}, and {ratio:.6g} is wanted"
+            return f"has a frequency ratio of {settings.fixed.get(FREQUENCY_RATIO)}, and {ratio:.6g} is needed"
     return ""
 
 

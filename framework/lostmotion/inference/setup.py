@@ -204,7 +204,7 @@ def _check_bounds(system: System, name: str, low: float, high: float) -> None:
     if low < param.low or high > param.high or (inertia and low <= 0.0):
         found = f"{low:g}" if low == high else f"{low:g} to {high:g}"
         wanted = "more than 0" if inertia else f"from {param.low:g} to {param.high:g}"
-        raise CaseError(f"{name} ({param.meaning}) is {found}, wanted {wanted}: correct it in the case")
+        raise CaseError(f"{name} ({param.meaning}) is {found}, expected {wanted}: correct it in the case")
 
 
 def make_problem(

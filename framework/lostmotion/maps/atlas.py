@@ -199,11 +199,11 @@ def _read_frequency_ratio(data: xr.Dataset, names: tuple[str, ...]) -> Array:
     """Return the frequency ratio of each cell, or the one value that holds for all cells."""
     if not {"alpha", "zeta"} <= {*names} <= {"alpha", "zeta", FREQUENCY_RATIO}:
         raise DataError(
-            f"the map is over {', '.join(names)}: one over alpha and zeta (and {FREQUENCY_RATIO}) is wanted"
+            f"the map is over {', '.join(names)}: one over alpha and zeta (and {FREQUENCY_RATIO}) is needed"
         )
     unit = str(data[FLOW_EXPONENT].attrs.get("units"))
     if unit != "1/t_bar":
-        raise DataError(f"the exponents of the map are in {unit}: a map in dimensionless numbers (1/t_bar) is wanted")
+        raise DataError(f"the exponents of the map are in {unit}: a map in dimensionless numbers (1/t_bar) is needed")
     if FREQUENCY_RATIO in names:
         shape = [-1 if name == FREQUENCY_RATIO else 1 for name in names]
         return np.asarray(data[FREQUENCY_RATIO].to_numpy(), dtype=float).reshape(shape)

@@ -72,7 +72,7 @@ def check_axis(axis: MapAxis) -> MapAxis:
     alone = axis.count == 1 and axis.low == axis.high
     if not (alone or (axis.low < axis.high and 2 <= axis.count <= MAX_POINTS)):
         raise CaseError(
-            f"axis {axis.name} has {axis.count} points from {axis.low:g} to {axis.high:g}: wanted 2 to {MAX_POINTS} "
+            f"axis {axis.name} has {axis.count} points from {axis.low:g} to {axis.high:g}: expected 2 to {MAX_POINTS} "
             "points, the lower end first"
         )
     if axis.spacing != "linear" and axis.low <= 0.0:
@@ -86,11 +86,11 @@ def _parse_number(text: str, name: str) -> float:
     except ValueError:
         value = math.nan
     if not math.isfinite(value):
-        raise CaseError(f"an end of axis {name} is {text!r}: wanted a finite number")
+        raise CaseError(f"an end of axis {name} is {text!r}: expected a finite number")
     return value
 
 
 def _parse_count(text: str, name: str) -> int:
     if not text.isdecimal():
-        raise CaseError(f"the number of points of axis {name} is {text!r}: wanted a whole number, such as 64")
+        raise CaseError(f"the number of points of axis {name} is {text!r}: expected a whole number, such as 64")
     return int(text)

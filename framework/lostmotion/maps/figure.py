@@ -35,7 +35,7 @@ def draw(dataset: xr.Dataset) -> Figure:
     """Return the figure: mean exponent over starts in colour, and a line where half of the starts are chaotic."""
     names = [str(d) for d in dataset["chaotic_fraction"].dims]
     if len(names) != 2 or min(dataset.sizes[n] for n in names) < 2:
-        raise DataError(f"a map over {', '.join(names)} cannot be drawn: two axes of two points or more are wanted")
+        raise DataError(f"a map over {', '.join(names)} cannot be drawn: two axes of two points or more are needed")
     figure = style.make_figure(5.6)
     axes = figure.subplots()
     across, up = (_scale_axis(dataset, name) for name in names)

@@ -109,7 +109,7 @@ def make_map(study: Study, out: Path, options: RunOptions, say: ProgressCallback
     if out.suffix not in SUFFIXES:
         raise DataError(f"{out.name} ends in {out.suffix or 'nothing'!r}: a map is written as .zarr or .nc")
     if not 0 <= options.levels <= MAX_LEVELS:
-        raise CaseError(f"{options.levels} halvings are asked for: wanted 0 to {MAX_LEVELS}")
+        raise CaseError(f"{options.levels} halvings are asked for: expected 0 to {MAX_LEVELS}")
     folder_for(out.parent)
     if options.levels:
         _write_refined(study, out, options, say)

@@ -65,7 +65,7 @@ class Case:
         check_same_sensors(tuple(_describe_sensors(one) for one in several))
         if wrong := [name for name, prior in self.estimate.items() if not isinstance(prior, Prior)]:
             raise CaseError(
-                f"the prior of {wrong[0]!r} is {self.estimate[wrong[0]]!r}: wanted lm.LogUniform(1, 100) or the like"
+                f"the prior of {wrong[0]!r} is {self.estimate[wrong[0]]!r}: expected lm.LogUniform(1, 100) or the like"
             )
         if both := sorted(set(self.known) & set(self.estimate)):
             raise CaseError(f"{both[0]!r} is both known and estimated: remove it from one of the two")

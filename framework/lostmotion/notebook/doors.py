@@ -197,7 +197,7 @@ def load(folder: str | Path) -> Any:
     for name, reader in LOADERS.items():
         if (place / name).is_file():
             return reader(place)
-    raise DataError(f"{place} contains no result: a folder with one of {', '.join(LOADERS)} is wanted")
+    raise DataError(f"{place} contains no result: a folder with one of {', '.join(LOADERS)} is needed")
 
 
 def simulate(

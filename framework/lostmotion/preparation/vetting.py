@@ -35,7 +35,7 @@ def catch_divergence() -> Iterator[None]:
         yield
     except np.linalg.LinAlgError as err:
         raise DataError(
-            f"the computation broke down ({err}): where it was tried, the model leaves all bounds along the recording;"
+            f"the computation broke down ({err}): where it was tried, the model diverges along the recording;"
             " narrow the priors, check units and signs, or sample a stiff contact faster"
         ) from err
 

@@ -29,7 +29,7 @@ def check_length(n: int, source: str) -> None:
     """Raise `DataError` for fewer than `FEWEST` samples."""
     if n < FEWEST:
         raise DataError(
-            f"{source} has {n} samples, at least {FEWEST} are wanted: record longer, or widen t_start and t_end"
+            f"{source} has {n} samples, at least {FEWEST} are needed: record longer, or widen t_start and t_end"
         )
 
 
@@ -77,7 +77,7 @@ def check_sensor(values: Array, what: str, source: str, *, dt: float | None = No
         raise DataError(f"{source}: {what} has no reading at all: check the sensor, or leave it out of the case")
     if taken.size < FEWEST:
         raise DataError(
-            f"{source}: {what} has {taken.size} readings in {values.size} rows, at least {FEWEST} are wanted: record "
+            f"{source}: {what} has {taken.size} readings in {values.size} rows, at least {FEWEST} are needed: record "
             "longer, or leave the sensor out of the case"
         )
     _check_range(values, what, source)
@@ -139,7 +139,7 @@ def _format_count(missing: NDArray[np.bool_]) -> str:
 def _refuse_lost(missing: NDArray[np.bool_], what: str, source: str) -> None:
     raise DataError(
         f"{source}: {what}: {_format_count(missing)}, the first at sample {int(np.argmax(missing))}, "
-        f"{longest_run(missing)} in a row; all are wanted, since the model is driven by them; "
+        f"{longest_run(missing)} in a row; all are needed, since the model is driven by them; "
         f"up to {BRIDGE} in a row, and fewer than {percent(BRIDGED)} of all, are interpolated: fill them, "
         "or cut them out with t_start and t_end"
     )
@@ -154,7 +154,7 @@ def _check_missing(missing: NDArray[np.bool_], what: str, source: str, may_miss:
     found, first = _format_count(missing), int(np.argmax(missing))
     if count >= LOST * missing.size:
         raise DataError(
-            f"{source}: {what}: {found}, the first at sample {first}; fewer than {percent(LOST)} are wanted: "
+            f"{source}: {what}: {found}, the first at sample {first}; fewer than {percent(LOST)} are allowed: "
             "cut them out with t_start and t_end, or record again"
         )
     return (f"{what}: {found}, at most {longest_run(missing)} in a row; they are bridged, not filled",)

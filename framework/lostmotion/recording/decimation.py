@@ -110,13 +110,13 @@ def decimate(values: Array, factor: int) -> Array:
     tenth of the squared weight lie in longer gaps.
     """
     if factor < 1:
-        raise ValueError(f"factor is {factor}: wanted 1 or more")
+        raise ValueError(f"factor is {factor}: expected 1 or more")
     if factor == 1:
         return values.copy()
     taps = low_pass(factor)
     half = taps.size // 2
     if values.size <= half:
-        raise ValueError(f"{values.size} samples are too few to merge {factor} of them: wanted more than {half}")
+        raise ValueError(f"{values.size} samples are too few to merge {factor} of them: expected more than {half}")
     lost = ~np.isfinite(values)
     merged = _filter_and_pick(_interpolate_lost(values, lost), taps, factor)
     gone = _flag_long_gaps(lost, max(1, factor // 2))

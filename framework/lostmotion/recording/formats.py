@@ -63,7 +63,7 @@ def table_of(path: Path) -> Table:
             "it may be incomplete or of another format; export it again, for instance as csv"
         ) from err
     if not table.columns:
-        raise DataError(f"{path.name} holds no column of numbers: wanted at least one series of samples")
+        raise DataError(f"{path.name} holds no column of numbers: expected at least one series of samples")
     return table
 
 
@@ -71,7 +71,7 @@ def _find_reader(path: Path) -> Callable[[Path], Table]:
     ending = path.suffix[1:].lower()
     if ending not in ENDINGS:
         raise DataError(
-            f"{path.name} ends in {ending!r}: wanted one of {', '.join(ENDINGS)}; export it for instance as csv"
+            f"{path.name} ends in {ending!r}: expected one of {', '.join(ENDINGS)}; export it for instance as csv"
         )
     return ENDINGS[ending]
 
@@ -108,7 +108,7 @@ def _read_npz(path: Path) -> Table:
         check_npz(path)
     archive = np.load(path, allow_pickle=False)
     if not isinstance(archive, np.lib.npyio.NpzFile):
-        raise DataError(f"{path.name} holds a single array: wanted an archive of named arrays, as np.savez writes it")
+        raise DataError(f"{path.name} holds a single array: expected an archive of named arrays, as np.savez writes it")
     with archive:
         return _make_table({name: _read_member(archive, name, path) for name in archive.files})
 

@@ -135,7 +135,7 @@ def _collect_units(names: list[str], line: Sequence[str]) -> dict[str, str]:
 def _read_comment(file: str, notes: list[Line], rows: list[Line]) -> Header:
     """Return the header from the last comment line, or from the line before it if the last one holds units."""
     if not notes:
-        raise DataError(f"{file} starts with numbers: wanted a header line that names the columns, as time,force,x")
+        raise DataError(f"{file} starts with numbers: expected a header line that names the columns, as time,force,x")
     below, texts = rows[0][1], [line.lstrip("# \t") for _, line in notes]
     separator = separator_of(texts[-1], below)
     names, units = [name.strip() for name in cells_of(texts[-1], separator)], None

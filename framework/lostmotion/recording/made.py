@@ -103,7 +103,7 @@ def _to_numbers(name: str, value: ArrayLike) -> np.ndarray[tuple[int], np.dtype[
     except (TypeError, ValueError) as err:
         raise DataError(f"{name!r} holds {array.dtype} instead of numbers: give an array of floats") from err
     if numbers.ndim != 1:
-        raise DataError(f"{name!r} has the shape {numbers.shape}: wanted one number for each sample, (n,)")
+        raise DataError(f"{name!r} has the shape {numbers.shape}: expected one number for each sample, (n,)")
     return numbers
 
 
@@ -130,11 +130,11 @@ def _make_channel(
     if unit is None:
         raise DataError(f"the {role} {key!r} has no unit: add units = {{{column!r}: 'N'}} or the like")
     if role == "input" and not names_quantity(key):
-        raise DataError(f"{key!r} is no input of a model: wanted a name such as 'force' or 'base_acceleration'")
+        raise DataError(f"{key!r} is no input of a model: expected a name such as 'force' or 'base_acceleration'")
     asked = (noise or {}).get(key, "white")
     kind = next((known for known in KINDS if known == asked), None)
     if kind is None:
-        raise DataError(f"the noise of {key!r} is {asked!r}{nearest(asked, KINDS)}: wanted one of {', '.join(KINDS)}")
+        raise DataError(f"the noise of {key!r} is {asked!r}{nearest(asked, KINDS)}: expected one of {', '.join(KINDS)}")
     quantity = "base_position" if key == "base_position" else quantity_of(key)
     si_factor(unit, quantity)
     of = f"{key.removesuffix('torque')}force" if key.endswith("torque") else key

@@ -151,7 +151,7 @@ def check_step(dt: float, source: str) -> float:
     """Return the sampling step (s); raise `DataError` outside of the accepted range."""
     if not SHORTEST <= dt <= LONGEST:
         raise DataError(
-            f"{source}: the sampling step comes to {dt:.3g} s, wanted {SHORTEST:g} to {LONGEST:g} s: give time in "
+            f"{source}: the sampling step comes to {dt:.3g} s, expected {SHORTEST:g} to {LONGEST:g} s: give time in "
             "seconds, or the rate in Hz"
         )
     return dt
@@ -231,9 +231,9 @@ def _refuse_steps(time: Array, dt: float, bad: NDArray[np.intp], source: str) ->
         more = f" (and at {bad.size - 1} more places)" if bad.size > 1 else ""
         raise DataError(
             f"{source}: a gap of {steps[k]:.4g} s in time between {here} s and {there} s{more}, where steps of "
-            f"{dt:.4g} s were wanted: cut it into two recordings, one with t_end = {here}, one with t_start = {there}"
+            f"{dt:.4g} s were expected: cut it into two recordings, one with t_end = {here}, one with t_start = {there}"
         )
     raise DataError(
         f"{source}: time moves by only {steps[k]:.4g} s from {here} s to {there} s (sample {k + 1}), where {dt:.4g} s "
-        "was wanted: remove the repeated sample, or resample to an even step"
+        "was expected: remove the repeated sample, or resample to an even step"
     )

@@ -114,7 +114,7 @@ def seconds(values: Array, unit: str, source: str) -> Array:
     """Return a time column (n,) in s from one in s, ms, us, µs, ns, min or h; `DataError` for another unit."""
     known = TIME_UNITS.get(unit.strip())
     if known is None:
-        raise DataError(f"{source}: time in {unit[:LONGEST]!r} is not understood: wanted s, ms, us, ns, min or h")
+        raise DataError(f"{source}: time in {unit[:LONGEST]!r} is not understood: expected s, ms, us, ns, min or h")
     if known == "s":
         return values
     return values / PER_SECOND[known] if known in PER_SECOND else values * SECONDS[known]
@@ -133,7 +133,7 @@ def time_unit(name: str, table_unit: str | None, given: str | None) -> tuple[str
     wanted = TIME_UNITS.get(given.strip())
     if wanted is None:
         raise DataError(
-            f"the unit {given[:LONGEST]!r} of the time column {name!r} is not a time: wanted s, ms, us, ns, min or h"
+            f"the unit {given[:LONGEST]!r} of the time column {name!r} is not a time: expected s, ms, us, ns, min or h"
         )
     if found and found != wanted:
         raise DataError(

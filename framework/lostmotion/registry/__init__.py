@@ -212,7 +212,7 @@ class Registry:
             return entry
         near = nearest(name, self.names(kind))
         if same:
-            raise PluginError(f"{name!r} is a {same[0].kind}, and a {kind} was wanted{near}")
+            raise PluginError(f"{name!r} is a {same[0].kind}, and a {kind} was expected{near}")
         raise PluginError(f"no {kind} is called {name!r}{near}: {self._advice(kind)}")
 
     def _advice(self, kind: str) -> str:

@@ -79,7 +79,7 @@ STATUSES: Mapping[str, str] = {
     "uncertain": "a value is given, but a condition for its interval does not hold",
     "too_short": "there are too few points for this method",
     "too_few_neighbours": "too few points are close enough to each other",
-    "no_scaling_region": "the curve has no straight section for a slope",
+    "no_scaling_region": "the curve has no scaling region: no straight section from which a slope can be taken",
     "not_saturating": "the curve does not level off: there is no separation of scales, as with noise",
     "regular": "neighbouring states do not diverge: the motion is periodic or quasiperiodic",
     "rising": "the value keeps rising with the embedding dimension, as with noise",

@@ -117,7 +117,7 @@ def _check_value(setting: Setting, value: object) -> float:
         number = math.nan
     if not setting.least <= number <= setting.most or not math.isfinite(number):
         wanted = f"a number from {setting.least:g} to {setting.most:g}"
-        raise CaseError(f"the setting {setting.key} is {value!r}: wanted {wanted}")
+        raise CaseError(f"the setting {setting.key} is {value!r}: expected {wanted}")
     return number
 
 

@@ -63,7 +63,7 @@ def golden_step(period: float, dt: float) -> float:
     each = period / dt
     if each < FEWEST:
         raise DataError(
-            f"{each:.3g} samples per period are too few for interpolation, and {FEWEST:g} are wanted: sample faster"
+            f"{each:.3g} samples per period are too few for interpolation, and {FEWEST:g} are needed: sample faster"
         )
     return period / (math.floor(each - GOLDEN) + GOLDEN if each % 1.0 != GOLDEN else each)
 

@@ -117,5 +117,5 @@ def _require_period(x: Array, dt: float, period: float) -> None:
     if not (math.isfinite(period) and dt < period <= len(x) * dt):
         raise DataError(
             f"the period is {period:g} s: one between the sampling step ({dt:g} s) and the length of the series "
-            f"({len(x) * dt:g} s) is wanted"
+            f"({len(x) * dt:g} s) is needed"
         )

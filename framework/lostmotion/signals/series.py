@@ -28,7 +28,7 @@ def checked(values: ArrayLike, *, least: int = LEAST) -> Array:
     if x.ndim != 1:
         raise DataError(f"the series has {x.ndim} dimensions {x.shape}: give one channel, with shape (n,)")
     if len(x) < least:
-        raise DataError(f"the series has {len(x)} samples, and at least {least} are wanted: record longer")
+        raise DataError(f"the series has {len(x)} samples, and at least {least} are needed: record longer")
     if not np.isfinite(x).all():
         bad = int((~np.isfinite(x)).sum())
         first = int(np.argmin(np.isfinite(x)))

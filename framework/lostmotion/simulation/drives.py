@@ -63,7 +63,7 @@ def parse_number(text: str, whose: str) -> float:
     except ValueError:
         value = math.nan
     if not math.isfinite(value):
-        raise CaseError(f"{whose} is {text!r}: wanted a finite number, such as 0.5 or 4e4")
+        raise CaseError(f"{whose} is {text!r}: expected a finite number, such as 0.5 or 4e4")
     return value
 
 
@@ -80,7 +80,7 @@ class Options:
             raise CaseError(f"drive {self.kind} lacks {key}: write {self.kind}:{key}=...")
         value = parse_number(self.texts[key], f"{key} of drive {self.kind}")
         if positive and value <= 0.0:
-            raise CaseError(f"{key} of drive {self.kind} is {value:g}: wanted more than zero")
+            raise CaseError(f"{key} of drive {self.kind} is {value:g}: expected more than zero")
         return value
 
     def shares(self) -> list[float]:
@@ -136,7 +136,7 @@ def _make_multisine(options: Options, duration: float, rng: np.random.Generator)
     """Return lines of equal amplitude from `low` to `high` (Hz) with random phases."""
     rms, lines = options.number("rms"), options.number("lines", positive=True)
     if lines != round(lines) or lines > LINES:
-        raise CaseError(f"lines of drive multisine is {lines:g}: wanted a whole number up to {LINES}")
+        raise CaseError(f"lines of drive multisine is {lines:g}: expected a whole number up to {LINES}")
     omegas = 2.0 * math.pi * np.linspace(*options.band(), round(lines))
     phases = rng.uniform(0.0, 2.0 * math.pi, len(omegas))
     amplitude = rms * math.sqrt(2.0 / len(omegas))

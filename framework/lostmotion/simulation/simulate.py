@@ -156,13 +156,13 @@ def _count_samples(plan: Plan) -> int:
     """Return the number of samples after a check of the numbers in the plan."""
     for what, value in (("duration", plan.duration), ("rate", plan.rate)):
         if not (0.0 < value < math.inf):
-            raise CaseError(f"the {what} is {value:g}: wanted a finite number above zero")
+            raise CaseError(f"the {what} is {value:g}: expected a finite number above zero")
     if not (0.0 <= plan.noise < math.inf):
-        raise CaseError(f"the noise is {plan.noise:g}: wanted a share of the standard deviation, such as 0.01")
+        raise CaseError(f"the noise is {plan.noise:g}: expected a share of the standard deviation, such as 0.01")
     samples = plan.duration * plan.rate
     if not 1.5 <= samples <= LARGEST / FEWEST:
         raise CaseError(
-            f"{plan.duration:g} s at {plan.rate:g} Hz is {samples:.4g} samples: wanted 2 to {LARGEST // FEWEST}"
+            f"{plan.duration:g} s at {plan.rate:g} Hz is {samples:.4g} samples: expected 2 to {LARGEST // FEWEST}"
         )
     return round(samples)
 
@@ -190,7 +190,7 @@ def _require_bounds(slot: Slot, value: float | None, inertia: bool) -> None:
     if value is None or (q.low <= value <= q.high and (value > 0.0 or not inertia)):
         return
     wanted = "above 0" if inertia else f"from {q.low:g} to {q.high:g}"
-    raise CaseError(f"{slot.key} ({q.meaning}) is {value:g}: wanted a value {wanted} {slot.unit}")
+    raise CaseError(f"{slot.key} ({q.meaning}) is {value:g}: expected a value {wanted} {slot.unit}")
 
 
 def _make_initial(model: Model, initial: Mapping[str, float]) -> Array:
@@ -213,7 +213,7 @@ def _make_inputs(plan: Plan) -> list[DriveSignal]:
     if total.top > 0.5 * plan.rate:
         raise CaseError(
             f"the drive reaches {total.top:.4g} Hz, which {plan.rate:g} samples per second cannot show:"
-            f" wanted a rate above {2.0 * total.top:.4g} Hz, or a slower drive"
+            f" expected a rate above {2.0 * total.top:.4g} Hz, or a slower drive"
         )
     slope = DriveSignal(total.slope, total.slope, total.top)
     return [slope if name == "base_velocity" else total for name in model.driven]

@@ -189,7 +189,7 @@ def filter_agrees_with_matrices(engine: Engine) -> str:
     for what, given in _list_cases():
         found, wanted = engine.filter(*given), Reference().filter(*given)
         if found.errors.shape != wanted.errors.shape or found.variances.shape != wanted.errors.shape:
-            return f"for {what} it returned {found.errors.shape}, where {wanted.errors.shape} is wanted"
+            return f"for {what} it returned {found.errors.shape}, where {wanted.errors.shape} is expected"
         if not (difference := _largest_difference(found, wanted)) < TOLERANCE:
             return f"for {what} it differs by {difference:.2g} standard deviations"
     return ""

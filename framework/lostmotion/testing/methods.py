@@ -122,7 +122,7 @@ def embedding_is_whole(component: Any) -> str:
     """Return integers: a lag and a dimension of 1 or more, a Theiler window of 0 or more; and a known status."""
     found = component.choose(_make_beating(), dt=_DT)
     if not isinstance(found, Embedding):
-        return f"it returned {type(found).__name__}, where an Embedding is wanted"
+        return f"it returned {type(found).__name__}, where an Embedding is expected"
     numbers = (found.lag, found.dim, found.theiler)
     good = all(type(v) is int for v in numbers) and found.lag >= 1 and found.dim >= 1 and found.theiler >= 0
     known = found.status in STATUSES

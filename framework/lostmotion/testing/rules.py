@@ -171,7 +171,7 @@ def attributes_are_complete(component: Any) -> str:
             return f"{name} is missing"
         for start, kind in wanted.items():
             if str(note).startswith(start) and not isinstance(getattr(component, name), kind):
-                return f"{name} is {getattr(component, name)!r}, where a {kind.__name__} is wanted"
+                return f"{name} is {getattr(component, name)!r}, where a {kind.__name__} is expected"
     return ""
 
 
@@ -182,7 +182,7 @@ def methods_have_the_arguments_of_the_contract(component: Any) -> str:
     for name in sorted(base.__abstractmethods__ | (set(vars(base)) & {"rate"})):
         wanted, own = _argument_names(base, name), _argument_names(type(component), name)
         if own != wanted:
-            return f"{name} takes ({join_words(own)}), where ({join_words(wanted)}) is wanted"
+            return f"{name} takes ({join_words(own)}), where ({join_words(wanted)}) is expected"
     return ""
 
 

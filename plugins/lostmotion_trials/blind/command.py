@@ -101,4 +101,6 @@ def _format_target(target: Target) -> str:
     from lostmotion.results import percent
 
     share = f"{found.hits}/{found.of} = {percent(found.share)} [{percent(found.low)}, {percent(found.high)}]"
-    return f"{target.state:<9}  {target.what}: {share}, wanted {percent(target.at_least)} to {percent(target.at_most)}"
+    return (
+        f"{target.state:<9}  {target.what}: {share}, expected {percent(target.at_least)} to {percent(target.at_most)}"
+    )

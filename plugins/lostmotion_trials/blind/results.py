@@ -237,8 +237,8 @@ class Target:
     """What a diagnosis should reach, and what it reached."""
 
     what: str = described("what is counted, in words")
-    at_least: float = described("least share that is wanted")
-    at_most: float = described("largest share that is wanted")
+    at_least: float = described("least share that meets the target")
+    at_most: float = described("largest share that meets the target")
     state: str = described("met, missed, open where it may be chance, or not tried")
     rate: Rate = described("what was reached", flat=True)
 

@@ -61,10 +61,10 @@ class Stand:
         """Refuse numbers that no recording can have."""
         for what, value in (("duration", self.duration), ("rate", self.rate)):
             if not (0.0 < value < math.inf):
-                raise CaseError(f"the {what} is {value:g}: wanted a finite number above zero")
+                raise CaseError(f"the {what} is {value:g}: expected a finite number above zero")
         for what, value in (("noise", self.noise), ("excitation noise", self.excitation_noise)):
             if not (0.0 <= value < math.inf):
-                raise CaseError(f"the {what} is {value:g}: wanted a share such as 0.01")
+                raise CaseError(f"the {what} is {value:g}: expected a share such as 0.01")
         if not self.drives:
             raise CaseError("nothing drives the machines: add --drive, such as harmonic:amplitude=1,frequency=2")
         for text in self.drives:
