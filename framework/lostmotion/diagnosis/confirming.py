@@ -105,11 +105,11 @@ def decide_by_heldout(
     if rival and rival.corrected:
         bar = max(bar, _score_corrected(rival.corrected, pieces))
     inflation = selection.expansion(here).inflation
-    won = {v.terms: (_score_heldout(v.fit, pieces) - bar) / inflation for v in close}
-    best = max(close, key=lambda v: selection.compute_log_odds(v, here) + won[v.terms])
-    if not selection.compute_log_odds(best, here) + won[best.terms] - math.log(len(close)) > decisive:
+    gains = {v.terms: (_score_heldout(v.fit, pieces) - bar) / inflation for v in close}
+    best = max(close, key=lambda v: selection.compute_log_odds(v, here) + gains[v.terms])
+    if not selection.compute_log_odds(best, here) + gains[best.terms] - math.log(len(close)) > decisive:
         return None
-    return best.fit, won
+    return best.fit, gains
 
 
 def find_simplest(outcome: Outcome, observations: Sequence[Observation]) -> tuple[Fit, SimplestTerms] | None:

@@ -32,26 +32,28 @@ def find_rivals(d: SearchResult) -> dict[str, TermSet]:
 
     There is none if a curve was learned beside the selected terms.
     """
-    course = d.selection
-    problem = course.chosen.problem
+    selection = d.selection
+    problem = selection.chosen.problem
     if set(d.found) != problem.active:
         return {}
-    weights, rows = course.probabilities(), {}
+    weights, rows = selection.probabilities(), {}
     for term in problem.system.terms:
         key = key_of(term)
-        sets = [k for k in weights if key in k and math.isfinite(course.fitted_sets[k].weight)]
+        sets = [k for k in weights if key in k and math.isfinite(selection.fitted_sets[k].weight)]
         if key in problem.active or not sets:
             continue
         best = max(sets, key=lambda k: weights[k])
         stands_in = any(are_related(term, find_term(problem, mine)[0]) for mine in problem.active - best)
-        short = course.chosen.log_evidence - course.fitted_sets[best].fit.log_evidence
+        short = selection.chosen.log_evidence - selection.fitted_sets[best].fit.log_evidence
         remembers = (
             stands_in and bool(term.states) and any(find_term(problem, k)[0].states for k in problem.active - best)
         )
-        likely = course.chosen.log_likelihood - course.fitted_sets[best].fit.log_likelihood < d.settings.name.related
+        likely = (
+            selection.chosen.log_likelihood - selection.fitted_sets[best].fit.log_likelihood < d.settings.name.related
+        )
         close = stands_in and (short < d.settings.name.related or (remembers and likely))
-        if course.inclusion(key) > d.settings.name.worth or close:
-            rows[key] = course.fitted_sets[best]
+        if selection.inclusion(key) > d.settings.name.worth or close:
+            rows[key] = selection.fitted_sets[best]
     return dict(sorted(rows.items(), key=lambda row: -row[1].weight))
 
 

@@ -216,12 +216,12 @@ def drop_least_probable(d: SearchResult, rng: np.random.Generator) -> SearchResu
     learned, selection = d.learned, d.selection
     if learned:
         last = {key: -i for i, key in enumerate(learned.keys)}
-        gone = min(learned.keys, key=lambda key: (not key.startswith(OverTime.name), last[key]))
-        learned = drop_curve(learned, gone)
+        dropped = min(learned.keys, key=lambda key: (not key.startswith(OverTime.name), last[key]))
+        learned = drop_curve(learned, dropped)
     else:
-        gone = d.found[-1]
-        selection = _drop_term(selection, gone)
-    return _refit(replace(d, selection=selection, learned=learned), (gone,), rng)
+        dropped = d.found[-1]
+        selection = _drop_term(selection, dropped)
+    return _refit(replace(d, selection=selection, learned=learned), (dropped,), rng)
 
 
 def replace_terms(d: SearchResult, fit: Fit, rng: np.random.Generator) -> SearchResult:
@@ -229,36 +229,36 @@ def replace_terms(d: SearchResult, fit: Fit, rng: np.random.Generator) -> Search
 
     Terms of the old set are withdrawn, unless the new set is the simplest explanation.
     """
-    gone = () if d.selection.simplest else tuple(key for key in d.named if key not in fit.problem.active)
-    return _refit(replace(d, selection=replace(d.selection, chosen=fit), learned=None), gone, rng)
+    dropped = () if d.selection.simplest else tuple(key for key in d.named if key not in fit.problem.active)
+    return _refit(replace(d, selection=replace(d.selection, chosen=fit), learned=None), dropped, rng)
 
 
-def _refit(d: SearchResult, gone: tuple[str, ...], rng: np.random.Generator) -> SearchResult:
+def _refit(d: SearchResult, dropped: tuple[str, ...], rng: np.random.Generator) -> SearchResult:
     """Return a diagnosis with a changed selection or changed curves, refitted and located again."""
     fit = d.learned.fit if d.learned else d.selection.chosen
     after = polish_fit(fit) if fit.problem.active else d.before
     learned = replace(d.learned, fit=after) if d.learned else None
     bare = replace(d, after=after, learned=learned, left=None, law=_EMPTY, laws={}, law_curves={})
-    refitted = replace(bare, random_gain=compute_random_force_gain(after), withdrawn=(*d.withdrawn, *gone))
+    refitted = replace(bare, random_gain=compute_random_force_gain(after), withdrawn=(*d.withdrawn, *dropped))
     return _locate_forces(refitted, rng)
 
 
-def _drop_term(selection: Selection, gone: str) -> Selection:
+def _drop_term(selection: Selection, dropped: str) -> Selection:
     """Return the selection without a term of the chosen set: its other terms, or a set that is decisively better.
 
     The dropped term may have replaced a simpler one: if friction with a wave over position is refuted, plain friction
     may be right.
     """
     chosen, fitted_sets = selection.chosen, selection.fitted_sets
-    limits, terms = chosen.problem.settings, chosen.problem.active - {gone}
+    limits, terms = chosen.problem.settings, chosen.problem.active - {dropped}
     if terms not in fitted_sets:
-        less = maximise(chosen.problem.remove_term(gone, chosen.values))
+        less = maximise(chosen.problem.remove_term(dropped, chosen.values))
         price = compute_penalty(
-            find_term(chosen.problem, gone)[0], len(list_fitted_keys(chosen.problem.system)), limits
+            find_term(chosen.problem, dropped)[0], len(list_fitted_keys(chosen.problem.system)), limits
         )
         dearer = chosen.log_evidence - fitted_sets[chosen.problem.active].weight
         fitted_sets = {**fitted_sets, terms: TermSet(terms, less, less.log_evidence - dearer + price)}
-    rest, barred = fitted_sets[terms], selection.withdrawn | {gone}
+    rest, barred = fitted_sets[terms], selection.withdrawn | {dropped}
     made = replace(selection, chosen=rest.fit, fitted_sets=fitted_sets, withdrawn=barred, simplest=None)
     others = [v for v in fitted_sets.values() if not v.terms & (barred | selection.declined) and not v.terms <= terms]
     others = [v for v in others if v.weight > rest.weight + limits.select.decisive and v.fit.status != "diverged"]
@@ -303,21 +303,21 @@ _NOT_LOCATED = ForceLocation(LatentForce(_EMPTY, _EMPTY, np.zeros((0, 2)), 0.0, 
 def _locate_forces(bare: SearchResult, rng: np.random.Generator) -> SearchResult:
     """Return the diagnosis with the missing force located, without the found terms and with them."""
     after, shown = bare.after, bare.shown
-    honest = choose_steps(after.problem, after.theta).on((shown,))
-    model, plays, limits = after.problem.system.model, list_half_gaps(honest, after.theta), bare.settings.locate
+    refined = choose_steps(after.problem, after.theta).on((shown,))
+    model, plays, limits = after.problem.system.model, list_half_gaps(refined, after.theta), bare.settings.locate
     of_left, of_all = rng, rng.spawn(1)[0]
 
-    def placed(problem: Problem, theta: Array, chance: np.random.Generator, fit: Fit) -> ForceLocation:
+    def locate_one(problem: Problem, theta: Array, chance: np.random.Generator, fit: Fit) -> ForceLocation:
         missing = smooth_latent_force(problem, theta)
         return locate(
             model, shown, missing, plays=plays, rng=chance, odds=lambda: compute_log_ratios(fit), limits=limits
         )
 
     if not bare.found:
-        return replace(bare, located=placed(honest, after.theta, of_left, after))
-    single = replace(honest, jobs=1)
+        return replace(bare, located=locate_one(refined, after.theta, of_left, after))
+    single = replace(refined, jobs=1)
     asked = [(single, after.theta, of_left, after), (*remove_terms(single, after.theta), of_all, bare.before)]
-    left, located = each(lambda one: placed(*one), asked, honest.jobs)
+    left, located = each(lambda one: locate_one(*one), asked, refined.jobs)
     laws = {key: compute_force(after, shown, left.missing.states, key) for key in bare.found}
     law = np.sum(list(laws.values()), axis=0)
     table = list_covariates(model, shown, left.missing)

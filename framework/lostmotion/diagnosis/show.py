@@ -75,10 +75,10 @@ def measure_behaviour(seen: ShownMotions, rng: np.random.Generator) -> Behaviour
     if d.found:
         both["after"] = (outcome.after, d.after)
     dies = bool(find_stretches(d.shown))
-    apart, strobed = (_refuse_distances(both), False) if dies else measure_distances(seen.motions, d.shown, rng)
+    distances, strobed = (_refuse_distances(both), False) if dies else measure_distances(seen.motions, d.shown, rng)
     dimensions = _refuse_dimensions(both) if dies else _estimate_dimensions(seen, rng)
     models = {
-        name: _describe_model(prediction, outcome.horizon, apart[name], dimensions[name])
+        name: _describe_model(prediction, outcome.horizon, distances[name], dimensions[name])
         for name, (prediction, _) in both.items()
     }
     prediction, fit = both.get("after", both["before"])
@@ -86,7 +86,7 @@ def measure_behaviour(seen: ShownMotions, rng: np.random.Generator) -> Behaviour
     floor = NoiseFloor(
         heldout_log_score=prediction.expected_score,
         free_run_error=noise / prediction.scales[0],
-        attractor_distance=_make_distance(apart["noise_floor"]),
+        attractor_distance=_make_distance(distances["noise_floor"]),
         d2=_make_dimension(dimensions["recorded"]),
     )
     horizon = HorizonLength(outcome.horizon.number, outcome.horizon.unit)
@@ -102,7 +102,7 @@ def measure_behaviour(seen: ShownMotions, rng: np.random.Generator) -> Behaviour
 
 
 def _describe_model(
-    prediction: Prediction, horizon: Horizon, apart: SectionDistance, dimension: Estimate
+    prediction: Prediction, horizon: Horizon, distance: SectionDistance, dimension: Estimate
 ) -> ModelBehaviour:
     return ModelBehaviour(
         heldout_log_score=prediction.log_score,
@@ -110,7 +110,7 @@ def _describe_model(
         valid_prediction_time=ValidTime(
             prediction.valid_time / horizon.unit_time, bool(prediction.valid_time >= prediction.lead[-1])
         ),
-        attractor_distance=_make_distance(apart),
+        attractor_distance=_make_distance(distance),
         largest_exponent=_make_exponent(prediction),
         d2=_make_dimension(dimension),
         whiteness=Chance(prediction.white),
@@ -126,8 +126,8 @@ def _refuse_dimensions(names: Iterable[str]) -> dict[str, Estimate]:
     return dict.fromkeys((*names, "recorded"), Estimate.refused(TRANSIENT, "The motion dies away."))
 
 
-def _make_distance(apart: SectionDistance) -> Distance:
-    return Distance(apart.value, apart.chance, apart.status)
+def _make_distance(distance: SectionDistance) -> Distance:
+    return Distance(distance.value, distance.chance, distance.status)
 
 
 def _make_exponent(prediction: Prediction) -> ExponentInterval:

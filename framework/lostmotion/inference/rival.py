@@ -373,10 +373,10 @@ def correct_channels(expansion: DiscrepancyExpansion, before: CorrectedFit | Non
     most = fit.problem.settings.rival.correction * widths
     sizes = np.clip(already + best.mean[-count:], -most, most)
     wider, changes = (before.log_jacobian, before.changes) if before else (0.0, ())
-    for gauge, size in zip(expansion.channel_errors, map(float, sizes - already), strict=True):
-        observations = tuple(gauge.change(o, size) for o in observations)
-        wider += gauge.log_jacobian * size
-        changes += ((gauge.change, size),)
+    for channel_error, size in zip(expansion.channel_errors, map(float, sizes - already), strict=True):
+        observations = tuple(channel_error.change(o, size) for o in observations)
+        wider += channel_error.log_jacobian * size
+        changes += ((channel_error.change, size),)
     problem = restart(fit).on(observations)
     begin = problem.clip(expansion.shift_coordinates(sizes - already))
     better = maximise(problem, begin, rounds=ROUNDS_CORRECTED, tolerance=0.3)

@@ -89,17 +89,19 @@ class Selector:
         self._begin_from([found, *rivals])
         return self._finish(self._extend_once)
 
-    def extend(self, course: Selection, fresh: Iterable[str]) -> Selection:
+    def extend(self, earlier: Selection, fresh: Iterable[str]) -> Selection:
         """Return a selection that is continued, because `fresh` terms have new shapes to try.
 
         Sets with these terms are removed, and fitted again starting from the nominal and from the chosen fit.
         """
-        new, chosen = set(fresh), course.chosen.problem.active
-        kept = {terms: term_set for terms, term_set in course.fitted_sets.items() if terms <= chosen or not terms & new}
-        self.selection = replace(course, fitted_sets=kept, hints=())
-        self._fit_additions(course.nominal)
+        new, chosen = set(fresh), earlier.chosen.problem.active
+        kept = {
+            terms: term_set for terms, term_set in earlier.fitted_sets.items() if terms <= chosen or not terms & new
+        }
+        self.selection = replace(earlier, fitted_sets=kept, hints=())
+        self._fit_additions(earlier.nominal)
         again = {hint.key for hint in self.selection.hints}
-        self.selection.hints += tuple(hint for hint in course.hints if hint.key not in again)
+        self.selection.hints += tuple(hint for hint in earlier.hints if hint.key not in again)
         return self.run()
 
     def _begin_from(self, fits: Iterable[Fit]) -> None:
@@ -149,8 +151,8 @@ class Selector:
         here = self.selection.fitted_sets[self.selection.chosen.problem.active]
         if self.promise is None or has_usual_random_force(here.fit):
             return False
-        won = here.weight - self.selection.fitted_sets[frozenset()].weight
-        if not won < self.limits.outshone * len(here.terms) * self.promise(self.selection.nominal):
+        gain = here.weight - self.selection.fitted_sets[frozenset()].weight
+        if not gain < self.limits.outshone * len(here.terms) * self.promise(self.selection.nominal):
             return False
         self.say("a learned curve explains far more than the terms that were found")
         return True

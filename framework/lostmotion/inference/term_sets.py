@@ -76,7 +76,7 @@ def _evaluate_fit(found: tuple[Fit, float] | None, fit: Fit) -> DiscrepancyFit |
         return None
     best, price, rest = _add_smooth_forces(*found)
     right = None
-    won = DiscrepancyFit(best.log_evidence - fit.log_evidence, price, _limit_gain(rest), best)
+    fitted = DiscrepancyFit(best.log_evidence - fit.log_evidence, price, _limit_gain(rest), best)
     for _ in range(MOST_CORRECTIONS):
         if not rest.compute_fixed_gain(rest.inflation) > rest.fit.problem.settings.rival.much:
             break
@@ -86,10 +86,10 @@ def _evaluate_fit(found: tuple[Fit, float] | None, fit: Fit) -> DiscrepancyFit |
         rest = expand_fit(right.fit)
         evidence = right.fit.log_evidence + right.log_jacobian - fit.log_evidence
         more = DiscrepancyFit(evidence, price + right.price, _limit_gain(rest), best, right)
-        if not more.compute_gain(rest.inflation) > won.compute_gain(rest.inflation):
+        if not more.compute_gain(rest.inflation) > fitted.compute_gain(rest.inflation):
             break
-        won = more
-    return won
+        fitted = more
+    return fitted
 
 
 def _add_smooth_forces(best: Fit, price: float) -> tuple[Fit, float, DiscrepancyExpansion]:
@@ -111,8 +111,8 @@ def _add_smooth_forces(best: Fit, price: float) -> tuple[Fit, float, Discrepancy
 
 def _limit_gain(rest: DiscrepancyExpansion) -> float:
     """Return the predicted gain of an expansion about a fit with smooth forces, up to a limit."""
-    promised, limits = rest.predict_gain(), rest.fit.problem.settings.rival
-    return min(promised if promised < limits.absurd else rest.compute_fixed_gain(rest.inflation), limits.much)
+    predicted, limits = rest.predict_gain(), rest.fit.problem.settings.rival
+    return min(predicted if predicted < limits.absurd else rest.compute_fixed_gain(rest.inflation), limits.much)
 
 
 class KnownLogOdds(NamedTuple):
@@ -251,7 +251,10 @@ class Selection:
             return
         found = _evaluate_fit(fit_imitation(self.expansion(term_set), term_set.terms - over.terms), over.fit)
         if found is not None:
-            self.discrepancy_fits[over.terms] = (over.fit, max(known, found, key=lambda won: won.compute_gain(1.0)))
+            self.discrepancy_fits[over.terms] = (
+                over.fit,
+                max(known, found, key=lambda fitted: fitted.compute_gain(1.0)),
+            )
             self.imitations[term_set.terms, over.terms] = (term_set.fit, over.fit)
 
     def _has_discrepancy_fit(self, term_set: TermSet) -> bool:
@@ -268,12 +271,12 @@ class Selection:
     def estimate_confirmed_gain(self, term_set: TermSet, inflation: float) -> float:
         """Return the log evidence that a discrepancy adds to a set; if it was fitted, at most the confirmed gain."""
         expansion = self.expansion(term_set)
-        promised, won = expansion.find_best(inflation).gain, self.discrepancy_fit(term_set)
-        if won is None:
-            return promised
+        predicted, fitted = expansion.find_best(inflation).gain, self.discrepancy_fit(term_set)
+        if fitted is None:
+            return predicted
         return min(
-            promised,
-            max(won.compute_gain(inflation), min(expansion.compute_fixed_gain(inflation), won.free_values_cost)),
+            predicted,
+            max(fitted.compute_gain(inflation), min(expansion.compute_fixed_gain(inflation), fitted.free_values_cost)),
         )
 
     def estimate_largest_gain(self, term_set: TermSet, inflation: float, more: frozenset[str] = frozenset()) -> float:
@@ -283,12 +286,12 @@ class Selection:
         predicted gain counts. A predicted gain that a fit does not confirm counts up to `absurd`, except against `more`
         terms with a prior penalty for uncommon causes.
         """
-        promised = self.expansion(term_set).find_best(inflation).gain
-        won = self.discrepancy_fit(term_set) if inflation < self.limits.lasting else None
-        if won is None:
-            return promised
+        predicted = self.expansion(term_set).find_best(inflation).gain
+        fitted = self.discrepancy_fit(term_set) if inflation < self.limits.lasting else None
+        if fitted is None:
+            return predicted
         last = any(find_term(self.chosen.problem, key)[0].unlikely > 0.0 for key in more)
-        return max(promised if last else min(promised, self.limits.absurd), won.compute_gain(inflation))
+        return max(predicted if last else min(predicted, self.limits.absurd), fitted.compute_gain(inflation))
 
     @staticmethod
     def _compare_penalties(term_set: TermSet, over: TermSet) -> float:
@@ -297,23 +300,27 @@ class Selection:
 
     def _evaluate_log_odds(self, term_set: TermSet, over: TermSet) -> float:
         here, inflation = self.expansion(term_set), self.expansion(term_set).inflation
-        own, prices = self.estimate_confirmed_gain(term_set, inflation), self._compare_penalties(term_set, over)
+        own, penalties = self.estimate_confirmed_gain(term_set, inflation), self._compare_penalties(term_set, over)
         if not over.terms < term_set.terms:
             behind = (over.fit.log_evidence - term_set.fit.log_evidence) / inflation
-            return own - behind - self.estimate_confirmed_gain(over, inflation) - prices
-        lead, stood = self._compare_by_fits(term_set, over), self.imitations.get((term_set.terms, over.terms))
-        if not self.is_expansion_valid(term_set) or (stood and stood[0] is term_set.fit and stood[1] is over.fit):
-            return lead
+            return own - behind - self.estimate_confirmed_gain(over, inflation) - penalties
+        log_odds, imitation = self._compare_by_fits(term_set, over), self.imitations.get((term_set.terms, over.terms))
+        if not self.is_expansion_valid(term_set) or (
+            imitation and imitation[0] is term_set.fit and imitation[1] is over.fit
+        ):
+            return log_odds
         dropped = here.list_coordinates(term_set.terms - over.terms)
-        return min(lead, own - here.predict_gain(dropped, inflation=inflation) - prices)
+        return min(log_odds, own - here.predict_gain(dropped, inflation=inflation) - penalties)
 
     def _compare_by_fits(self, term_set: TermSet, over: TermSet) -> float:
         """Return the log odds of a set over a subset from predicted or fitted gains of smooth forces beside either."""
         here, inflation = self.expansion(term_set), self.expansion(term_set).inflation
-        won = self.discrepancy_fit(term_set) if self.discrepancy_fit(over) and inflation < self.limits.lasting else None
+        fitted = (
+            self.discrepancy_fit(term_set) if self.discrepancy_fit(over) and inflation < self.limits.lasting else None
+        )
         own = (
-            max(won.compute_gain(inflation), min(here.compute_fixed_gain(inflation), won.free_values_cost))
-            if won
+            max(fitted.compute_gain(inflation), min(here.compute_fixed_gain(inflation), fitted.free_values_cost))
+            if fitted
             else self.estimate_confirmed_gain(term_set, inflation)
         )
         behind = (over.fit.log_evidence - term_set.fit.log_evidence) / inflation
@@ -329,8 +336,8 @@ class Selection:
 
         It is not valid if it predicts a very large gain and a fit confirms nothing of it.
         """
-        won = self.discrepancy_fit(term_set)
-        return won is None or won.evidence > 0.0 or self.expansion(term_set).find_best().gain < self.limits.absurd
+        fitted = self.discrepancy_fit(term_set)
+        return fitted is None or fitted.evidence > 0.0 or self.expansion(term_set).find_best().gain < self.limits.absurd
 
     def probabilities(self) -> dict[frozenset[str], float]:
         """Return the posterior probability of each fitted set, without sets of declined or withdrawn terms.
@@ -345,9 +352,9 @@ class Selection:
         log_odds = {k: v.weight - chosen.weight for k, v in considered.items()}
         known = [terms for terms in considered if terms in self.expansions and terms != chosen.terms]
         log_odds |= {terms: -self.compute_log_odds(chosen, self.fitted_sets[terms]) for terms in known}
-        for (more, fewer), lead in sorted(self.known_log_odds.items(), key=lambda known: len(known[0][0])):
+        for (more, fewer), known_odds in sorted(self.known_log_odds.items(), key=lambda known: len(known[0][0])):
             if fewer < more and more in log_odds and fewer in log_odds and more != chosen.terms:
-                log_odds[more] = min(log_odds[more], log_odds[fewer] + lead.value)
+                log_odds[more] = min(log_odds[more], log_odds[fewer] + known_odds.value)
         least = min([0.0, *(log_odds[terms] for terms in known)])
         log_odds |= {k: min(h, least) for k, h in log_odds.items() if k not in self.expansions}
         log_odds |= {k: log_odds[k] + score for k, score in self.heldout_gains.items() if k in log_odds}
