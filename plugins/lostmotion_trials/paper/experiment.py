@@ -185,7 +185,7 @@ def fig23(lab: Lab) -> PaperOutcome:
     rises = float(np.nanmean(after.curves["e1"][1:4]) - np.nanmean(before.curves["e1"][1:4]))
     says = (
         f"The noisy recording needs {before.dim} dimensions and the cleaned one {after.dim} (paper: 5 and 4); E1 at "
-        f"dimensions 2 to 4 increases by {rises:.2f}, {STAND_IN}."
+        f"dimensions 2 to 4 changes by {rises:+.2f}, {STAND_IN}."
     )
     numbers = {"dim_before": float(before.dim), "dim_after": float(after.dim), "e1_rise": rises}
     data = CleanedCaoDrawing(*(curves[key] for curves in (before.curves, after.curves) for key in ("dim", "e1")))

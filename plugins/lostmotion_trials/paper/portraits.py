@@ -215,8 +215,8 @@ def table1(lab: Lab) -> PaperOutcome:
         numbers |= {f"case{k}_chaotic_share": float(found.chaotic.mean()), f"case{k}_bit_per_s": bits}
     good = [k for k in CASES if follow_case(lab, k).chaotic.any()]
     says = (
-        f"The parameters are those of the paper. Of the three cases that it calls chaotic, case "
-        f"{' and '.join(map(str, good))} {'is' if len(good) == 1 else 'are'} chaotic"
+        f"The parameters are those of the paper. Of the three cases that it calls chaotic, "
+        f"{' and '.join(f'Case {k}' for k in good)} {'is' if len(good) == 1 else 'are'} chaotic"
         + ("." if len(good) == 3 else "; Case 2 settles on periodic orbits from every start (it is chaotic at 230 N).")
     )
     return PaperOutcome(judge_claims(*(k in good for k in CASES)), says, numbers, table=PaperTable(heads, tuple(rows)))
