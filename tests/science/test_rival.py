@@ -10,9 +10,9 @@ from lostmotion.diagnosis.compare import choose_heldout_horizon, cut_heldout
 from lostmotion.diagnosis.confirming import find_unconfirmed
 from lostmotion.diagnosis.search import list_fitted_keys
 from lostmotion.inference.candidates import compute_slopes, fit_term, run_score_test
+from lostmotion.inference.channel_correction import correct_channels
 from lostmotion.inference.rival import (
     compute_log_evidence,
-    correct_channels,
     expand_fit,
     fit_discrepancy,
 )

@@ -17,11 +17,11 @@ from lostmotion.contracts import Array
 from lostmotion.diagnosis.compare import HeldOutStretch, compute_run_errors, cut_heldout, is_better
 from lostmotion.diagnosis.findings import Outcome
 from lostmotion.diagnosis.search import SearchResult
+from lostmotion.inference.channel_correction import CorrectedFit
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.learned import OverTime
 from lostmotion.inference.natural import find_term
 from lostmotion.inference.random_force import has_usual_random_force
-from lostmotion.inference.rival import CorrectedFit
 from lostmotion.inference.term_sets import Selection, SimplestTerms, TermSet
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import filter_recording

@@ -14,19 +14,17 @@ import itertools
 import math
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field, replace
-from functools import reduce
 
 import numpy as np
 from scipy.linalg.lapack import dpotrf, dtrtrs
 
 from lostmotion.contracts import Array, Interface, place_of
 from lostmotion.inference.candidates import compute_slopes
-from lostmotion.inference.channel_errors import Change, ChannelError, list_channel_errors
+from lostmotion.inference.channel_errors import ChannelError, list_channel_errors
 from lostmotion.inference.curves import Motions, add_all_curves, add_curve, compute_coefficient_size, smooth_motions
 from lostmotion.inference.fit import BLOCKS, Fit, Sensitivity, maximise, restart, solve_scaled
 from lostmotion.inference.learned import LearnedTerm, OverPhase, OverPosition, OverTime, OverVelocity, compute_spread
 from lostmotion.inference.natural import find_term
-from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import FreeParameter, Problem
 from lostmotion.likelihood.system import key_of
 
@@ -41,9 +39,9 @@ NUDGE, STEP = 3e-4, 1e-3
 """Finite-difference steps of a coefficient in units of the drive, and of the logarithm of a known value."""
 SHARES = (1.0, 0.5, 0.2, 0.0)
 """Starting points of fits with smooth forces, as shares of the predicted values."""
-ROUNDS_SMOOTH, ROUNDS_CORRECTED, ROUNDS_KNOWN = 3, 8, 20
-"""Rounds of a fit with smooth forces, which starts at predicted values; of one with corrected channels; and of one with
-free known values only. The last two cost less per round."""
+ROUNDS_SMOOTH, ROUNDS_KNOWN = 3, 20
+"""Rounds of a fit with smooth forces, which starts at predicted values, and of one with free known values only; its
+rounds cost less."""
 SWEEPS = 3
 PENALTY = math.log(len(SIZES) * len(LENGTHS))
 """The log prior penalty of a smooth force: one of all sizes and correlation lengths was chosen."""
@@ -337,52 +335,6 @@ def _fit_with_forces(expansion: DiscrepancyExpansion, problem: Problem, best: Di
     return maximise(trials[best_start], rounds=ROUNDS_SMOOTH if chosen else ROUNDS_KNOWN, tolerance=0.3), PENALTY * len(
         chosen
     )
-
-
-@dataclass(frozen=True)
-class CorrectedFit:
-    """A fit to recordings whose channels were corrected by `sizes` (channel errors,) in total.
-
-    `log_jacobian` is the change of the log density of the readings by the change of their scale, and `price` the log
-    penalty of the corrections: the prior of their sizes, and the Occam factor of their estimation. `changes` are the
-    corrections, in order.
-    """
-
-    fit: Fit
-    sizes: Array
-    log_jacobian: float
-    price: float
-    changes: tuple[tuple[Change, float], ...]
-
-    def correct(self, observation: Observation) -> Observation:
-        """Return another recording of the same channels with the same corrections."""
-        return reduce(lambda seen, step: step[0](seen, step[1]), self.changes, observation)
-
-
-def correct_channels(expansion: DiscrepancyExpansion, before: CorrectedFit | None = None) -> CorrectedFit | None:
-    """Return the fit to recordings that are corrected for channel errors; None where there are no channel errors.
-
-    The recordings of the expansion may have been corrected `before`. A correction is at most `rival.correction` prior
-    standard deviations: a larger error is a term of its own, such as a wrong gain or a delay.
-    """
-    count, fit = len(expansion.channel_errors), expansion.fit
-    if not count:
-        return None
-    best, observations = expansion.find_best(), fit.problem.observations
-    widths, already = best.widths[-count:], before.sizes if before else np.zeros(count)
-    most = fit.problem.settings.rival.correction * widths
-    sizes = np.clip(already + best.mean[-count:], -most, most)
-    wider, changes = (before.log_jacobian, before.changes) if before else (0.0, ())
-    for channel_error, size in zip(expansion.channel_errors, map(float, sizes - already), strict=True):
-        observations = tuple(channel_error.change(o, size) for o in observations)
-        wider += channel_error.log_jacobian * size
-        changes += ((channel_error.change, size),)
-    problem = restart(fit).on(observations)
-    begin = problem.clip(expansion.shift_coordinates(sizes - already))
-    better = maximise(problem, begin, rounds=ROUNDS_CORRECTED, tolerance=0.3)
-    inner = np.eye(count) + expansion.compute_channel_information() * np.outer(widths, widths)
-    price = 0.5 * float(np.sum((sizes / widths) ** 2)) + 0.5 * float(np.linalg.slogdet(inner)[1])
-    return CorrectedFit(better, sizes, wider, price, changes)
 
 
 def _compute_derivatives(wider: Problem, slopes: Sensitivity, steps: Array) -> tuple[Array, Array]:

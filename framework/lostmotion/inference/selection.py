@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import partial
 
+from lostmotion.inference.beam import list_beam, list_near_sets
 from lostmotion.inference.candidates import (
     ScoreTest,
     Shapes,
@@ -26,7 +27,7 @@ from lostmotion.inference.natural import find_term
 from lostmotion.inference.penalties import are_related, compute_penalty
 from lostmotion.inference.random_force import has_usual_random_force
 from lostmotion.inference.significance import measure_significance
-from lostmotion.inference.term_sets import BEAM, CLOSE, Selection, TermSet
+from lostmotion.inference.term_sets import CLOSE, Selection, TermSet
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.problem import RANDOM
 
@@ -41,8 +42,6 @@ FAR_BEHIND = 300.0
 round."""
 MOST_SETS = 80
 """A search ends after this number of sets of terms."""
-NEAR_GAIN = 2.5
-"""A set with one more term is extended, though not decisive, if the term adds at least this log evidence."""
 MANY_PARAMETERS = 4
 """A term with at least this number of parameters is tested only if a related, simpler term predicts a large gain."""
 LEAST_DISTINCT = 1e-4
@@ -180,10 +179,10 @@ class Selector:
             self.selection.stopped = True
             return False
         here = self.selection.fitted_sets[self.selection.chosen.problem.active]
-        for term_set in [here] if here.terms and has_usual_random_force(here.fit) else self._list_beam(here):
+        for term_set in [here] if here.terms and has_usual_random_force(here.fit) else list_beam(self.selection, here):
             self._fit_additions(term_set.fit)
         self._fit_swaps(here.fit)
-        for term_set in self._list_near_sets(here):
+        for term_set in list_near_sets(self.selection, here):
             self._fit_additions(term_set.fit)
         self._refit_close_sets()
         return self._take_best(here)
@@ -229,17 +228,6 @@ class Selector:
         """Return whether a set has decisively more weight than the chosen one, without the discrepancy."""
         return term_set.weight > here.weight + (self.limits.decisive if term_set.terms > here.terms else 0.0)
 
-    def _list_near_sets(self, here: TermSet) -> list[TermSet]:
-        """Return the best sets with one more term, if none is decisive but some are close to it.
-
-        Two small effects may be decisive together although neither is decisive alone.
-        """
-        more = [v for v in self.selection.fitted_sets.values() if v.terms > here.terms]
-        if any(v.weight > here.weight + self.limits.decisive for v in more):
-            return []
-        good = [v for v in more if v.fit.log_evidence > here.fit.log_evidence + NEAR_GAIN]
-        return sorted(good, key=lambda v: -v.weight)[: BEAM - 1]
-
     def _refit_close_sets(self) -> None:
         """Refit the best sets from a larger random force, because some of them may have stopped at a local maximum.
 
@@ -274,20 +262,6 @@ class Selector:
         levels = [v.fit.theta[v.fit.problem.keys.index(RANDOM)] for v in (term_set, here)]
         calm = memory < self.limits.memory or levels[0] < levels[1] + math.log(1.0 - self.limits.share)
         return least > self.limits.certain and calm
-
-    def _list_beam(self, here: TermSet) -> list[TermSet]:
-        """Return the sets to extend: the chosen one, and others of its size that explain at least half as much.
-
-        One term can imitate two others until both are included.
-        """
-        if not here.terms:
-            return [here]
-        bottom = self.selection.fitted_sets[frozenset()].weight
-        rivals = [
-            v for v in self.selection.fitted_sets.values() if len(v.terms) == len(here.terms) and v.terms != here.terms
-        ]
-        rivals = [v for v in rivals if v.weight - bottom > 0.5 * (here.weight - bottom)]
-        return [here, *sorted(rivals, key=lambda v: -v.weight)[: BEAM - 1]]
 
     def _run_score_tests(self, fit: Fit) -> list[ScoreTest]:
         """Return the score tests of all terms at a fit; terms with many parameters only if a related one is promising.

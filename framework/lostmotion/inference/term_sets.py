@@ -12,12 +12,11 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from lostmotion.inference.candidates import ScoreTest
+from lostmotion.inference.channel_correction import CorrectedFit, correct_channels
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.natural import find_term
 from lostmotion.inference.rival import (
-    CorrectedFit,
     DiscrepancyExpansion,
-    correct_channels,
     expand_fit,
     fit_discrepancy,
     fit_imitation,
