@@ -8,7 +8,6 @@ import pytest
 from lostmotion.codec import to_plain
 from lostmotion.diagnosis import confirming
 from lostmotion.diagnosis import run as ways
-from lostmotion.diagnosis import search as searching
 from lostmotion.diagnosis.compare import PARTS, is_better, is_worse
 from lostmotion.diagnosis.confirming import describe_usual_delay
 from lostmotion.diagnosis.findings import withhold_intervals
@@ -23,7 +22,7 @@ from lostmotion.diagnosis.states import (
     sort_findings,
     warn_of_moved_amplitudes,
 )
-from lostmotion.inference.term_sets import Selection, SimplestTerms, TermSet
+from lostmotion.inference.term_sets import SimplestTerms, TermSet
 from lostmotion.likelihood.problem import RANDOM
 from lostmotion.results import Interval
 from lostmotion.results.diagnosis import Mechanism
@@ -159,66 +158,6 @@ def test_the_simplest_explanation_is_likely_and_says_why():
     )
     assert "better than any learned curve" in doubt
     assert doubt.endswith("its probability is 0.45.")
-
-
-@pytest.mark.parametrize(
-    ("weights", "scores", "curve", "chosen"),
-    [
-        ({"a": 40.0}, {"a": 9.0, "smooth": 10.0, "": 0.0}, 30.0, "a"),
-        ({"a": 40.0}, {"a": 9.0, "smooth": 10.0, "": 0.0}, 41.0, None),
-        ({"a": 40.0}, {"a": 2.0, "smooth": 10.0, "": 0.0}, 30.0, None),
-        ({"a": 40.0}, {"a": 9.0, "smooth": 10.0, "": 9.5}, 30.0, None),
-        ({"a": 40.0, "ab": 42.0}, {"a": 9.0, "ab": 9.0, "smooth": 10.0, "": 0.0}, 30.0, "a"),
-        ({"a": 40.0, "ab": 45.0}, {"a": 9.0, "ab": 9.0, "smooth": 10.0, "": 0.0}, 30.0, "ab"),
-        ({"a": 40.0, "b": 41.0}, {"a": 9.0, "b": 1.0, "smooth": 10.0, "": 0.0}, 30.0, "a"),
-        ({"a": 11.0}, {"a": 9.0, "smooth": 10.0, "": 0.0}, 0.0, None),
-        ({"l": 40.0}, {"l": 9.0, "smooth": 10.0, "": 0.0}, 30.0, None),
-        ({"u": 40.0}, {"u": 9.0, "smooth": 10.0, "": 0.0}, 30.0, None),
-    ],
-)
-def test_a_law_better_than_any_curve_is_the_simplest_explanation(monkeypatch, weights, scores, curve, chosen):
-    """It beats the learned curve and the usual errors of channels (9 here), and predicts held-out data as well.
-
-    With `l` a random force is left, and `u` is a delay that acquisition systems have as a rule.
-    """
-    fits = {k: SimpleNamespace(status="converged", key=k, problem=NOTHING) for k in scores}
-    nominal = SimpleNamespace(problem=SimpleNamespace(active=frozenset(), settings=DEFAULT))
-    fitted_sets = {frozenset(k): TermSet(frozenset(k), fits[k], weights.get(k, 0.0)) for k in ("", *weights)}
-    expansion = SimpleNamespace(inflation=1.0, compute_fixed_gain=lambda worse: 9.0)
-    selection = Selection(nominal, nominal, fitted_sets)
-    monkeypatch.setattr(Selection, "discrepancy_fit", lambda self, term_set: SimpleNamespace(fit=fits["smooth"]))
-    monkeypatch.setattr(Selection, "expansion", lambda self, term_set: expansion)
-    monkeypatch.setattr(confirming, "has_usual_random_force", lambda fit: fit.key != "l")
-    monkeypatch.setattr(confirming, "_delay_in_samples", lambda fit, key: 0.1 if key == "u" else np.inf)
-    monkeypatch.setattr(confirming, "_score_heldout", lambda fit, pieces: scores[fit.key])
-    monkeypatch.setattr(confirming, "compute_run_errors", lambda fit, pieces, horizon: np.ones(PARTS))
-    monkeypatch.setattr(confirming, "cut_heldout", lambda observations, held: ())
-    learned = SimpleNamespace(gain=curve, fit=fits["smooth"])
-    d = SimpleNamespace(
-        selection=selection, learned=learned, unexplained=False, held=(), settings=DEFAULT, after=fits["smooth"]
-    )
-    found = confirming.find_simplest(SimpleNamespace(diagnosis=d, horizon=None), ())
-    assert (found and found[0].key) == chosen
-    if found and len(weights) == 1:
-        assert found[1].probabilities["a"] == pytest.approx(DEFAULT.name.simplest / (1.0 + np.exp(-10.0)))
-
-
-def test_a_refuted_term_gives_way_to_a_simpler_set_that_was_visited(monkeypatch):
-    """Friction with a wave is refuted: plain friction, which is ahead of nothing, takes its place."""
-    free = SimpleNamespace(settings=DEFAULT)
-    fits = {k: SimpleNamespace(status="converged", key=k, problem=free) for k in ("", "wave", "plain", "weak")}
-    fits["wave"].problem = SimpleNamespace(settings=DEFAULT, active=frozenset({"wave"}))
-    weights = {"": 0.0, "wave": 90.0, "plain": 50.0, "weak": 60.0}
-    fitted_sets = {
-        frozenset([k] if k else []): TermSet(frozenset([k] if k else []), fits[k], w) for k, w in weights.items()
-    }
-    leads = {"plain": 20.0, "weak": 1.0}
-    monkeypatch.setattr(Selection, "settle_comparison", lambda self, term_set, over, needed: None)
-    monkeypatch.setattr(Selection, "compute_log_odds", lambda self, term_set, over: leads["".join(term_set.terms)])
-    selection = Selection(fits[""], fits["wave"], fitted_sets)
-    assert searching._drop_term(selection, "wave").chosen.key == "plain"
-    leads["plain"] = 2.0
-    assert searching._drop_term(selection, "wave").chosen.key == ""
 
 
 def test_a_long_delay_is_no_more_than_likely():
