@@ -62,7 +62,7 @@ def wave(n=400):
         (np.r_[np.inf, np.arange(300.0)], "number 0"),
         (np.ones((300, 2)), "dimensions"),
         (np.exp(1j * np.arange(300)), "complex"),
-        (["a"] * 300, "no number"),
+        (["a"] * 300, "not a number"),
     ],
 )
 def test_values_that_cannot_be_analysed_are_refused(values, says):
