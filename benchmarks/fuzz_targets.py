@@ -18,13 +18,13 @@ from lostmotion.analysis import source
 from lostmotion.analysis.source import WantedChannel, load_source
 from lostmotion.case import Channel, RecordingSpec, dump_case, load_case
 from lostmotion.errors import LostMotionError
-from lostmotion.identification import checkpoint as _keep
+from lostmotion.identification import checkpoint
 from lostmotion.inference.setup import make_known
 from lostmotion.likelihood.system import System
 from lostmotion.maps import store
 from lostmotion.preparation.prepare import prepare
 from lostmotion.recording import load, load_recording
-from lostmotion.recording.formats import columns_of
+from lostmotion.recording.formats import table_of
 from lostmotion.registry import Registry, default
 
 STORED = ("diagnosis", "analysis", "chain", "map", "campaign")
@@ -87,10 +87,14 @@ def words(text: str, rng) -> str:
     return " ".join(tokens)
 
 
+FuzzTrial = make_dataclass("FuzzTrial", [("number", int)], frozen=True)
+"""The outcome of a trial of a small campaign: its number."""
+
+
 def unguarded():
     """Have foreign formats read in this process, where a crash or a hang is seen for what it is."""
-    load.read_columns = source.read_columns = columns_of
-    _keep.walk_apart = store.walk_apart = lambda path: None
+    load.read_table = source.read_table = table_of
+    checkpoint.walk_in_subprocess = store.walk_in_subprocess = lambda path: None
 
 
 def table(kind, seeds, rng, folder, write_only):
@@ -258,7 +262,7 @@ def chain(seeds, rng, folder, write_only):
     path = folder / "chain.h5"
     path.write_bytes(damaged(seeds.files["chain"]["chain.h5"], rng))
     if not write_only:
-        _keep.load(path, "abc")
+        checkpoint.load(path, "abc")
 
 
 def stored_map(seeds, rng, folder, write_only):
@@ -283,7 +287,7 @@ def campaign(seeds, rng, folder, write_only):
 
     place = folder / "campaign"
     shutil.rmtree(place, ignore_errors=True)
-    work = Campaign(lambda k: {"number": k}, 3, {"kind": "toy", "settings": {"a": 1}})
+    work = Campaign(FuzzTrial, FuzzTrial, 3, {"kind": "toy", "settings": {"a": 1}})
     work.run(place, 1)
     files = sorted(p for p in place.rglob("*") if p.is_file())
     hit = files[int(rng.integers(len(files)))]

@@ -23,6 +23,10 @@ import numpy as np
 
 from lostmotion_trials.integrators.hidden import BOUC_WEN, LUGRE, Body, Hidden, move
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "science"))
+
+from rig_cases import CASES, MULTISINE, SILVERBOX
+
 ROOT = Path(__file__).resolve().parents[1]
 BODY = Body(m=1.0, c=8.0, k=0.0, k0=4e4, x0=0.005)
 FORCE, OMEGA, EVERY = 100.0, 40.0, 40
@@ -78,7 +82,6 @@ def simulated(folder: Path, name: str, samples: int) -> Path:
 
 def silverbox(folder: Path, shared: Path) -> Path:
     """Return the case of the Silverbox: 20,000 samples of its multisine, wide priors."""
-    from gallery import MULTISINE, SILVERBOX
 
     table = np.load(shared / "data" / "silverbox" / "SNLS80mV.npz")
     part = slice(MULTISINE.start, MULTISINE.start + 20_000)
@@ -89,9 +92,7 @@ def silverbox(folder: Path, shared: Path) -> Path:
 
 def emps(folder: Path, shared: Path) -> Path:
     """Return the case of the EMPS carriage."""
-    import gallery
-
-    (folder / "case.toml").write_text(gallery.emps(shared / "data", folder))
+    (folder / "case.toml").write_text(CASES["emps"](shared / "data", folder))
     return folder / "case.toml"
 
 

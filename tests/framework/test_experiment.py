@@ -233,7 +233,7 @@ def test_a_rival_is_named_with_the_experiment_that_decides(diagnosed):
     observation = diagnosed.selection.chosen.problem.observations[0]
     offered = list_candidates(observation, 100, choose_limits(observation, FREQUENCY), np.random.default_rng(0))
     proposals = {"linear_stiffness": Proposal(max(offered, key=lambda e: e.level), (40.0, 50.0), (4.0, 6.0), (0, 1))}
-    rows = [Confusion(mechanism=name, get_coordinates=at, says="") for name, at in RIVALS]
+    rows = [Confusion(mechanism=name, at=at, says="") for name, at in RIVALS]
     first, second = rivals.describe_confusions(diagnosed, rows, proposals)
     assert second.mechanism == "sensor_delay"
     assert first.excitation.expected_log_gain == 40.0

@@ -289,7 +289,7 @@ def test_each_is_named_in_a_recording_by_another_integrator(library, tmp_path, n
     Three times the half width of an interval of 95 % is left for one trial in 10^8 to fail.
     """
     gain = 340.0 if name != "hidden_mode" else 3000.0
-    row = library.work((name, "position", "multisine", 1, gain, 1500))
+    row = library.run_task((name, "position", "multisine", 1, gain, 1500))
     (truth,) = row["truth"]
     found = [entry for entry in row["found"] if are_equivalent(entry["mechanism"], name)]
     assert found, json.dumps(row["found"])

@@ -78,7 +78,7 @@ def test_a_wrong_answer_is_called_wrong(found, clean, right):
 def test_a_miss_ends_with_status_1(monkeypatch, tmp_path):
     from lostmotion_trials.demo import run as workflow
 
-    missed = workflow.Judged(("found      nothing: this should not happen",), right=False)
+    missed = workflow.DemoResult(("found      nothing: this should not happen",), right=False)
     monkeypatch.setattr(workflow, "run_demo", lambda *_, **__: missed)
     done = demo("--out", tmp_path / "out")
     assert done.exit_code == 1
