@@ -160,6 +160,15 @@ def test_the_simplest_explanation_is_likely_and_says_why():
     assert doubt.endswith("its probability is 0.45.")
 
 
+def test_a_simplest_explanation_lists_what_these_data_cannot_distinguish():
+    """Terms with less than a twentieth of its probability are left out."""
+    after, simplest = fit_of({f"{DELAY}.delay": 0.2}, [DELAY]), {DELAY: 0.3, FRICTION: 0.19, CHANGE: 0.01}
+    d = diagnosis(after, {(DELAY,): 0.3}, simplest=SimplestTerms(simplest, 30.0))
+    why, usual = list_warnings(d, DELAY)
+    assert why.endswith("it cannot be distinguished from: Coulomb friction.")
+    assert usual.startswith("A delay of 0.2 samples is usual in acquisition systems")
+
+
 def test_a_long_delay_is_no_more_than_likely():
     period = 2.0 * np.pi
     for share, doubts in ((0.5 * DEFAULT.name.late, 0), (2.0 * DEFAULT.name.late, 1)):

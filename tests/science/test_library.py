@@ -195,7 +195,7 @@ def test_ripple_of_a_sensor_is_scouted_and_found(tmp_path):
     """An error of 0.4 mm that repeats every 13 mm, over a travel of 0.1 m and noise of 0.1 mm."""
     pitch, size = 0.013, 4e-4
     fit = nominal_of(tmp_path, [PositionRipple()], shown=lambda x: x + size * np.cos(2.0 * np.pi * x / pitch + 0.4))
-    found = scan_shapes(fit, forces=False)
+    found = scan_shapes(fit)
     assert found["position_ripple"][0]["position_ripple.pitch"] == pytest.approx(pitch, rel=0.03)
     course = Selector(fit, ("position_ripple",), lambda _: None, found).run()
     values = course.chosen.values

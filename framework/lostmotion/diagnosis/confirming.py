@@ -17,6 +17,7 @@ from lostmotion.contracts import Array
 from lostmotion.diagnosis.compare import HeldOutStretch, compute_run_errors, cut_heldout, is_better
 from lostmotion.diagnosis.findings import Outcome
 from lostmotion.diagnosis.search import SearchResult
+from lostmotion.diagnosis.states import delay_in_samples
 from lostmotion.inference.channel_correction import CorrectedFit
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.learned import OverTime
@@ -26,7 +27,6 @@ from lostmotion.inference.term_sets import Selection, SimplestTerms, TermSet
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import filter_recording
 from lostmotion.likelihood.problem import RANDOM
-from lostmotion.quantities import TIME
 from lostmotion.results import percent, rounded
 
 MOST_COMPARED = 3
@@ -117,8 +117,9 @@ def find_simplest(outcome: Outcome, observations: Sequence[Observation]) -> tupl
 
     It is used where no set is better than a generic smooth force. A set qualifies if no random force remains with it,
     if its log evidence less the prior penalties exceeds that of the best learned curve, of the chosen set, and of the
-    usual errors of known values and channels, and if it predicts held-out data as well as the best of them. It is no
-    extension of chosen terms. Its terms are reported as likely, because a smooth force explains about as much.
+    usual errors of known values and channels (as predicted, or as fitted if that is less), and if it predicts held-out
+    data as well as the best of them. It is no extension of chosen terms. Its terms are reported as likely, because a
+    smooth force explains about as much.
     """
     d, selection = outcome.diagnosis, outcome.diagnosis.selection
     here = selection.fitted_sets.get(selection.chosen.problem.active)
@@ -126,7 +127,9 @@ def find_simplest(outcome: Outcome, observations: Sequence[Observation]) -> tupl
         return None
     decisive, usual = d.settings.select.decisive, selection.expansion(here)
     curve = d.learned.gain if d.learned else 0.0
-    least = here.weight + max(curve, decisive + max(usual.compute_fixed_gain(usual.inflation), 0.0))
+    gain, fitted = usual.compute_fixed_gain(usual.inflation), selection.discrepancy_fit(here)
+    gain = min(gain, fitted.compute_gain(usual.inflation)) if fitted else gain
+    least = here.weight + max(curve, decisive + max(gain, 0.0))
     sets = _list_simple_sets(selection, here)
     good = sorted((v for v in sets if v.weight > least), key=lambda v: -v.weight)[:MOST_COMPARED]
     best = (
@@ -165,9 +168,10 @@ def _select_predicting(
 
 
 def _list_simple_sets(selection: Selection, here: TermSet) -> list[TermSet]:
-    """Return the fitted sets without a remaining random force in which each term is decisive and no usual delay.
+    """Return the fitted sets without a remaining random force in which each term is decisive.
 
-    The chosen set, its subsets and, if it has terms, its extensions are left out.
+    The chosen set, its subsets and, if it has terms, its extensions are left out, and sets of several terms with a
+    delay that is usual in acquisition systems.
     """
     barred, settings = selection.declined | selection.withdrawn, selection.nominal.problem.settings
 
@@ -178,7 +182,8 @@ def _list_simple_sets(selection: Selection, here: TermSet) -> list[TermSet]:
             return False
         parts = (selection.fitted_sets.get(term_set.terms - {key}) for key in term_set.terms)
         decisive = all(term_set.weight > part.weight + settings.select.decisive for part in parts if part)
-        return decisive and all(_delay_in_samples(term_set.fit, key) > settings.rival.late for key in term_set.terms)
+        usual = [key for key in term_set.terms if not delay_in_samples(term_set.fit, key) > settings.rival.late]
+        return decisive and (not usual or len(term_set.terms) == 1)
 
     return [v for v in selection.fitted_sets.values() if qualifies(v)]
 
@@ -248,22 +253,13 @@ def _is_adequate(d: SearchResult, here: TermSet) -> bool:
 
 def describe_usual_delay(d: SearchResult, key: str) -> str:
     """Return a warning on a delay that is usual in acquisition systems; empty for longer delays and other terms."""
-    samples = _delay_in_samples(d.after, key)
+    samples = delay_in_samples(d.after, key)
     if not samples <= d.settings.rival.late:
         return ""
     return (
         f"A delay of {rounded(samples)} samples is usual in acquisition systems, and the model is"
         " wrong in other ways too."
     )
-
-
-def _delay_in_samples(fit: Fit, key: str) -> float:
-    """Return the delay or the time constant of a channel in samples; infinity for other terms."""
-    term, slots = find_term(fit.problem, key)
-    late = [s for s in slots if s.param.dimension == TIME and s.key in fit.values]
-    if term.acts == "motion" or not late:
-        return math.inf
-    return abs(fit.values[late[0].key]) / fit.problem.observations[0].dt
 
 
 def _compute_rms(errors: Array) -> float:

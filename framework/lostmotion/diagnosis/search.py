@@ -166,7 +166,7 @@ def diagnose(
     nominal = search_maximum(make_problem(system, case, train, jobs=jobs, settings=settings), rng)
     curves = CurveSearch(len(system.keys), say)
     say("shapes: pitches, stops, times")
-    shapes = scan_shapes(nominal, forces=compute_random_force_gain(nominal) > settings.locate.significant)
+    shapes = scan_shapes(nominal)
     selection = search_stretches(nominal, list_fitted_keys(system), say, shapes, curves.promise)
     more_left = compute_random_force_gain(selection.chosen) > settings.locate.significant
     if selection.chosen.problem.active and more_left:
@@ -227,10 +227,12 @@ def drop_least_probable(d: SearchResult, rng: np.random.Generator) -> SearchResu
 def replace_terms(d: SearchResult, fit: Fit, rng: np.random.Generator) -> SearchResult:
     """Return the diagnosis with another fitted set of terms, given by its fit, in place of the chosen one.
 
-    Terms of the old set are withdrawn, unless the new set is the simplest explanation.
+    Terms of the old set are withdrawn, unless the new set is the simplest explanation. Sets with a withdrawn term have
+    no probability.
     """
     dropped = () if d.selection.simplest else tuple(key for key in d.named if key not in fit.problem.active)
-    return _refit(replace(d, selection=replace(d.selection, chosen=fit), learned=None), dropped, rng)
+    selection = replace(d.selection, chosen=fit, withdrawn=d.selection.withdrawn | {*dropped})
+    return _refit(replace(d, selection=selection, learned=None), dropped, rng)
 
 
 def _refit(d: SearchResult, dropped: tuple[str, ...], rng: np.random.Generator) -> SearchResult:

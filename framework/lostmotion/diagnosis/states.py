@@ -11,6 +11,7 @@ import numpy as np
 from lostmotion.contracts import Term
 from lostmotion.diagnosis.compare import Prediction
 from lostmotion.diagnosis.search import SearchResult
+from lostmotion.inference.fit import Fit
 from lostmotion.inference.natural import find_term
 from lostmotion.inference.penalties import are_related
 from lostmotion.quantities import TIME
@@ -53,15 +54,17 @@ def list_warnings(d: SearchResult, key: str) -> list[str]:
         *_warn_of_heldout_decision(d, key),
         *_warn_of_rest(d, key),
     ]
-    return [*weak, *steady, *_warn_of_long_delay(d, key), *_warn_of_early_change(d, key)]
+    return [*weak, *steady, *_warn_of_long_delay(d, key), *_warn_of_short_delay(d, key), *_warn_of_early_change(d, key)]
 
 
 def _warn_of_probability(d: SearchResult, key: str) -> Iterator[str]:
     p = compute_probability(d, key)
     if d.selection.simplest:
+        others = _list_simplest_alternatives(d, key)
         yield (
             "It explains the fitted data better than any learned curve and predicts held-out data as well as one; but a"
             f" small generic smooth force explains about as much, so its probability is {rounded(p)}."
+            + (f" On these data it cannot be distinguished from: {', '.join(others)}." if others else "")
         )
         return
     if p > d.settings.name.sure:
@@ -124,6 +127,16 @@ def _warn_of_rest(d: SearchResult, key: str) -> Iterator[str]:
             yield f"With it, {percent(share)} of the missing force is still missing."
 
 
+def _list_simplest_alternatives(d: SearchResult, key: str) -> list[str]:
+    """Return the names of the terms, one of which may be the simplest explanation in place of the chosen terms."""
+    simplest, found = d.selection.simplest, d.selection.chosen.problem.active
+    if simplest is None:
+        return []
+    least, p = d.settings.name.rival, simplest.probabilities
+    keys = sorted((k for k in p if k not in found and p[k] > least * p.get(key, 0.0)), key=lambda k: -p[k])
+    return list(dict.fromkeys(to_words(find_term(d.before.problem, k)[0].name) for k in keys))
+
+
 def compute_gain(d: SearchResult, key: str) -> float:
     """Return the log weight that a found term adds to the other found terms, or else to the nominal model."""
     fitted_sets, terms = d.selection.fitted_sets, frozenset(d.named)
@@ -179,6 +192,25 @@ def _warn_of_long_delay(d: SearchResult, key: str) -> Iterator[str]:
             f"A delay of {percent(share)} of a natural period is unusual: measure the delay between"
             " the channels directly."
         )
+
+
+def _warn_of_short_delay(d: SearchResult, key: str) -> Iterator[str]:
+    """Yield a warning if the simplest explanation is a delay as short as in most acquisition systems."""
+    samples = delay_in_samples(d.after, key)
+    if d.selection.simplest and samples <= d.settings.rival.late:
+        yield (
+            f"A delay of {rounded(samples)} samples is usual in acquisition systems: it may be a property of the"
+            " measurement and not of the machine."
+        )
+
+
+def delay_in_samples(fit: Fit, key: str) -> float:
+    """Return the delay or the time constant of a channel in samples; infinity for other terms."""
+    term, slots = find_term(fit.problem, key)
+    late = [s for s in slots if s.param.dimension == TIME and s.key in fit.values]
+    if term.acts == "motion" or not late:
+        return math.inf
+    return abs(fit.values[late[0].key]) / fit.problem.observations[0].dt
 
 
 def _warn_of_early_change(d: SearchResult, key: str) -> Iterator[str]:

@@ -17,7 +17,7 @@ from lostmotion.inference.candidates import join_term
 from lostmotion.inference.fit import Fit, maximise, raise_random_force, restart
 from lostmotion.inference.natural import find_term
 from lostmotion.inference.random_force import compute_random_force_gain
-from lostmotion.inference.setup import choose_steps, make_problem, polish_fit, split_heldout
+from lostmotion.inference.setup import choose_steps, make_problem, polish_fit, search_maximum, split_heldout
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import Horizon
 from lostmotion.likelihood.problem import NOISE, RANDOM, Problem
@@ -172,11 +172,15 @@ def _clip(value: float, low: float, high: float) -> float:
 
 
 def _fit_terms(problem: Problem, acting: Mapping[str, Mapping[str, float]]) -> Fit:
-    """Return the best fit with these terms, started at the truth with several levels of the random force."""
+    """Return the best fit with these terms, started at the truth with several levels of the random force.
+
+    Without terms, the truth may be far from the maximum; a search over the priors is then also made.
+    """
+    searched = [] if acting else [search_maximum(problem, np.random.default_rng(0))]
     for key, parameters in acting.items():
         problem = _add_term(problem, key, parameters)
     fits = [maximise(problem, raise_random_force(problem, problem.start, by)) for by in WARM_STARTS]
-    best = max(fits, key=lambda f: f.local.log_posterior)
+    best = max(fits + searched, key=lambda f: f.local.log_posterior)
     again = maximise(restart(best), raise_random_force(problem, best.theta, 1.0))
     return max((best, again), key=lambda f: f.local.log_posterior)
 
