@@ -45,7 +45,7 @@ def test_a_law_better_than_any_curve_is_the_simplest_explanation(monkeypatch, we
     monkeypatch.setattr(Selection, "expansion", lambda self, term_set: expansion)
     monkeypatch.setattr(confirming, "has_usual_random_force", lambda fit: fit.key != "l")
     monkeypatch.setattr(confirming, "delay_in_samples", lambda fit, key: 0.1 if key == "u" else np.inf)
-    monkeypatch.setattr(confirming, "_score_heldout", lambda fit, pieces: scores[fit.key])
+    monkeypatch.setattr(confirming, "score_heldout", lambda fit, pieces: scores[fit.key])
     monkeypatch.setattr(confirming, "compute_run_errors", lambda fit, pieces, horizon: np.ones(PARTS))
     monkeypatch.setattr(confirming, "cut_heldout", lambda observations, held: ())
     learned = SimpleNamespace(gain=curve, fit=fits["smooth"])

@@ -281,7 +281,7 @@ def test_held_out_data_decide_between_a_term_and_a_smooth_force(monkeypatch, sco
         expansion=lambda term_set: SimpleNamespace(inflation=1.0),
     )
     monkeypatch.setattr(confirming, "find_term", lambda problem, key: (SimpleNamespace(acts="motion"), ()))
-    monkeypatch.setattr(confirming, "_score_heldout", lambda fit, pieces: scores[fit.key])
+    monkeypatch.setattr(confirming, "score_heldout", lambda fit, pieces: scores[fit.key])
     monkeypatch.setattr(confirming, "cut_heldout", lambda observations, held: ())
     d = SimpleNamespace(selection=selection, learned=None, held=(), settings=DEFAULT)
     found = confirming.decide_by_heldout(SimpleNamespace(diagnosis=d), ())
@@ -296,17 +296,25 @@ def test_of_sets_that_explain_what_was_fitted_the_one_that_predicts_better_is_ta
     fits = {k: SimpleNamespace(status="converged", key=k, problem=problem, theta=np.zeros(1)) for k in ("", *factors)}
     fitted_sets = {frozenset(k): TermSet(frozenset(k), fit, 50.0 if k else 0.0) for k, fit in fits.items()}
     chosen = SimpleNamespace(problem=SimpleNamespace(active=frozenset("ab")))
-    expansion = SimpleNamespace(find_best=lambda worse: SimpleNamespace(gain=1e3))
+    expansion = SimpleNamespace(find_best=lambda worse: SimpleNamespace(gain=1e3), inflation=2.0)
     selection = SimpleNamespace(
-        chosen=chosen, nominal=fits[""], fitted_sets=fitted_sets, declined=set(), expansion=lambda term_set: expansion
+        chosen=chosen,
+        nominal=fits[""],
+        fitted_sets=fitted_sets,
+        declined=set(),
+        expansion=lambda term_set: expansion,
+        discrepancy_fit=lambda term_set: None,
     )
     d = SimpleNamespace(selection=selection, learned=None, unexplained=True, held=(), settings=DEFAULT)
     scatter = np.exp(0.05 * rng.standard_normal((len(factors), PARTS)))
     told = {k: factors[k] * row for k, row in zip(factors, scatter, strict=True)}
     monkeypatch.setattr(confirming, "cut_heldout", lambda observations, held: ())
     monkeypatch.setattr(confirming, "compute_run_errors", lambda fit, pieces, horizon: told[fit.key])
+    monkeypatch.setattr(confirming, "score_heldout", lambda fit, pieces: {"a": 9.0, "": 3.0}[fit.key])
     outcome = SimpleNamespace(diagnosis=d, horizon=None)
-    assert confirming.find_better_set(outcome, ()).key == "a"
+    fit, gains = confirming.find_better_set(outcome, ())
+    assert fit.key == "a"
+    assert gains == {frozenset("a"): 3.0}, "the difference in log score, divided by the inflation"
     fits["a"].theta = np.ones(1)
     assert confirming.find_better_set(outcome, ()) is None, "it leaves more of a random force than the nominal model"
     fits["a"].theta, fitted_sets[frozenset("a")] = np.zeros(1), TermSet(frozenset("a"), fits["a"], 20.0)

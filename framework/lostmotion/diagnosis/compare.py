@@ -10,6 +10,7 @@ import numpy as np
 from scipy.stats import ttest_1samp
 
 from lostmotion.contracts import Array
+from lostmotion.diagnosis.predictive import HeldOutStretch, compute_block_scores
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.locate import compute_autocorrelation, compute_whiteness
 from lostmotion.likelihood.observation import Observation
@@ -34,14 +35,6 @@ SEGMENT = 3.0
 
 PARTS = 10
 """Free runs of two models are compared over this number of successive parts of the held-out data."""
-
-
-@dataclass(frozen=True)
-class HeldOutStretch:
-    """A held-out part: its recording, and the sample at which it begins."""
-
-    observation: Observation
-    begin: int
 
 
 @dataclass(frozen=True)
@@ -97,10 +90,11 @@ def predict(fit: Fit, pieces: Sequence[HeldOutStretch], horizon: Horizon, rates:
     """Return the predictions of one model on held-out data, over a horizon; `rates` are those of `compute_rates`."""
     problems = [fit.problem.on((piece.observation,)) for piece in pieces]
     tracked = [filter_recording(problem, fit.theta) for problem in problems]
-    runs, scores, lengths = [], [], [p.observation.samples - p.begin for p in pieces]
+    runs, expected, lengths = [], [], [p.observation.samples - p.begin for p in pieces]
+    scores = compute_block_scores(fit, pieces)
     for piece, problem, seen in zip(pieces, problems, tracked, strict=True):
         held = slice(piece.begin, None)
-        scores.append((seen.log_score(held), seen.expected_score(held)))
+        expected.append(seen.expected_score(held))
         runs.append(_run_freely(problem, fit, seen.states, piece, horizon))
     joint = [_join_runs([r[sensor] for r in runs]) for sensor in range(len(runs[0]))]
     scales = [compute_deviation(pieces, sensor) for sensor in range(len(joint))]
@@ -109,8 +103,8 @@ def predict(fit: Fit, pieces: Sequence[HeldOutStretch], horizon: Horizon, rates:
     forecasts, restarts = _forecast(problems[0], fit, first.states, pieces[0], horizon)
     tail = slice(pieces[0].begin, None)
     return Prediction(
-        log_score=float(np.average([s for s, _ in scores], weights=lengths)),
-        expected_score=float(np.average([s for _, s in scores], weights=lengths)),
+        log_score=float(np.average(scores.reshape(len(pieces), -1).mean(axis=1), weights=lengths)),
+        expected_score=float(np.average(expected, weights=lengths)),
         nrmse=float(np.mean(nrmse)),
         by_sensor=tuple(nrmse),
         scales=tuple(scales),
@@ -125,7 +119,7 @@ def predict(fit: Fit, pieces: Sequence[HeldOutStretch], horizon: Horizon, rates:
         white=_combine_p_values(
             [compute_whiteness(*_select_used(first, tail, sensor)) for sensor in range(len(joint))]
         ),
-        scores=np.concatenate([one.scores(slice(p.begin, None)) for one, p in zip(tracked, pieces, strict=True)]),
+        scores=scores,
     )
 
 

@@ -14,8 +14,9 @@ from dataclasses import replace
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.diagnosis.compare import HeldOutStretch, compute_run_errors, cut_heldout, is_better
+from lostmotion.diagnosis.compare import compute_run_errors, cut_heldout, is_better
 from lostmotion.diagnosis.findings import Outcome
+from lostmotion.diagnosis.predictive import HeldOutStretch, score_heldout
 from lostmotion.diagnosis.search import SearchResult
 from lostmotion.diagnosis.states import delay_in_samples
 from lostmotion.inference.channel_correction import CorrectedFit
@@ -25,7 +26,6 @@ from lostmotion.inference.natural import find_term
 from lostmotion.inference.random_force import has_usual_random_force
 from lostmotion.inference.term_sets import Selection, SimplestTerms, TermSet
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.predict import filter_recording
 from lostmotion.likelihood.problem import RANDOM
 from lostmotion.results import percent, rounded
 
@@ -60,11 +60,14 @@ def find_unconfirmed(outcome: Outcome, observations: Sequence[Observation]) -> d
     return warnings
 
 
-def find_better_set(outcome: Outcome, observations: Sequence[Observation]) -> Fit | None:
-    """Return the fit of another set, of no more terms, that predicts held-out data better than the chosen one, or None.
+def find_better_set(
+    outcome: Outcome, observations: Sequence[Observation]
+) -> tuple[Fit, Mapping[frozenset[str], float]] | None:
+    """Return the fit of another set that predicts held-out data better than the chosen one, with its held-out gain.
 
     Where the model is wrong in other ways too, several sets may explain the fitted data equally well; their predictions
-    then decide. The best sets of each size are compared by paired t tests (Bonferroni).
+    then decide. The best sets of each size, of no more terms, are compared by paired t tests (Bonferroni). None means
+    that there is no such set. The gain is over the nominal model, alone or with a smooth force.
     """
     d, selection = outcome.diagnosis, outcome.diagnosis.selection
     here = selection.fitted_sets.get(selection.chosen.problem.active)
@@ -74,7 +77,23 @@ def find_better_set(outcome: Outcome, observations: Sequence[Observation]) -> Fi
     errors = compute_run_errors(here.fit, pieces, outcome.horizon)
     rivals = [(term_set, compute_run_errors(term_set.fit, pieces, outcome.horizon)) for term_set in others]
     better = [(v, e) for v, e in rivals if is_better(e, errors, d.settings.heldout.chance / len(rivals))]
-    return min(better, key=lambda rival: _compute_rms(rival[1]))[0].fit if better else None
+    if not better:
+        return None
+    best, nothing = min(better, key=lambda rival: _compute_rms(rival[1]))[0], selection.fitted_sets[frozenset()]
+    return best.fit, _measure_heldout_gains(d, [best], nothing, pieces)
+
+
+def _measure_heldout_gains(
+    d: SearchResult, sets: Sequence[TermSet], base: TermSet, pieces: Sequence[HeldOutStretch]
+) -> dict[frozenset[str], float]:
+    """Return the log scores of held-out data of sets less the best of a basic set, alone or with what is smooth."""
+    selection, rival = d.selection, d.selection.discrepancy_fit(base)
+    against = [base.fit, *([rival.fit] if rival else ()), *([d.learned.fit] if d.learned else ())]
+    bar = max(score_heldout(fit, pieces) for fit in against)
+    if rival and rival.corrected:
+        bar = max(bar, _score_corrected(rival.corrected, pieces))
+    inflation = selection.expansion(base).inflation
+    return {v.terms: (score_heldout(v.fit, pieces) - bar) / inflation for v in sets}
 
 
 def decide_by_heldout(
@@ -82,10 +101,9 @@ def decide_by_heldout(
 ) -> tuple[Fit, Mapping[frozenset[str], float]] | None:
     """Return the fit of a set with one more term for which held-out data decide, and held-out gains of sets; or None.
 
-    On the fitted data a small smooth force explains about as much as such a term. The log score of one-step predictions
-    of the held-out data is added to the log odds of the fitted data; the sum is the log posterior odds of all data with
-    the parameters held fixed. A set is compared with the best of: the smooth force, the smooth force with corrected
-    channels, the learned curves, and the chosen set.
+    On the fitted data a small smooth force explains about as much as such a term. The log score of the held-out data is
+    added to the log odds of the fitted data; the sum is the log posterior odds of all data. A set is compared with the
+    best of: the smooth force, the smooth force with corrected channels, the learned curves, and the chosen set.
     """
     d, selection = outcome.diagnosis, outcome.diagnosis.selection
     here = selection.fitted_sets.get(selection.chosen.problem.active)
@@ -99,13 +117,7 @@ def decide_by_heldout(
     close = sorted(close, key=lambda v: -selection.compute_log_odds(v, here))[:MOST_COMPARED]
     if not close:
         return None
-    pieces, rival = cut_heldout(observations, d.held), selection.discrepancy_fit(here)
-    against = [here.fit, *([rival.fit] if rival else ()), *([d.learned.fit] if d.learned else ())]
-    bar = max(_score_heldout(fit, pieces) for fit in against)
-    if rival and rival.corrected:
-        bar = max(bar, _score_corrected(rival.corrected, pieces))
-    inflation = selection.expansion(here).inflation
-    gains = {v.terms: (_score_heldout(v.fit, pieces) - bar) / inflation for v in close}
+    gains = _measure_heldout_gains(d, close, here, cut_heldout(observations, d.held))
     best = max(close, key=lambda v: selection.compute_log_odds(v, here) + gains[v.terms])
     if not selection.compute_log_odds(best, here) + gains[best.terms] - math.log(len(close)) > decisive:
         return None
@@ -151,17 +163,17 @@ def _select_predicting(
 ) -> TermSet | None:
     """Return the first set that predicts held-out data better than the chosen one, and as well as a smooth force.
 
-    Its log score of one-step predictions may be lower than that of the best smooth force by `slack`; its free runs must
+    Its log score may be lower than that of the best smooth force by `slack`; its free runs must
     not be significantly worse than those of the present model.
     """
     d, selection = outcome.diagnosis, outcome.diagnosis.selection
     here = selection.fitted_sets[selection.chosen.problem.active]
-    rival, own = selection.discrepancy_fit(here), _score_heldout(here.fit, pieces)
+    rival, own = selection.discrepancy_fit(here), score_heldout(here.fit, pieces)
     others = [*([rival.fit] if rival else ()), *([d.learned.fit] if d.learned else ())]
-    bar = max([own, *(_score_heldout(fit, pieces) for fit in others)]) - slack
+    bar = max([own, *(score_heldout(fit, pieces) for fit in others)]) - slack
     errors = compute_run_errors(d.after, pieces, outcome.horizon)
     for term_set in sets:
-        score, its = _score_heldout(term_set.fit, pieces), compute_run_errors(term_set.fit, pieces, outcome.horizon)
+        score, its = score_heldout(term_set.fit, pieces), compute_run_errors(term_set.fit, pieces, outcome.horizon)
         if own < score > bar and not is_better(errors, its, d.settings.heldout.chance):
             return term_set
     return None
@@ -205,20 +217,11 @@ def _list_tied(selection: Selection, here: TermSet, decisive: float) -> list[Ter
     return [v for v in sets if v.fit.status != "diverged" and v.weight > here.weight + decisive]
 
 
-def _score_heldout(fit: Fit, pieces: Sequence[HeldOutStretch]) -> float:
-    """Return the log score of one-step predictions of held-out data; minus infinity if a filter diverges."""
-    total = 0.0
-    for piece in pieces:
-        seen = filter_recording(fit.problem.on((piece.observation,)), fit.theta)
-        total += seen.log_score(slice(piece.begin, None)) * (piece.observation.samples - piece.begin)
-    return total if math.isfinite(total) else -math.inf
-
-
 def _score_corrected(right: CorrectedFit, pieces: Sequence[HeldOutStretch]) -> float:
     """Return the log score of a smooth force with corrected channels, as a density of the uncorrected readings."""
     held = sum(piece.observation.samples - piece.begin for piece in pieces)
     wider = right.log_jacobian * held / right.fit.problem.samples
-    return _score_heldout(right.fit, [replace(p, observation=right.correct(p.observation)) for p in pieces]) + wider
+    return score_heldout(right.fit, [replace(p, observation=right.correct(p.observation)) for p in pieces]) + wider
 
 
 def _list_alternatives(d: SearchResult, here: TermSet) -> list[TermSet]:

@@ -204,8 +204,12 @@ def check_heldout(
     """
     outcome, limits = compare_heldout(diagnosis, prepared, rng), diagnosis.settings.heldout
     if (better := find_better_set(outcome, prepared.observations)) is not None:
-        say(f"held-out predictions with {' and '.join(sorted(better.problem.active))} instead")
-        outcome = compare_heldout(replace_terms(diagnosis, better, rng.spawn(1)[0]), prepared, rng)
+        fit, scored = better
+        say(f"held-out predictions with {' and '.join(sorted(fit.problem.active))} instead")
+        weighed = replace(diagnosis.selection, heldout_gains=dict(scored))
+        outcome = compare_heldout(
+            replace_terms(replace(diagnosis, selection=weighed), fit, rng.spawn(1)[0]), prepared, rng
+        )
     elif (close := decide_by_heldout(outcome, prepared.observations)) is not None:
         fit, scored = close
         say(f"held-out data decide for {' and '.join(sorted(fit.problem.active))}")

@@ -104,12 +104,19 @@ def _warn_of_equal_terms(d: SearchResult, key: str) -> Iterator[str]:
 
 
 def _warn_of_heldout_decision(d: SearchResult, key: str) -> Iterator[str]:
-    """Yield a warning if held-out data decided between the term and a generic smooth force."""
-    chosen = d.selection.chosen.problem.active
-    if chosen in d.selection.heldout_gains and key in d.selection.tied:
+    """Yield a warning if held-out data decided between the term and a generic smooth force, or another set of terms."""
+    chosen, gains = d.selection.chosen.problem.active, d.selection.heldout_gains
+    if chosen not in gains:
+        return
+    if key in d.selection.tied:
         yield (
             "On the fitted data a small generic smooth force explains about as much as this term; held-out data decide"
-            f" for the term, by {rounded(d.selection.heldout_gains[chosen])} in log score."
+            f" for the term, by {rounded(gains[chosen])} in log score."
+        )
+    elif not replace(d.selection, heldout_gains={}).inclusion(key) > d.settings.name.sure:
+        yield (
+            "The fitted data alone do not decide for this term; predictions of held-out data do, by"
+            f" {rounded(gains[chosen])} in log score."
         )
 
 

@@ -37,21 +37,8 @@ class Filtered:
         """Which readings (samples, sensors) were taken; for the others an engine stores a fixed variance."""
         return np.abs(self.variances - UNREAD_VARIANCE) > 1e-12
 
-    def log_score(self, held: slice) -> float:
-        """Return the mean log density per sample of one-step predictions over the held-out part, of all sensors."""
-        return float(np.mean(self._densities(held)))
-
-    def scores(self, held: slice, blocks: int = 20) -> Array:
-        """Return the log score (blocks,) of successive blocks of the held-out part."""
-        parts = np.array_split(self._densities(held), blocks)
-        return np.array([float(np.mean(part)) for part in parts if len(part)])
-
-    def _densities(self, held: slice) -> Array:
-        e, v = self.errors[held], self.variances[held]
-        return np.asarray(np.sum(-0.5 * (e * e / v + np.log(2.0 * np.pi * v)), axis=1))
-
     def expected_score(self, held: slice) -> float:
-        """Return the value of `log_score` for errors as large as their variances."""
+        """Return the mean log density per sample of one-step predictions, with errors as large as their variances."""
         v = self.variances[held]
         return float(np.mean(np.sum(-0.5 * (self.taken[held] + np.log(2.0 * np.pi * v)), axis=1)))
 
