@@ -30,8 +30,6 @@ REACH = 3.9
 APART, FEWEST = 0.033, 30
 """The spacing of shapes in logarithms, and their least number: enough for fifteen periods of a wave over the travel."""
 MOST_SAMPLES = 3000
-MOST_TESTED = 40
-"""The number of shapes of highest correlation with score tests: a law that acts rarely has nearly equal ones."""
 BLOCKS = 40
 """Parts of a recording over which the correlation of a law with the gradient is averaged for its standard error."""
 
@@ -131,7 +129,7 @@ def _compute_steadiness(law: Array, gradient: Array, edges: NDArray[np.intp]) ->
 
 
 def scan_shapes(fit: Fit) -> dict[str, list[dict[str, float]]]:
-    """Return for each law without states the shape with the largest score test, among those that clearly correlate.
+    """Return for each law without states the shape that correlates clearly with the gradient, where there is one.
 
     A stop that is hit rarely leaves no random force, so all laws are scanned for any fit.
     """
@@ -146,12 +144,11 @@ def scan_shapes(fit: Fit) -> dict[str, list[dict[str, float]]]:
     slopes, found = None, {}
     for key in keys:
         of_sensor = find_term(problem, key)[0].acts == "sensor"
-        if clear := _list_clear_shapes(_make_sensor_errors(problem, fit.theta, key) if of_sensor else motion, key):
+        if best := _select_best_shape(_make_sensor_errors(problem, fit.theta, key) if of_sensor else motion, key):
             slopes = slopes or compute_slopes(fit)
-            hint = run_score_test(fit, slopes, key, clear)
-            best = [shape for shape in clear if shape.items() <= hint.start.items()]
-            if hint.gain > fit.problem.settings.select.shape_gain and best:
-                found[key] = best
+            hint = run_score_test(fit, slopes, key, [best])
+            if hint.gain > fit.problem.settings.select.shape_gain and best.items() <= hint.start.items():
+                found[key] = [best]
     return found
 
 
@@ -166,19 +163,20 @@ def _list_free_shapes(problem: Problem, key: str) -> list[Slot]:
     return [s for s in sort_slots(problem, key)[1] if s.param.scale == "log" and not s.param.choices]
 
 
-def _list_clear_shapes(motion: SmoothedMotion | SensorErrors, key: str) -> list[dict[str, float]]:
-    """Return the shapes with the highest correlation with the gradient; none if it is not clear, or a usual shape's."""
+def _select_best_shape(motion: SmoothedMotion | SensorErrors, key: str) -> dict[str, float] | None:
+    """Return the shape with the highest correlation with the gradient, if higher than the usual shapes, or None."""
     problem = motion.problem
     usual = {s.key: list_tried_values(s.param, problem.scales) for s in sort_slots(problem, key)[1]}
 
-    def measure(tried: list[dict[str, float]]) -> list[float]:
-        return [motion.measure_steadiness(key, shape) for shape in tried]
+    def steadiest(tried: list[dict[str, float]]) -> tuple[float, dict[str, float]]:
+        return max(((motion.measure_steadiness(key, shape), shape) for shape in tried), key=lambda pair: pair[0])
 
-    shapes = list_shapes(problem, key)
-    steady = measure(shapes)
-    if not max(steady) > max(problem.settings.select.shape_steady, *measure(_list_star_shapes(problem, key, usual))):
-        return []
-    return [shapes[i] for i in np.argsort(steady)[::-1][:MOST_TESTED]]
+    top, best = steadiest(list_shapes(problem, key))
+    return (
+        best
+        if top > max(problem.settings.select.shape_steady, steadiest(_list_star_shapes(problem, key, usual))[0])
+        else None
+    )
 
 
 def list_shapes(problem: Problem, key: str) -> list[dict[str, float]]:
