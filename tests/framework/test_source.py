@@ -58,6 +58,17 @@ def test_the_longest_stretch_without_a_gap_is_taken(folder, name):
     assert any(f"{ROWS - 8} of {ROWS} samples" in note for note in source.notes)
 
 
+@pytest.mark.parametrize("name", ["case.toml", "low.csv"])
+def test_many_short_gaps_are_refused_with_their_number(folder, name):
+    t = 0.1 * np.arange(ROWS)
+    table = np.column_stack([t, np.cos(t), np.sin(t)])
+    table[50::50, 2] = np.nan
+    np.savetxt(folder / "low.csv", table, delimiter=",", header="time,force,position", comments="")
+    wanted = WantedChannel(columns=() if name == "case.toml" else ("position",))
+    with pytest.raises(DataError, match=f"7 of {ROWS} samples are missing, and the longest section .* has 50 samples"):
+        load_source(folder / name, wanted, Registry())
+
+
 def test_a_rate_stands_in_for_time(folder):
     np.savetxt(folder / "bare.csv", np.sin(np.arange(300)), header="angle", comments="")
     assert load_source(folder / "bare.csv", WantedChannel(rate=250.0), Registry()).dt == pytest.approx(0.004)

@@ -18,6 +18,7 @@ from lostmotion.recording.timing import EvenClock, check_step, even_clock, resam
 from lostmotion.recording.units import seconds, time_unit
 from lostmotion.registry import Registry
 from lostmotion.settings import DEFAULT, RecordingSettings
+from lostmotion.signals.series import LEAST
 
 Array = NDArray[np.float64]
 TIME_COLUMNS = ("time", "t", "Time", "time_s")
@@ -105,6 +106,7 @@ def extract_source(recording: Recording, sensor: int = 0) -> Source:
     every = _find_sampled_rows(np.asarray(response))
     x = np.asarray(response)[every]
     keep = _find_longest_stretch(x, notes)
+    _check_missing(x, len(x[keep]))
     return Source(
         title=recording.name,
         x=x[keep],
@@ -139,6 +141,16 @@ def _find_longest_stretch(x: Array, notes: list[str]) -> slice:
     return keep
 
 
+def _check_missing(x: Array, kept: int) -> None:
+    """Refuse a channel (n,) of which too few samples are kept, because of missing ones."""
+    if kept < min(LEAST, len(x)):
+        raise DataError(
+            f"{len(x) - int(np.isfinite(x).sum())} of {len(x)} samples are missing, and the longest section without"
+            f" gaps has {kept} samples: at least {LEAST} are needed; fill short gaps by interpolation first, or record"
+            " again"
+        )
+
+
 def _load_from_file(path: Path, wanted: WantedChannel) -> Source:
     """Return the requested columns of a recording file as one channel."""
     table = read_table(path)
@@ -148,7 +160,9 @@ def _load_from_file(path: Path, wanted: WantedChannel) -> Source:
     notes = list(clock.notes)
     series = [_resample(table.columns[name], clock, time) for name in names]
     pieces = [values[_find_longest_stretch(values, notes)] for values in series]
-    if len(pieces) > 1:
+    if len(pieces) == 1:
+        _check_missing(series[0], len(pieces[0]))
+    else:
         notes.append(
             f"{len(pieces)} pieces are joined, {', '.join(map(str, sorted({len(p) for p in pieces})))} samples long: "
             "they are treated as one motion whose drive keeps its phase, and results across a joint are wrong."

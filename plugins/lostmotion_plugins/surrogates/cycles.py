@@ -123,7 +123,11 @@ def _find_periods(series: Series, together: int) -> tuple[int, float, int]:
     length = together * series.period / series.dt
     cycles = int((series.n - 2 * REACH) / length) - 1
     if cycles < 4:
-        raise DataError(f"the series has {max(cycles, 0)} whole cycles of the drive, 4 are needed: record longer")
+        piece = "one period" if together == 1 else f"{together} periods"
+        raise DataError(
+            f"the series contains {max(cycles, 0)} pieces of {piece} of the drive that can be exchanged, and 4 are"
+            " needed: record longer"
+        )
     starts = REACH + np.arange(max(int(length), 1))
     cuts = starts[:, None] + np.rint(length * np.arange(cycles + 1)).astype(np.int64)
     differ = np.var(series.x[cuts], axis=1) + np.var(np.diff(series.x)[cuts - 1], axis=1)
