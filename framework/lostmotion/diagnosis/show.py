@@ -36,6 +36,7 @@ from lostmotion.results.behaviour import (
     NoiseFloor,
     ValidTime,
 )
+from lostmotion.settings import MotionSettings
 from lostmotion.signals import checked
 
 PAIRS = 250_000
@@ -157,33 +158,39 @@ def _estimate_dimensions(seen: ShownMotions, rng: np.random.Generator) -> dict[s
     except LostMotionError as err:
         return dict.fromkeys(("recorded", *fits), Estimate.refused("failed", str(err)))
     noise = math.sqrt(d.after.problem.measurement(d.after.theta)) / max(float(np.std(finite)), 1e-300)
-    found = {"recorded": _estimate_dimension(recorded, seen.registry, rng, noise)}
+    meter = DimensionEstimator(seen.registry, rng, d.settings.motion)
+    found = {"recorded": meter.estimate(recorded, noise)}
     exponents = {"before": outcome.before.exponent, "after": outcome.after.exponent}
     for name, fit in fits.items():
         if not exponents[name] > 0.0:
             found[name] = Estimate.refused("regular", "The model is not chaotic: no dimension is estimated.")
             continue
-        found[name] = _estimate_of_model(fit, observation, seen.motions[name][:LONGEST], (recorded, seen.registry, rng))
+        found[name] = meter.estimate_model(fit, observation, seen.motions[name][:LONGEST], recorded)
     return found
 
 
-def _estimate_of_model(
-    fit: Fit, observation: Observation, states: Array, given: tuple[Series, Registry, np.random.Generator]
-) -> Estimate:
-    recorded, registry, rng = given
-    x = observe_states(fit.problem.on((observation,)), fit.theta, states)
-    if not np.isfinite(x).all():
-        return Estimate.refused("diverged", "The free run diverges.")
-    try:
-        return _estimate_dimension(replace(recorded, x=checked(x)), registry, rng, 0.0)
-    except LostMotionError as err:
-        return Estimate.refused("failed", str(err))
+@dataclass(frozen=True)
+class DimensionEstimator:
+    """Estimates correlation dimensions, with the plugins of `registry`, unless a motion repeats by `limits`."""
 
+    registry: Registry
+    rng: np.random.Generator
+    limits: MotionSettings
 
-def _estimate_dimension(series: Series, registry: Registry, rng: np.random.Generator, noise: float) -> Estimate:
-    """Return the dimension of a series with noise (share of its deviation); a refusal if the series is periodic."""
-    if series.period and series.n * series.dt < FEWEST * series.period:
-        return Estimate.refused("too_short", f"Fewer than {FEWEST} drive periods are too few for a dimension.")
-    if series.period and find_return(series, series.period, noise)[0]:
-        return Estimate.refused("regular", PERIODIC)
-    return quantify(series, registry.make("quantifier", DIMENSION, pairs=PAIRS), rng=rng)
+    def estimate(self, series: Series, noise: float) -> Estimate:
+        """Return the dimension of a series with noise (share of its deviation); a refusal if the series is periodic."""
+        if series.period and series.n * series.dt < FEWEST * series.period:
+            return Estimate.refused("too_short", f"Fewer than {FEWEST} drive periods are too few for a dimension.")
+        if series.period and find_return(series, series.period, noise, self.limits)[0]:
+            return Estimate.refused("regular", PERIODIC)
+        return quantify(series, self.registry.make("quantifier", DIMENSION, pairs=PAIRS), rng=self.rng)
+
+    def estimate_model(self, fit: Fit, observation: Observation, states: Array, recorded: Series) -> Estimate:
+        """Return the dimension of a free run of a model (samples, n), embedded like the `recorded` series."""
+        x = observe_states(fit.problem.on((observation,)), fit.theta, states)
+        if not np.isfinite(x).all():
+            return Estimate.refused("diverged", "The free run diverges.")
+        try:
+            return self.estimate(replace(recorded, x=checked(x)), 0.0)
+        except LostMotionError as err:
+            return Estimate.refused("failed", str(err))
