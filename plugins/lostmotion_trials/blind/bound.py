@@ -73,11 +73,16 @@ def compute_bound(
     keys = [find_key(system, effect.mechanism, effect.at) for effect in effects]
     status = [_find_status(effect, key) for effect, key in zip(effects, keys, strict=True)]
     acting = {key: effect.parameters for key, effect in zip(keys, effects, strict=True) if key}
-    full = _fit_terms(problem, acting)
+    nominal = search_maximum(problem, np.random.default_rng(0))
+
+    def fit_best(terms: Mapping[str, Mapping[str, float]]) -> Fit:
+        """Return the better of the fits that start at the truth and at the best nominal model."""
+        fits = [_fit_terms(problem, terms), _fit_terms(restart(nominal), terms) if terms else nominal]
+        return max(fits, key=lambda f: f.local.log_posterior)
+
+    full = fit_best(acting)
     gains = [
-        max(
-            full.log_likelihood - _fit_terms(problem, {k: e for k, e in acting.items() if k != key}).log_likelihood, 0.0
-        )
+        max(full.log_likelihood - fit_best({k: e for k, e in acting.items() if k != key}).log_likelihood, 0.0)
         if key
         else _gain_without_term(full, effect)
         for key, effect in zip(keys, effects, strict=True)
@@ -172,15 +177,11 @@ def _clip(value: float, low: float, high: float) -> float:
 
 
 def _fit_terms(problem: Problem, acting: Mapping[str, Mapping[str, float]]) -> Fit:
-    """Return the best fit with these terms, started at the truth with several levels of the random force.
-
-    Without terms, the truth may be far from the maximum; a search over the priors is then also made.
-    """
-    searched = [] if acting else [search_maximum(problem, np.random.default_rng(0))]
+    """Return the best fit with these terms, started at the truth with several levels of the random force."""
     for key, parameters in acting.items():
         problem = _add_term(problem, key, parameters)
     fits = [maximise(problem, raise_random_force(problem, problem.start, by)) for by in WARM_STARTS]
-    best = max(fits + searched, key=lambda f: f.local.log_posterior)
+    best = max(fits, key=lambda f: f.local.log_posterior)
     again = maximise(restart(best), raise_random_force(problem, best.theta, 1.0))
     return max((best, again), key=lambda f: f.local.log_posterior)
 
