@@ -54,6 +54,8 @@ from lostmotion.diagnosis.verdict import (
     summarise,
 )
 from lostmotion.errors import ContractError
+from lostmotion.inference.fit import Fit
+from lostmotion.inference.term_sets import Selection
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.system import System, key_of
 from lostmotion.preparation.prepare import Prepared, prepare
@@ -193,6 +195,41 @@ def compare_heldout(diagnosis: SearchResult, prepared: Prepared, rng: np.random.
     return Outcome(diagnosis, before, after, horizon, draws, draws if same else draw_mixture(diagnosis, rng))
 
 
+def _choose_by_heldout(outcome: Outcome, prepared: Prepared, rng: np.random.Generator, say: Say) -> Outcome:
+    """Return the outcome with the set of terms that held-out data choose, or else with the simplest explanation.
+
+    If both a set of no more terms and one with a further term predict better, that with the smaller error is taken.
+    """
+    diagnosis, trials = outcome.diagnosis, list[Outcome]()
+    if (better := find_better_set(outcome, prepared.observations)) is not None:
+        say(f"held-out predictions with {' and '.join(sorted(better[0].problem.active))} instead")
+        weighed = replace(diagnosis.selection, heldout_gains=dict(better[1]))
+        trials.append(_try_terms(outcome, weighed, better[0], prepared, rng))
+    if (close := decide_by_heldout(outcome, prepared.observations)) is not None:
+        say(f"held-out data decide for {' and '.join(sorted(close[0].problem.active))}")
+        weighed = replace(diagnosis.selection, heldout_gains=dict(close[1]))
+        trials += _keep_good(outcome, _try_terms(outcome, weighed, close[0], prepared, rng))
+    if not trials and (simplest := find_simplest(outcome, prepared.observations)) is not None:
+        say(f"{' and '.join(sorted(simplest[0].problem.active))} as the simplest explanation")
+        weighed = replace(diagnosis.selection, simplest=simplest[1])
+        trials += _keep_good(outcome, _try_terms(outcome, weighed, simplest[0], prepared, rng))
+    return min(trials, key=lambda trial: trial.after.nrmse, default=outcome)
+
+
+def _try_terms(
+    outcome: Outcome, selection: Selection, fit: Fit, prepared: Prepared, rng: np.random.Generator
+) -> Outcome:
+    """Return the outcome with the terms of another fit, and with a changed selection."""
+    changed = replace(outcome.diagnosis, selection=selection)
+    return compare_heldout(replace_terms(changed, fit, rng.spawn(1)[0]), prepared, rng)
+
+
+def _keep_good(outcome: Outcome, trial: Outcome) -> list[Outcome]:
+    """Return the trial in a list if it predicts no worse than the nominal model and leaves no larger force, or none."""
+    d = trial.diagnosis
+    return [trial] if d.explains and not is_worse(outcome.before, trial.after, d.settings.heldout) else []
+
+
 def check_heldout(
     diagnosis: SearchResult, prepared: Prepared, rng: np.random.Generator, say: Say = lambda _: None
 ) -> Outcome:
@@ -203,30 +240,7 @@ def check_heldout(
     learned curves first, then the least probable term.
     """
     outcome, limits = compare_heldout(diagnosis, prepared, rng), diagnosis.settings.heldout
-    if (better := find_better_set(outcome, prepared.observations)) is not None:
-        fit, scored = better
-        say(f"held-out predictions with {' and '.join(sorted(fit.problem.active))} instead")
-        weighed = replace(diagnosis.selection, heldout_gains=dict(scored))
-        outcome = compare_heldout(
-            replace_terms(replace(diagnosis, selection=weighed), fit, rng.spawn(1)[0]), prepared, rng
-        )
-    elif (close := decide_by_heldout(outcome, prepared.observations)) is not None:
-        fit, scored = close
-        say(f"held-out data decide for {' and '.join(sorted(fit.problem.active))}")
-        weighed = replace(outcome.diagnosis.selection, heldout_gains=dict(scored))
-        trial = compare_heldout(
-            replace_terms(replace(outcome.diagnosis, selection=weighed), fit, rng.spawn(1)[0]), prepared, rng
-        )
-        good = trial.diagnosis.explains and not is_worse(outcome.before, trial.after, limits)
-        outcome = trial if good else outcome
-    elif (simplest := find_simplest(outcome, prepared.observations)) is not None:
-        fit, weighed = simplest[0], replace(outcome.diagnosis.selection, simplest=simplest[1])
-        say(f"{' and '.join(sorted(fit.problem.active))} as the simplest explanation")
-        trial = compare_heldout(
-            replace_terms(replace(outcome.diagnosis, selection=weighed), fit, rng.spawn(1)[0]), prepared, rng
-        )
-        good = trial.diagnosis.explains and not is_worse(outcome.before, trial.after, limits)
-        outcome = trial if good else outcome
+    outcome = _choose_by_heldout(outcome, prepared, rng, say)
     while (found := outcome.diagnosis).found:
         if not is_worse(outcome.before, outcome.after, limits) and found.explains:
             break

@@ -227,11 +227,11 @@ def drop_least_probable(d: SearchResult, rng: np.random.Generator) -> SearchResu
 def replace_terms(d: SearchResult, fit: Fit, rng: np.random.Generator) -> SearchResult:
     """Return the diagnosis with another fitted set of terms, given by its fit, in place of the chosen one.
 
-    Terms of the old set are withdrawn, unless the new set is the simplest explanation. Sets with a withdrawn term have
-    no probability.
+    Terms of the old set are withdrawn, unless the new set is the simplest explanation; sets with them have no
+    probability.
     """
     dropped = () if d.selection.simplest else tuple(key for key in d.named if key not in fit.problem.active)
-    selection = replace(d.selection, chosen=fit, withdrawn=d.selection.withdrawn | {*dropped})
+    selection = replace(d.selection, chosen=fit, replaced=frozenset(dropped))
     return _refit(replace(d, selection=selection, learned=None), dropped, rng)
 
 

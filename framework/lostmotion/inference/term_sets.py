@@ -140,11 +140,12 @@ class Selection:
     `declined` are terms with evidence that is not reliable, because the residuals are autocorrelated. `expansions` has
     the expansion of each set with the discrepancy, and `tied` the terms that are supported by the evidence but not
     better than a smooth force. `stopped` states that the search ended at its limit. `withdrawn` are terms that held-out
-    data refuted: sets with one of them have no probability. `heldout_gains` are differences in the log score of
-    held-out data, which are added to the log odds of sets. `simplest` replaces the probabilities if the chosen set is
-    only the simplest explanation. `discrepancy_fits` has the fit of the discrepancy of each set for which one was made,
-    `known_log_odds` the log odds that were computed, and `imitations` the pairs of sets, one a part of the other, for
-    which smooth forces were fitted in place of the additional terms.
+    data refuted, and `replaced` those of a set that predicted held-out data worse than the chosen one: sets with one of
+    them have no probability, but a set with a replaced term may be chosen if the chosen one is refuted. `heldout_gains`
+    are differences in the log score of held-out data, which are added to the log odds of sets. `simplest` replaces the
+    probabilities if the chosen set is only the simplest explanation. `discrepancy_fits` has the fit of the discrepancy
+    of each set for which one was made, `known_log_odds` the log odds that were computed, and `imitations` the pairs of
+    sets, one a part of the other, for which smooth forces were fitted in place of the additional terms.
     """
 
     nominal: Fit
@@ -156,6 +157,7 @@ class Selection:
     tied: set[str] = field(default_factory=set)
     stopped: bool = False
     withdrawn: frozenset[str] = frozenset()
+    replaced: frozenset[str] = frozenset()
     heldout_gains: dict[frozenset[str], float] = field(default_factory=dict)
     simplest: SimplestTerms | None = None
     discrepancy_fits: dict[frozenset[str], tuple[Fit, DiscrepancyFit | None]] = field(default_factory=dict)
@@ -345,7 +347,7 @@ class Selection:
         at most as probable as the least probable of the former. The log odds of a set over a subset are at most those
         that were confirmed.
         """
-        excluded = (self.declined | self.withdrawn) - self.chosen.problem.active
+        excluded = (self.declined | self.withdrawn | self.replaced) - self.chosen.problem.active
         considered = {k: v for k, v in self.fitted_sets.items() if not k & excluded}
         chosen = self.fitted_sets[self.chosen.problem.active]
         log_odds = {k: v.weight - chosen.weight for k, v in considered.items()}
