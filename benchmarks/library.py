@@ -27,8 +27,9 @@ from lostmotion.codec import to_plain
 from lostmotion.errors import LostMotionError
 from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import default
+from lostmotion.results import Interval
 from lostmotion.storage import save_table
-from lostmotion_trials.blind.bound import are_equivalent, complete_parameters, compute_bound
+from lostmotion_trials.blind.bound import are_equivalent, complete_parameters, compute_bound, is_covered
 from lostmotion_trials.blind.hiding import convert_effects
 from lostmotion_trials.blind.mechanisms import NOISY, TABLE, Effect
 from lostmotion_trials.blind.pilot import Pilot
@@ -295,7 +296,11 @@ def check_coverage(row):
     known = complete_parameters(truth, machine["values"], BlindDrive(machine["signal"]["tones"])) if machine else truth
     entry = next((f for f in row["found"] if f["mechanism"] == row["name"]), None)
     intervals = entry["parameters"] if entry else {}
-    return [i["low"] <= known[k] <= i["high"] for k, i in intervals.items() if k in known and i["low"] is not None]
+    return [
+        is_covered(Interval(i["median"], i["low"], i["high"], i["unit"]), known[k], turn=k == "phase")
+        for k, i in intervals.items()
+        if k in known and i["low"] is not None
+    ]
 
 
 LEAST = 50.0

@@ -353,7 +353,7 @@ class Selector:
                 ):
                     continue
                 self.say(f"{other} in place of {key}")
-                hint = run_score_test(without, slopes, other)
+                hint = run_score_test(without, slopes, other, self.shapes.get(other, ()))
                 if hint.gain > self.limits.promising and hint.distinct > LEAST_DISTINCT:
                     self._add_set(fit_term(without, hint, hopeless=self._compute_hopeless()))
 

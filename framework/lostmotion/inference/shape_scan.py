@@ -24,11 +24,15 @@ from lostmotion.likelihood.latent import smooth_expected_force
 from lostmotion.likelihood.motion import compute_derivatives
 from lostmotion.likelihood.problem import Problem
 from lostmotion.likelihood.system import Slot
+from lostmotion.quantities import LENGTH
 
 REACH = 3.9
 """The range of shapes without a scan, as a logarithm from the typical value: that of their prior."""
 APART, FEWEST = 0.033, 30
-"""The spacing of shapes in logarithms, and their least number: enough for fifteen periods of a wave over the travel."""
+"""The spacing of shapes in logarithms, and their least number."""
+TURN, MOST_SHAPES = 0.25, 300
+"""Neighbouring lengths differ by this share of a period over the travel, so that no pitch between them is missed,
+and their largest number."""
 MOST_SAMPLES = 3000
 BLOCKS = 40
 """Parts of a recording over which the correlation of a law with the gradient is averaged for its standard error."""
@@ -45,6 +49,11 @@ class SmoothedMotion:
     theta: Array
     states: Array
     gradient: Array
+
+    @property
+    def travel(self) -> float:
+        """The range of the first position (m or rad)."""
+        return float(np.ptp(self.states[:, 0]))
 
     def compute_law(self, key: str, values: Mapping[str, float]) -> Array:
         """Return the acceleration (samples,) that a term with these parameters gives the body at its place."""
@@ -90,6 +99,11 @@ class SensorErrors:
     problem: Problem
     foretold: Array
     gradient: Array
+
+    @property
+    def travel(self) -> float:
+        """The range of the predicted readings."""
+        return float(np.ptp(self.foretold))
 
     def measure_steadiness(self, key: str, shape: Mapping[str, float]) -> float:
         """Return the correlation of a sensor term with the errors in standard errors, all amplitudes together."""
@@ -171,7 +185,7 @@ def _select_best_shape(motion: SmoothedMotion | SensorErrors, key: str) -> dict[
     def steadiest(tried: list[dict[str, float]]) -> tuple[float, dict[str, float]]:
         return max(((motion.measure_steadiness(key, shape), shape) for shape in tried), key=lambda pair: pair[0])
 
-    top, best = steadiest(list_shapes(problem, key))
+    top, best = steadiest(list_shapes(problem, key, motion.travel))
     return (
         best
         if top > max(problem.settings.select.shape_steady, steadiest(_list_star_shapes(problem, key, usual))[0])
@@ -179,9 +193,13 @@ def _select_best_shape(motion: SmoothedMotion | SensorErrors, key: str) -> dict[
     )
 
 
-def list_shapes(problem: Problem, key: str) -> list[dict[str, float]]:
-    """Return the shapes of a law that are scanned: each free one over its range, the others in the middle."""
-    return _list_star_shapes(problem, key, {s.key: _make_grid(s, problem) for s in _list_free_shapes(problem, key)})
+def list_shapes(problem: Problem, key: str, travel: float = 0.0) -> list[dict[str, float]]:
+    """Return the shapes of a law that are scanned: each free one over its range, the others in the middle.
+
+    Lengths are closer for a long `travel`, because a pitch has many periods within it.
+    """
+    free = _list_free_shapes(problem, key)
+    return _list_star_shapes(problem, key, {s.key: _make_grid(s, problem, travel) for s in free})
 
 
 def _list_star_shapes(
@@ -198,8 +216,13 @@ def _list_star_shapes(
     return tried
 
 
-def _make_grid(slot: Slot, problem: Problem) -> Array:
-    """Return the values of a shape that are scanned."""
-    low, high = slot.param.scan or (math.exp(-REACH), math.exp(REACH))
+def _make_grid(slot: Slot, problem: Problem, travel: float) -> Array:
+    """Return the values of a shape that are scanned, over its range."""
+    size = compute_size(slot.param, problem.scales)
+    low, high = (size * end for end in slot.param.scan or (math.exp(-REACH), math.exp(REACH)))
     count = max(round(math.log(high / low) / APART), FEWEST)
-    return np.asarray(compute_size(slot.param, problem.scales) * np.geomspace(low, high, count))
+    grid = np.geomspace(low, high, count)
+    if slot.param.dimension != LENGTH or not travel > 0.0:
+        return grid
+    waves = min(math.ceil(travel * (1.0 / low - 1.0 / high) / TURN), MOST_SHAPES)
+    return grid if waves < count else np.unique(np.concatenate([grid, 1.0 / np.linspace(1.0 / high, 1.0 / low, waves)]))
