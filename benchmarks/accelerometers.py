@@ -66,18 +66,18 @@ class Machine:
         return "lin_backlash" if self.kind == "backlash" else "duffing"
 
 
-def hammer(t: Any, hits: Array, widths: Array, peaks: Array) -> Any:
+def make_hammer_blows(t: Any, hits: Array, widths: Array, peaks: Array) -> Any:
     """Return the force of half-sine pulses at the times `t`."""
     share = (np.asarray(t)[..., None] - hits) / widths
     return np.sum(np.where((share > 0.0) & (share < 1.0), peaks * np.sin(math.pi * share), 0.0), axis=-1)
 
 
-def multisine(t: Any, omegas: Array, phases: Array, amplitude: float) -> Any:
+def make_multisine(t: Any, omegas: Array, phases: Array, amplitude: float) -> Any:
     """Return the sum of cosines of one amplitude at the times `t`."""
     return amplitude * np.sum(np.cos(np.asarray(t)[..., None] * omegas + phases), axis=-1)
 
 
-def machine_of(seed: int, number: int) -> Machine:
+def draw_machine(seed: int, number: int) -> Machine:
     """Return machine `number` of a campaign: kinds and excitations take turns, all else is drawn."""
     rng = np.random.default_rng([seed, number])
     kind, excitation = KINDS[number % 3], EXCITATIONS[number // 3 % 2]
@@ -86,7 +86,7 @@ def machine_of(seed: int, number: int) -> Machine:
     rate, samples = 2.0 * math.pi * hertz, int(rng.integers(3000, 8001))
     dt = 2.0 * math.pi / rate / per_period
     stiffness, damping = mass * rate**2, 2.0 * zeta * mass * rate
-    shape = _hammer_of(rng, dt, per_period, samples) if excitation == "impact" else _multisine_of(rng, rate)
+    shape = _draw_hammer_blows(rng, dt, per_period, samples) if excitation == "impact" else _draw_multisine(rng, rate)
     t = np.arange(samples) * dt
     alike = lsim(([1.0], [mass, damping, stiffness]), shape(t), t)[1]
     size = length / float(np.abs(alike).max())
@@ -99,37 +99,37 @@ def machine_of(seed: int, number: int) -> Machine:
         cubic = stiffness / length**2 * rng.uniform(0.1, 1.0)
         values |= {"k": stiffness, "k3": cubic if kind == "cubic" else 0.0}
         free = ("c", "k", "k3") if kind == "cubic" else ("c", "k")
-    priors = {name: _decade(values[name], rng) for name in free}
+    priors = {name: _draw_decade(values[name], rng) for name in free}
     noise = rng.uniform(0.005, 0.02)
-    force = partial(_scaled, shape=shape, size=size)
+    force = partial(_scale_force, shape=shape, size=size)
     peak = float(np.abs(force(t)).max())
     return Machine(number, kind, excitation, values, priors, force, peak, dt, samples, noise)
 
 
-def _scaled(t: Any, shape: Force, size: float) -> Any:
+def _scale_force(t: Any, shape: Force, size: float) -> Any:
     return size * shape(t)
 
 
-def _decade(value: float, rng: np.random.Generator) -> tuple[float, float]:
+def _draw_decade(value: float, rng: np.random.Generator) -> tuple[float, float]:
     """Return the ends of a decade in which a value lies, off its middle by up to 2.2 to either side."""
     middle = value * math.exp(rng.uniform(-0.8, 0.8))
     return middle / math.sqrt(10.0), middle * math.sqrt(10.0)
 
 
-def _hammer_of(rng: np.random.Generator, dt: float, per_period: float, samples: int) -> Force:
+def _draw_hammer_blows(rng: np.random.Generator, dt: float, per_period: float, samples: int) -> Force:
     """Return three to eight hits, each 6 to 25 samples wide and half a natural period at most."""
     count = int(rng.integers(3, 9))
     gaps = (np.arange(count) + rng.uniform(0.02, 0.7, count)) / count
     widths = np.minimum(np.exp(rng.uniform(math.log(6.0), math.log(25.0), count)), 0.5 * per_period) * dt
-    return partial(hammer, hits=gaps * samples * dt, widths=widths, peaks=rng.uniform(0.4, 1.0, count))
+    return partial(make_hammer_blows, hits=gaps * samples * dt, widths=widths, peaks=rng.uniform(0.4, 1.0, count))
 
 
-def _multisine_of(rng: np.random.Generator, rate: float) -> Force:
+def _draw_multisine(rng: np.random.Generator, rate: float) -> Force:
     omegas = rate * np.sort(rng.uniform(0.3, 2.0, LINES))
-    return partial(multisine, omegas=omegas, phases=rng.uniform(0.0, 2.0 * math.pi, LINES), amplitude=1.0)
+    return partial(make_multisine, omegas=omegas, phases=rng.uniform(0.0, 2.0 * math.pi, LINES), amplitude=1.0)
 
 
-def rates_of(machine: Machine) -> Callable[[float, Array], list[float]]:
+def make_rates(machine: Machine) -> Callable[[float, Array], list[float]]:
     """Return the derivatives of position and velocity."""
     v, force = machine.values, machine.force
     m, c = v["m"], v["c"]
@@ -148,33 +148,37 @@ def rates_of(machine: Machine) -> Callable[[float, Array], list[float]]:
     return lambda t, y: [y[1], (float(force(t)) - c * y[1] - pull(float(y[0]))) / m]
 
 
-def moved(machine: Machine) -> Array:
+def simulate(machine: Machine) -> Array:
     """Return position, velocity and acceleration (samples, 3).
 
     A machine that is struck begins at rest, one under a multisine somewhere in its motion.
     """
-    rates, t = rates_of(machine), np.arange(machine.samples) * machine.dt
+    rates, t = make_rates(machine), np.arange(machine.samples) * machine.dt
     lead = LEAD * machine.dt if machine.excitation == "multisine" else 0.0
-    tiny = 1e-9 * machine.peak / _stiffest(machine)
+    tiny = 1e-9 * machine.peak / _find_stiffest(machine)
     step = machine.dt / (4.0 if machine.kind == "backlash" else 2.0)
-    tight = {"rtol": 1e-9, "atol": [tiny, tiny * math.sqrt(_stiffest(machine) / machine.values["m"])], "max_step": step}
+    tight = {
+        "rtol": 1e-9,
+        "atol": [tiny, tiny * math.sqrt(_find_stiffest(machine) / machine.values["m"])],
+        "max_step": step,
+    }
     seen = solve_ivp(rates, (-lead, t[-1]), [0.0, 0.0], "DOP853", t_eval=t, **tight).y.T
     return np.column_stack([seen, [rates(now, y)[1] for now, y in zip(t, seen, strict=True)]])
 
 
-def recorded(machine: Machine, seed: int) -> tuple[Any, Array]:
+def record(machine: Machine, seed: int) -> tuple[Any, Array]:
     """Return the observation of a machine, and its true states (samples, 3)."""
     from lostmotion.likelihood.observation import Observation, window_force
 
     rng = np.random.default_rng([seed, machine.number, 1])
-    states = moved(machine)
+    states = simulate(machine)
     t = np.arange(machine.samples) * machine.dt
     force = machine.force(t) + EXCITATION_NOISE * machine.peak * rng.standard_normal(len(t))
     shown = states[:, 2] + machine.noise * states[:, 2].std() * rng.standard_normal(len(t))
     return Observation.of("recording", shown, window_force(force)[:, None], machine.dt, "acceleration"), states
 
 
-def case_of(machine: Machine) -> Any:
+def make_case(machine: Machine) -> Any:
     """Return the case: what is known, and a decade for what is not."""
     from lostmotion.case import CaseFile, Prior
 
@@ -183,7 +187,7 @@ def case_of(machine: Machine) -> Any:
     return CaseFile("study", Path(), (), machine.model, known, priors, {}, (), "")
 
 
-def one(seed: int, number: int) -> dict[str, Any]:
+def run_machine(seed: int, number: int) -> dict[str, Any]:
     """Return what a diagnosis says of a machine, beside the truth."""
     from lostmotion.diagnosis.findings import compute_intervals, draw_parameters
     from lostmotion.diagnosis.search import diagnose
@@ -191,13 +195,13 @@ def one(seed: int, number: int) -> dict[str, Any]:
     from lostmotion.preparation.candidates import candidates_of
     from lostmotion.registry import default
 
-    machine = machine_of(seed, number)
-    observation, states = recorded(machine, seed)
+    machine = draw_machine(seed, number)
+    observation, states = record(machine, seed)
     registry = default()
     model = registry.make("model", machine.model)
     system = System(model, candidates_of(model, [registry.load("term", n) for n in registry.names("term")]))
     begin = time.perf_counter()
-    d = diagnose(case_of(machine), [observation], system, rng=np.random.default_rng(0), jobs=1)
+    d = diagnose(make_case(machine), [observation], system, rng=np.random.default_rng(0), jobs=1)
     known = compute_intervals(d.after, draw_parameters(d.after, np.random.default_rng(1)))
     seconds = time.perf_counter() - begin
     return {
@@ -205,21 +209,21 @@ def one(seed: int, number: int) -> dict[str, Any]:
         "kind": machine.kind,
         "excitation": machine.excitation,
         "samples": machine.samples,
-        "per_period": 2.0 * math.pi / machine.dt / math.sqrt(_stiffest(machine) / machine.values["m"]),
+        "per_period": 2.0 * math.pi / machine.dt / math.sqrt(_find_stiffest(machine) / machine.values["m"]),
         "found": [*d.named, *(["unknown"] if d.unknown else [])],
         "random_gain": d.random_gain,
         "unexplained": d.unexplained,
-        "estimates": {k: judged(machine.values[k], known[k]) for k in machine.priors},
+        "estimates": {k: compare_interval(machine.values[k], known[k]) for k in machine.priors},
         "status": d.after.status,
         "seconds": seconds,
-    } | _more(d, machine, states, observation)
+    } | _measure_more(d, machine, states, observation)
 
 
-def _stiffest(machine: Machine) -> float:
+def _find_stiffest(machine: Machine) -> float:
     return machine.values.get("k", 0.0) or machine.values["k0"]
 
 
-def _more(d: Any, machine: Machine, states: Array, observation: Any) -> dict[str, Any]:
+def _measure_more(d: Any, machine: Machine, states: Array, observation: Any) -> dict[str, Any]:
     """Return levels of noise over their truths, and how often the band of the position holds the true one."""
     from lostmotion.inference.unseen import smooth_body_position
 
@@ -237,7 +241,7 @@ def _more(d: Any, machine: Machine, states: Array, observation: Any) -> dict[str
     }
 
 
-def judged(truth: float, interval: Any) -> dict[str, Any]:
+def compare_interval(truth: float, interval: Any) -> dict[str, Any]:
     """Return truth, median, interval, whether it covers, and how many stated deviations the median is off."""
     sd = (interval.high - interval.low) / (2.0 * 1.96)
     return {
@@ -250,7 +254,7 @@ def judged(truth: float, interval: Any) -> dict[str, Any]:
     }
 
 
-def limits(count: int, level: float = 0.95) -> tuple[float, float]:
+def compute_band(count: int, level: float = 0.95) -> tuple[float, float]:
     """Return between which shares the coverage of `count` true 95 % intervals lies in 95 of 100 campaigns."""
     if not count:
         return 0.0, 1.0
@@ -258,7 +262,7 @@ def limits(count: int, level: float = 0.95) -> tuple[float, float]:
     return float(low / count), float(high / count)
 
 
-def summary(rows: Sequence[dict[str, Any]]) -> str:
+def summarise(rows: Sequence[dict[str, Any]]) -> str:
     """Return coverage and rms z of all, by kind and by excitation, and the false alarms."""
     lines = [f"{'':<22}{'machines':>9}{'covered':>12}{'share':>8}   {'limits at 95 %':<16}{'rms z':>6}{'alarms':>8}"]
     groups = {"all": list(rows)}
@@ -269,7 +273,7 @@ def summary(rows: Sequence[dict[str, Any]]) -> str:
         told = [e for r in chosen for e in r["estimates"].values()]
         if not told:
             continue
-        covered, (low, high) = sum(e["covers"] for e in told), limits(len(told))
+        covered, (low, high) = sum(e["covers"] for e in told), compute_band(len(told))
         size = math.sqrt(float(np.mean([e["z"] ** 2 for e in told])))
         alarms = sum(bool(r["found"]) for r in chosen)
         lines.append(
@@ -285,7 +289,7 @@ def summary(rows: Sequence[dict[str, Any]]) -> str:
     return "\n".join(lines)
 
 
-def kept(path: Path) -> list[dict[str, Any]]:
+def read_rows(path: Path) -> list[dict[str, Any]]:
     """Return the lines of a run so far; one that was cut off is left out."""
     rows = []
     for line in path.read_text(encoding="utf-8").splitlines() if path.exists() else []:
@@ -298,11 +302,11 @@ def kept(path: Path) -> list[dict[str, Any]]:
 
 def run(seed: int, numbers: Iterable[int], path: Path, jobs: int) -> None:
     """Diagnose those machines that are not yet in the file."""
-    done = {row["number"] for row in kept(path)}
+    done = {row["number"] for row in read_rows(path)}
     left = [number for number in numbers if number not in done]
     os.environ |= {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     with ProcessPoolExecutor(jobs, mp_context=multiprocessing.get_context("spawn")) as pool:
-        for future in as_completed([pool.submit(one, seed, number) for number in left]):
+        for future in as_completed([pool.submit(run_machine, seed, number) for number in left]):
             with path.open("a", encoding="utf-8") as stream:
                 stream.write(json.dumps(future.result()) + "\n")
 
@@ -319,9 +323,9 @@ def main() -> None:
     path = asked.out / f"machines-{asked.seed}.jsonl"
     numbers = [int(n) for n in asked.numbers.split(",")] if asked.numbers else range(asked.machines)
     run(asked.seed, numbers, path, asked.jobs)
-    rows = sorted((r for r in kept(path) if r["number"] in set(numbers)), key=lambda r: r["number"])
+    rows = sorted((r for r in read_rows(path) if r["number"] in set(numbers)), key=lambda r: r["number"])
     print(" ".join([Path(sys.argv[0]).name, *sys.argv[1:]]))
-    print(summary(rows))
+    print(summarise(rows))
 
 
 if __name__ == "__main__":

@@ -43,7 +43,7 @@ SHOWN = 0.01
 """Candidates of a lower probability are not printed."""
 
 
-def arrow(found: Diagnosis, data: Path, registry: Registry) -> dict[str, float]:
+def measure_arrow(found: Diagnosis, data: Path, registry: Registry) -> dict[str, float]:
     """Return the rms errors (V) of free runs over the arrow with the parameters before and after.
 
     A learned curve is no law beyond what it was learned on: with one there is no free run after.
@@ -81,33 +81,33 @@ def main() -> None:
         (folder / "case.toml").write_text(CASES[name](data, folder))
         begin = time.perf_counter()
         found = run_diagnosis(folder / "case.toml", folder / "result", registry, jobs=args.jobs, propose=args.propose)
-        told(name, found, time.perf_counter() - begin)
-        further = arrow(found, data, registry) if name == "silverbox" else {}
-        tables = {f"figures of benchmarks/gallery.py {name}": table(found, further)}
+        print_result(name, found, time.perf_counter() - begin)
+        further = measure_arrow(found, data, registry) if name == "silverbox" else {}
+        tables = {f"figures of benchmarks/gallery.py {name}": format_table(found, further)}
         if name in by_hand.READ:
-            tables[f"by hand: {name}"] = read(by_hand.READ[name](data))
+            tables[f"by hand: {name}"] = format_numbers(by_hand.READ[name](data))
         print("\n\n".join(tables.values()), flush=True)
         if args.write:
-            into_pages(tables)
+            write_into_pages(tables)
 
 
-def read(numbers: by_hand.Numbers) -> str:
+def format_numbers(numbers: by_hand.Numbers) -> str:
     """Return what is read off by hand as a table."""
     rows = [f"| {key} | {value:.4g} {unit} |" for key, (value, unit) in numbers.items()]
     return "\n".join(["| value obtained without a model | |", "|---|---|", *rows])
 
 
-def table(found: Diagnosis, further: Mapping[str, float]) -> str:
+def format_table(found: Diagnosis, further: Mapping[str, float]) -> str:
     """Return what a diagnosis says as a table: parameters, names with their probabilities, held-out predictions."""
     both = {"before": found.parameters.before, "after": found.parameters.after}
     scores = {"before": found.fit.before, "after": found.fit.after}
     units = {key: value.unit for when in WHEN for key, value in both[when].items()}
     rows = [
-        (f"`{key}` ({unit})" if unit else f"`{key}`", *(between(both[w].get(key)) for w in WHEN))
+        (f"`{key}` ({unit})" if unit else f"`{key}`", *(format_interval(both[w].get(key)) for w in WHEN))
         for key, unit in units.items()
     ]
     rows += [
-        (f"{entry.state}: {entry.mechanism} {place_of(entry)}".rstrip(), "", f"{entry.probability:.3f}")
+        (f"{entry.state}: {entry.mechanism} {describe_place(entry)}".rstrip(), "", f"{entry.probability:.3f}")
         for entry in found.found
     ]
     left = (found.unexplained_before, found.unexplained)
@@ -125,7 +125,7 @@ def table(found: Diagnosis, further: Mapping[str, float]) -> str:
     return "\n".join(["| | before | after |", "|---|---|---|", *(f"| {' | '.join(row)} |" for row in rows)])
 
 
-def between(value: Interval | None) -> str:
+def format_interval(value: Interval | None) -> str:
     """Return an estimate with its 95 % interval, or nothing."""
     if not value:
         return ""
@@ -134,12 +134,12 @@ def between(value: Interval | None) -> str:
     return f"{value.median:.4g} [{value.low:.4g}, {value.high:.4g}]"
 
 
-def place_of(entry: Mechanism | Candidate) -> str:
+def describe_place(entry: Mechanism | Candidate) -> str:
     """Return where a term acts, if it acts at a place."""
     return f"at {entry.at}" if entry.at else ""
 
 
-def into_pages(tables: Mapping[str, str]) -> None:
+def write_into_pages(tables: Mapping[str, str]) -> None:
     """Put tables into the pages of the gallery in place of those that stand behind the same marks."""
     for page in (ROOT / "docs" / "gallery").glob("*.md"):
         text = page.read_text()
@@ -149,7 +149,7 @@ def into_pages(tables: Mapping[str, str]) -> None:
             page.write_text(text)
 
 
-def told(name: str, found: Diagnosis, taken: float) -> None:
+def print_result(name: str, found: Diagnosis, taken: float) -> None:
     """Print what a diagnosis says."""
     fit = found.fit
     print(f"{name}, {taken:.0f} s")
@@ -160,7 +160,7 @@ def told(name: str, found: Diagnosis, taken: float) -> None:
     print(f"  noise {fit.noise_floor_nrmse:.3g}")
     for entry in found.ranking:
         if entry.probability > SHOWN:
-            print(f"  {entry.mechanism} {place_of(entry)}: probability {entry.probability:.3f}")
+            print(f"  {entry.mechanism} {describe_place(entry)}: probability {entry.probability:.3f}")
 
 
 if __name__ == "__main__":

@@ -56,7 +56,7 @@ Known = tuple[float, float]
 """A value with its standard deviation."""
 
 
-def one(seed: int, chaos: bool = False) -> dict[str, Any]:
+def run_machine(seed: int, chaos: bool = False) -> dict[str, Any]:
     """Return what was read of one recording, and the truth; nothing, where `chaos` is wanted and the motion is not."""
     registry, rng = default(), np.random.default_rng([seed, 20 + chaos])
     inverse, zeta = rng.uniform(0.8, 9.5), 0.005 * 16.0 ** rng.uniform() if chaos else rng.uniform(0.01, 0.06)
@@ -69,9 +69,9 @@ def one(seed: int, chaos: bool = False) -> dict[str, Any]:
     beat = Harmonic(1.0 / inverse / (ratio**2 if moved else 1.0), ratio)
     signals, begin = simulate_signals(model, values, beat, bench, rng)
     flow = flow_of(model, values, drive=beat, start=begin)
-    if chaos and not shows_chaos(*truth(flow, rng, BRIEF)):
+    if chaos and not shows_chaos(*compute_truth(flow, rng, BRIEF)):
         return {}
-    exponent, dimension, period = truth(flow, rng)
+    exponent, dimension, period = compute_truth(flow, rng)
     start = time.perf_counter()
     read = read_level(signals, registry, rng)
     row: dict[str, Any] = {
@@ -92,7 +92,7 @@ def shows_chaos(exponent: Known, _dimension: Known, period: int) -> bool:
     return not period and exponent[0] > 3.0 * exponent[1]
 
 
-def truth(flow: Flow, rng: np.random.Generator, periods: int = LONG) -> tuple[Known, Known, int]:
+def compute_truth(flow: Flow, rng: np.random.Generator, periods: int = LONG) -> tuple[Known, Known, int]:
     """Return exponent (1/s) and dimension with their errors, and the period, of the motion from the start of a flow."""
     registry = default()
     found = registry.make("quantifier", "lyapunov_max", periods=periods, transient=0).estimate(flow, rng=rng)
@@ -102,24 +102,24 @@ def truth(flow: Flow, rng: np.random.Generator, periods: int = LONG) -> tuple[Kn
     return (found.value, found.details.get("stderr", math.nan)), (section.value, sd), find_period(states)
 
 
-def errors(machines: int, keep: Path | None, *, chaos: bool = False) -> None:
+def measure_errors(machines: int, keep: Path | None, *, chaos: bool = False) -> None:
     """Print how the readings of machines compare with the truth."""
     with ProcessPoolExecutor(cores()) as pool:
         rows: list[dict[str, Any]] = []
-        for k, row in enumerate(pool.map(one, range(machines), repeat(chaos))):
+        for k, row in enumerate(pool.map(run_machine, range(machines), repeat(chaos))):
             rows += [row] if row else []
             print(f"\r{k + 1} of {machines}", end="", file=sys.stderr, flush=True)
             if keep:
                 keep.write_text(json.dumps(rows))
     print(file=sys.stderr)
-    told(rows)
+    print_errors(rows)
 
 
-def told(rows: list[dict[str, Any]]) -> None:
+def print_errors(rows: list[dict[str, Any]]) -> None:
     """Print the kinds that were seen, the errors of exponents and dimensions, and the times."""
     kinds = ("periodic", "chaotic", "undecided")
-    weak = [r for r in chaotic(rows) if r["lyapunov_true"] * r["beat"] < DEFAULT.levels.weak]
-    strong = [r for r in chaotic(rows) if r["lyapunov_true"] * r["beat"] >= DEFAULT.levels.weak]
+    weak = [r for r in select_chaotic(rows) if r["lyapunov_true"] * r["beat"] < DEFAULT.levels.weak]
+    strong = [r for r in select_chaotic(rows) if r["lyapunov_true"] * r["beat"] >= DEFAULT.levels.weak]
     print(f"{'truth, seen as':<28}" + "".join(f"{k:>12}" for k in kinds))
     for name in ("lin_backlash", "robot_joint"):
         table = {
@@ -131,7 +131,7 @@ def told(rows: list[dict[str, Any]]) -> None:
             own = [r for r in kept if r["model"] == name]
             print(f"{name + ', ' + label:<36}" + "".join(f"{sum(r['motion'] == k for r in own):>12}" for k in kinds))
     for name in ("lyapunov", "d2"):
-        kept = [r for r in chaotic(rows) if r["motion"] == "chaotic" and math.isfinite(r.get(name, math.nan))]
+        kept = [r for r in select_chaotic(rows) if r["motion"] == "chaotic" and math.isfinite(r.get(name, math.nan))]
         kept = [r for r in kept if math.isfinite(r[f"{name}_true"]) and (name != "d2" or r["d2_status"] == "ok")]
         off, claimed, size = (np.array([r[k] for r in kept]) for k in (name, f"{name}_sd", f"{name}_true"))
         z = (off - size) / claimed
@@ -149,13 +149,13 @@ def told(rows: list[dict[str, Any]]) -> None:
               f"{inside.sum()} of {len(left)}")  # fmt: skip
         unit = np.array([r["beat"] if name == "lyapunov" else 1.0 for r in kept])
         for parts in (np.zeros_like(moved), moved):
-            biases, scale, own, fits = fitted(off * unit, claimed * unit, size * unit, parts)
+            biases, scale, own, fits = fit_errors(off * unit, claimed * unit, size * unit, parts)
             print(f"  most likely (log-likelihood {fits:.1f}): bias {' and '.join(f'{b:+.3f}' for b in biases)} of the "
                   f"value, {scale:.2f} claimed sd and {own:.3f} of the value")  # fmt: skip
     print(f"seconds a recording: {np.mean([r['seconds'] for r in rows]):.2f}")
 
 
-def fitted(seen: Array, claimed: Array, true: Array, parts: Array) -> tuple[list[float], float, float, float]:
+def fit_errors(seen: Array, claimed: Array, true: Array, parts: Array) -> tuple[list[float], float, float, float]:
     """Return the most likely biases, factor of the claimed sd, own error as a share of the value, and log-likelihood.
 
     There is a bias for those that are not in `parts`, and one for those that are. What is seen errs about the truth
@@ -174,23 +174,23 @@ def fitted(seen: Array, claimed: Array, true: Array, parts: Array) -> tuple[list
     return best.x[2:].tolist(), math.exp(best.x[0]), math.exp(best.x[1]), -float(best.fun)
 
 
-def chaotic(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
+def select_chaotic(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
     """Return the rows of motions whose exponent is positive beyond doubt."""
     return [r for r in rows if not r["period"] and r["lyapunov_true"] > 3.0 * r["lyapunov_true_sd"]]
 
 
-def machine(folder: Path) -> None:
+def identify_machine(folder: Path) -> None:
     """Find a simulated machine again from recordings at eight levels."""
-    case = oscillator({"x0": Prior(low=0.002, high=0.012), "zeta": Prior(low=0.01, high=0.06)})
+    case = make_case({"x0": Prior(low=0.002, high=0.012), "zeta": Prior(low=0.01, high=0.06)})
     truth, rng = {"x0": 0.0052, "zeta": 0.023}, np.random.default_rng(8)
     drives = [(a, OMEGA) for a in (40.0, 50.0, 62.0, 77.0, 95.0, 117.0, 145.0, 180.0)]
     begin = time.perf_counter()
     reads = simulate_levels(case, default(), truth, drives, rng)
     print(f"eight recordings simulated and read in {time.perf_counter() - begin:.1f} s")
-    sampled(replace(case, levels=tuple(read.level for read in reads)), truth, folder)
+    sample_levels(replace(case, levels=tuple(read.level for read in reads)), truth, folder)
 
 
-def table2(folder: Path) -> None:
+def identify_table2(folder: Path) -> None:
     """Invert Table 2 of the paper: a robot joint whose stiffness and inertia are those of `reproduce/joint.py`."""
     omega, log2 = 2.0 * math.pi * FREQUENCY, math.log(2.0)
     levels = []
@@ -201,13 +201,13 @@ def table2(folder: Path) -> None:
     estimate = {"x0": Prior(low=math.radians(0.3), high=math.radians(1.5)), "zeta": Prior(low=0.01, high=0.12)}
     known = {"m": 1.0, "k0": (omega / RATIO) ** 2}
     case = CaseFile("Table 2", Path(), (), "robot_joint", known, estimate, {}, (), "none", levels=tuple(levels))
-    sampled(case, {"x0": math.radians(HALF), "zeta": 0.5 * DAMPING}, folder)
+    sample_levels(case, {"x0": math.radians(HALF), "zeta": 0.5 * DAMPING}, folder)
 
 
-def sampled(case: CaseFile, truth: Mapping[str, float], folder: Path) -> None:
+def sample_levels(case: CaseFile, truth: Mapping[str, float], folder: Path) -> None:
     """Print the posterior of a case beside the truth, and what it expects at each level."""
     rng, begin = np.random.default_rng(0), time.perf_counter()
-    task = make_quantifier_task(case, default(), folder, rng, say=progress)
+    task = make_quantifier_task(case, default(), folder, rng, say=show_progress)
     made = time.perf_counter()
     found = identify(task, rng=rng)
     print(f"map and proposal {made - begin:.0f} s, chain {time.perf_counter() - made:.1f} s")
@@ -225,24 +225,26 @@ def sampled(case: CaseFile, truth: Mapping[str, float], folder: Path) -> None:
               f"chaos expected {one.chaotic_share:4.0%}  {expected}")  # fmt: skip
 
 
-def oscillator(estimate: Mapping[str, Prior]) -> CaseFile:
+def make_case(estimate: Mapping[str, Prior]) -> CaseFile:
     """Return a case of Lin's oscillator, Case 1 of the paper, whose stiffness and mass are known."""
     known = {"m": 1.0, "k0": 4e4, "k1": 0.0}
     return CaseFile("oscillator", Path(), (), "lin_backlash", known, dict(estimate), {}, (), "none")
 
 
-def decide(folder: Path) -> None:
+def decide_levels(folder: Path) -> None:
     """Show levels of a machine whose exponents fit two gaps, and what the dimensions make of that.
 
     At a known damping the dimension says little beside the exponent, since the sum of all exponents is -c / m and the
     dimension goes with both (Kaplan and Yorke). With the damping open it tells the damping, and so the gap.
     """
-    case = oscillator({"x0": Prior(low=0.002, high=0.012), "zeta": Prior(low=0.01, high=0.06)})
+    case = make_case({"x0": Prior(low=0.002, high=0.012), "zeta": Prior(low=0.01, high=0.06)})
     for seed in range(1, 4):
         rng, drives = np.random.default_rng(seed), [(a, OMEGA) for a in TWO_GAPS]
         reads = simulate_levels(case, default(), TRUE_GAP, drives, rng, plan=CAREFUL)
-        both = make_inversion(case, tuple(read.level for read in reads), default(), folder, MapGrid(), say=progress)
-        gaps, points = grid_of(both)
+        both = make_inversion(
+            case, tuple(read.level for read in reads), default(), folder, MapGrid(), say=show_progress
+        )
+        gaps, points = list_grid(both)
         for name, posterior in (("exponents alone", both.without_d2()), ("with dimensions", both)):
             heights = posterior.log_likelihoods(points)
             share = np.exp(heights - heights.max()).reshape(len(gaps), -1).sum(axis=1)
@@ -251,13 +253,13 @@ def decide(folder: Path) -> None:
                   f"{1e3 * TRUE_GAP['x0']:g} mm lies, {1 - small:.2f} above")  # fmt: skip
 
 
-def grid_of(posterior: Inversion) -> tuple[Array, Array]:
+def list_grid(posterior: Inversion) -> tuple[Array, Array]:
     """Return the gaps of a grid over the prior, and its points."""
     ends = [np.linspace(f.low, f.high, n) for f, n in zip(posterior.free, (400, 100), strict=True)]
     return ends[0], np.stack(np.meshgrid(*ends, indexing="ij"), axis=-1).reshape(-1, 2)
 
 
-def progress(done: int, cells: int) -> None:
+def show_progress(done: int, cells: int) -> None:
     """Say on the terminal how far the map is."""
     print(f"\rmap: {done} of {cells} cells", end="\n" if done == cells else "", file=sys.stderr, flush=True)
 
@@ -271,9 +273,9 @@ def main() -> None:
     parser.add_argument("--folder", type=Path, default=Path("levels"), help="where the maps are kept")
     args = parser.parse_args()
     if args.what in ("errors", "chaos"):
-        errors(args.machines, args.keep, chaos=args.what == "chaos")
+        measure_errors(args.machines, args.keep, chaos=args.what == "chaos")
         return
-    {"machine": machine, "decide": decide, "table2": table2}[args.what](args.folder)
+    {"machine": identify_machine, "decide": decide_levels, "table2": identify_table2}[args.what](args.folder)
 
 
 if __name__ == "__main__":

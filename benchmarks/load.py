@@ -40,7 +40,7 @@ class Watch:
     peaks: dict[int, float] = field(default_factory=dict)
 
     def look(self, parent, done):
-        held = {pid: memory(pid) for pid in (parent, *children(parent))}
+        held = {pid: read_memory(pid) for pid in (parent, *list_children(parent))}
         for pid, (_, peak) in held.items():
             self.peaks[pid] = max(peak, self.peaks.get(pid, 0.0))
         workers = [now for pid, (now, _) in held.items() if pid != parent]
@@ -52,22 +52,22 @@ class Watch:
         return float(np.median([w for done, _, w in self.looks if which <= 4 * done / last < which + 1] or [np.nan]))
 
 
-def how_broken(number):
+def choose_fault(number):
     return BREAKS[number // EVERY % len(BREAKS)] if number % EVERY == EVERY // 2 else ""
 
 
-def recorded(number, folder):
+def record(number, folder):
     """Return the path of a case, after writing it and its recording, broken if its number says so."""
     place = folder / "cases" / format_case_name(number)
     if not (place / "done").exists():
         only, clean = ((), True) if number % 3 == 0 else (HIDDEN, False)
         conceal_case(Blind(SEED, 300 + 37 * number % 201, only, clean), folder, number)
-        broken(place, how_broken(number))
+        break_recording(place, choose_fault(number))
         (place / "done").touch()
     return place / "case.toml"
 
 
-def broken(place, how):
+def break_recording(place, how):
     case, table = place / "case.toml", place / "recording.csv"
     text, rows = case.read_text(encoding="utf-8"), table.read_text(encoding="utf-8").splitlines(keepends=True)
     if how == "unit":
@@ -81,7 +81,7 @@ def broken(place, how):
     table.write_text("".join(rows), encoding="utf-8")
 
 
-def memory(pid):
+def read_memory(pid):
     """Return what a process holds and the most it has held, in MiB; zeros when it is no more."""
     try:
         lines = Path(f"/proc/{pid}/status").read_text(encoding="utf-8").splitlines()
@@ -91,14 +91,14 @@ def memory(pid):
     return tuple(float(table.get(key, ["0"])[0]) / 1024 for key in ("VmRSS", "VmHWM"))
 
 
-def children(pid):
+def list_children(pid):
     try:
         return [int(one) for one in Path(f"/proc/{pid}/task/{pid}/children").read_text(encoding="utf-8").split()]
     except OSError:
         return []
 
 
-def watched(paths, out, jobs):
+def watch_run(paths, out, jobs):
     """Return the exit status of `diagnose` and what its processes held."""
     line = [sys.executable, "-m", "lostmotion", "diagnose", *map(str, paths), "--out", str(out), "--jobs", str(jobs)]
     watch = Watch()
@@ -109,12 +109,12 @@ def watched(paths, out, jobs):
     return process.returncode, watch
 
 
-def rows_of(path):
+def read_rows(path):
     with path.open(encoding="utf-8", newline="") as stream:
         return list(csv.DictReader(stream))
 
 
-def told(rows, watch, seconds):
+def print_summary(rows, watch, seconds):
     """Print wall time, memory over the campaign, and what was set aside and why."""
     print(f"{len(rows)} recordings in {seconds:.0f} s, {seconds / len(rows):.1f} s each")
     print("done  parent  largest worker (MiB)")
@@ -125,7 +125,7 @@ def told(rows, watch, seconds):
     print(f"peaks: parent {parent:.0f} MiB, workers {', '.join(f'{peak:.0f}' for peak in workers)} MiB")
     for number, row in enumerate(rows):
         if row["status"] == "set aside":
-            print(f"{row['case']} ({how_broken(number) or 'whole'}): {row['says']}")
+            print(f"{row['case']} ({choose_fault(number) or 'whole'}): {row['says']}")
 
 
 def main():
@@ -136,12 +136,12 @@ def main():
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as spare:
         folder = options.out or Path(spare)
-        paths = [recorded(number, folder) for number in range(options.recordings)]
+        paths = [record(number, folder) for number in range(options.recordings)]
         begun = time.perf_counter()
-        status, watch = watched(paths, folder / "results", options.jobs)
-        rows = rows_of(folder / "results" / "summary.csv")
-        told(rows, watch, time.perf_counter() - begun)
-    wrong = [row["case"] for k, row in enumerate(rows) if (row["status"] == "set aside") != bool(how_broken(k))]
+        status, watch = watch_run(paths, folder / "results", options.jobs)
+        rows = read_rows(folder / "results" / "summary.csv")
+        print_summary(rows, watch, time.perf_counter() - begun)
+    wrong = [row["case"] for k, row in enumerate(rows) if (row["status"] == "set aside") != bool(choose_fault(k))]
     grown = watch.quarter(3) / watch.quarter(1)
     print(f"exit status {status}; set aside or taken wrongly: {', '.join(wrong) or 'none'}; growth {grown:.3f}")
     return int(bool(wrong) or (len(rows) >= FEWEST and not grown <= GROWTH))

@@ -76,7 +76,7 @@ STUCK = 0.2
 Row = dict[str, Any]
 
 
-def drawn(name: str, pilot: Pilot, rng: np.random.Generator) -> Effect:
+def draw_effect(name: str, pilot: Pilot, rng: np.random.Generator) -> Effect:
     """Return a mechanism of a size at which it should gain 50 to 500 in log-likelihood."""
     mechanism = (TABLE | UNKNOWN)[name]
     at = str(rng.choice(mechanism.find_places(pilot.rig)))
@@ -89,7 +89,7 @@ def drawn(name: str, pilot: Pilot, rng: np.random.Generator) -> Effect:
     return Effect("unknown", at, parameters, name) if name in UNKNOWN else Effect(name, at, parameters)
 
 
-def machine_of(kind: str, rng: np.random.Generator, number: int) -> tuple[BlindMachine, Effect | None, np.ndarray]:
+def draw_machine(kind: str, rng: np.random.Generator, number: int) -> tuple[BlindMachine, Effect | None, np.ndarray]:
     """Return a machine, what is hidden in it, and its true motion (samples,)."""
     models = MODELS[kind] if kind in MODELS else MODELS[("two", "one")[number % 2]]
     offered = [name for name in GOES_WITH if any(m in (TABLE | UNKNOWN)[name].models for m in models)]
@@ -102,22 +102,22 @@ def machine_of(kind: str, rng: np.random.Generator, number: int) -> tuple[BlindM
             if "x0" in rig.values and not TOUCHES[0] < float(np.mean(np.abs(pilot.contact_sign))) < TOUCHES[1]:
                 continue
             if kind == "noise":
-                kick = pilot.usual_force * 3.2 * 10.0 ** (0.7 * rng.random()) * (_noise_of(number) == "random force")
+                kick = (
+                    pilot.usual_force * 3.2 * 10.0 ** (0.7 * rng.random()) * (_choose_noise(number) == "random force")
+                )
                 return rig, None, simulate_machine(rig, Hidden(), Disturbances(rms=kick), rng) if kick else pilot.q
-            effect = drawn(name, pilot, rng)
+            effect = draw_effect(name, pilot, rng)
             truth = simulate_machine(rig, *convert_effects(rig, (effect,)), rng)
             if STUCK < float(np.std(truth)) / float(np.std(pilot.q)) < RUNAWAY:
                 return rig, effect, truth
     raise DataError("no machine was drawn that can have what is to be hidden")
 
 
-def _noise_of(number: int) -> str:
+def _choose_noise(number: int) -> str:
     return NOISES[number // 2 % len(NOISES)]
 
 
-def recorded(
-    rig: BlindMachine, truth: np.ndarray, noise: str, rng: np.random.Generator
-) -> tuple[np.ndarray, np.ndarray]:
+def record(rig: BlindMachine, truth: np.ndarray, noise: str, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
     """Return drive and position (samples,) of a machine as they are recorded."""
     clean, n = rig.signal.value(rig.time), len(truth)
     white = rng.standard_normal(n)
@@ -132,18 +132,18 @@ def recorded(
     return clean + EXCITATION_NOISE * rig.signal.amplitude * rng.standard_normal(n), shown
 
 
-def prepared(rig: BlindMachine, excitation: np.ndarray, response: np.ndarray) -> Prepared:
+def prepare_case(rig: BlindMachine, excitation: np.ndarray, response: np.ndarray) -> Prepared:
     """Return a machine as a diagnosis reads it: from a case file and a table."""
     with tempfile.TemporaryDirectory() as folder:
         return prepare(write_case(rig, (excitation, response), Path(folder), title="study", stated={}), default())
 
 
-def one(kind: str, seed: int, number: int) -> Row:
+def run_machine(kind: str, seed: int, number: int) -> Row:
     """Return what the tests say of a machine, beside the truth."""
     rng = np.random.default_rng([seed, ("two", "one", "noise").index(kind), number])
-    rig, effect, truth = machine_of(kind, rng, number)
-    noise = _noise_of(number) if kind == "noise" else "white"
-    made = prepared(rig, *recorded(rig, truth, noise, rng))
+    rig, effect, truth = draw_machine(kind, rng, number)
+    noise = _choose_noise(number) if kind == "noise" else "white"
+    made = prepare_case(rig, *record(rig, truth, noise, rng))
     names = [] if effect is None else [key_of(t) for t in made.terms if t.name == effect.mechanism]
     names = [key for key in names if effect and effect.at in ("", key.partition("@")[2] or "ground")]
     system = System(made.model, tuple(t for t in made.terms if key_of(t) in names))
@@ -172,7 +172,7 @@ def one(kind: str, seed: int, number: int) -> Row:
     }
 
 
-def ranked(row: Row, test: str) -> list[str]:
+def rank_covariates(row: Row, test: str) -> list[str]:
     """Return the covariates that a test calls significant, the first first."""
     if test == "shares":
         told = {k: s for k, s in row["shares"].items() if s[2] <= DEFAULT.locate.level and s[0] > 0.0}
@@ -182,23 +182,23 @@ def ranked(row: Row, test: str) -> list[str]:
     return list_likely({k: LikelihoodRatio(told[0], told[0]) for k, told in row["odds"].items()})
 
 
-def judged(row: Row, test: str) -> dict[str, bool]:
+def score_first(row: Row, test: str) -> dict[str, bool]:
     """Return whether anything is significant, and whether what comes first has the true covariate and place."""
-    first = next(iter(ranked(row, test)), "")
+    first = next(iter(rank_covariates(row, test)), "")
     what, _, at = first.partition(" at ")
     quantity = what in GOES_WITH.get(row["hidden"], ())
     place = (at or "ground") == (row["at"] or "ground") or what in ("phase", "time")
     return {"any": bool(first), "covariate": quantity, "place": bool(first) and place, "both": quantity and place}
 
 
-def band(hits: int, of: int, level: float = 0.95) -> tuple[float, float]:
+def compute_band(hits: int, of: int, level: float = 0.95) -> tuple[float, float]:
     """Return the interval of Clopper and Pearson (Biometrika 26 (1934) 404-413) for a rate."""
     half = 0.5 * (1.0 - level)
     low = float(beta.ppf(half, hits, of - hits + 1)) if hits else 0.0
     return low, float(beta.ppf(1.0 - half, hits + 1, of - hits)) if hits < of else 1.0
 
 
-def summary(rows: Sequence[Row]) -> str:
+def summarise(rows: Sequence[Row]) -> str:
     """Return the rates of all tests with their bands."""
     lines = []
     for kind in ("two", "one", "noise"):
@@ -208,29 +208,29 @@ def summary(rows: Sequence[Row]) -> str:
         groups |= {f"  {name}": [r for r in own if r[part] == name] for name in dict.fromkeys(r[part] for r in own)}
         for name, chosen in groups.items():
             for test in TESTS:
-                told = [judged(row, test) for row in chosen]
+                told = [score_first(row, test) for row in chosen]
                 asked = ("any",) if kind == "noise" else ("any", "covariate", "place", "both")
-                cells = [_cell(sum(t[what] for t in told), len(told), what) for what in asked]
+                cells = [_format_cell(sum(t[what] for t in told), len(told), what) for what in asked]
                 lines.append(f"{name:<36}{test:<8}" + "  ".join(cells))
     gains = [row["gain"] for row in rows if row["gain"] is not None]
     if gains:
         lines.append(
             "true terms gain {:.0f}, {:.0f}, {:.0f} (5, 50, 95 %)".format(*np.quantile(gains, [0.05, 0.5, 0.95]))
         )
-    wrong = [row for row in rows if row["kind"] != "noise" and not judged(row, "odds")["both"]]
-    phased = sum(ranked(row, "odds")[:1] == ["phase"] for row in wrong)
+    wrong = [row for row in rows if row["kind"] != "noise" and not score_first(row, "odds")["both"]]
+    phased = sum(rank_covariates(row, "odds")[:1] == ["phase"] for row in wrong)
     lines.append(f"odds: {len(wrong)} first places are wrong or empty, {phased} of them the phase of the drive")
     seconds = np.median([row["seconds"] for row in rows], axis=0)
     lines.append("median seconds: fit {:.1f}, shares {:.1f}, odds {:.1f}".format(*seconds))
     return "\n".join(lines)
 
 
-def _cell(hits: int, of: int, what: str) -> str:
-    low, high = band(hits, of)
+def _format_cell(hits: int, of: int, what: str) -> str:
+    low, high = compute_band(hits, of)
     return f"{what} {hits}/{of} = {hits / max(of, 1):.0%} [{low:.1%}, {high:.1%}]"
 
 
-def kept(path: Path) -> list[Row]:
+def read_rows(path: Path) -> list[Row]:
     """Return the lines of a run so far; one that was cut off is left out."""
     rows = []
     for line in path.read_text(encoding="utf-8").splitlines() if path.exists() else []:
@@ -241,11 +241,11 @@ def kept(path: Path) -> list[Row]:
 
 def run(seed: int, asked: Iterable[tuple[str, int]], path: Path) -> None:
     """Locate in those machines that are not yet in the file."""
-    done = {(row["kind"], row["number"]) for row in kept(path)}
+    done = {(row["kind"], row["number"]) for row in read_rows(path)}
     for kind, number in asked:
         if (kind, number) not in done:
             with path.open("a", encoding="utf-8") as stream:
-                stream.write(json.dumps(one(kind, seed, number)) + "\n")
+                stream.write(json.dumps(run_machine(kind, seed, number)) + "\n")
 
 
 def main() -> None:
@@ -260,9 +260,9 @@ def main() -> None:
     kinds = asked.only.split(",")
     wanted = [(k, n) for n in range(2 * asked.machines) for k in kinds if n < asked.machines or k == "noise"]
     run(asked.seed, wanted, path)
-    rows = [row for row in kept(path) if (row["kind"], row["number"]) in set(wanted)]
+    rows = [row for row in read_rows(path) if (row["kind"], row["number"]) in set(wanted)]
     print(" ".join([Path(sys.argv[0]).name, *sys.argv[1:]]))
-    print(summary(rows))
+    print(summarise(rows))
 
 
 if __name__ == "__main__":

@@ -36,18 +36,18 @@ TOGETHER = DAMPERS[:4]
 INCH = 0.0254
 
 
-def rows_of(seen: Found):
+def list_rows(seen: Found):
     """Return a row for each parameter: median and interval, how much wider with a memory, published, distance."""
     rows = []
     for key, free, unit in zip(seen.result.keys, seen.fit.problem.free, seen.result.units, strict=True):
         usual, robust = seen.deviations(free.key)
         between = seen.result.intervals.get(key)
         ours = f"{between.median:.5g} [{between.low:.5g}, {between.high:.5g}] {unit}" if between else "no interval"
-        rows.append((key, ours, f"{robust / usual:.1f}", *published(seen, key, free)))
+        rows.append((key, ours, f"{robust / usual:.1f}", *compare_published(seen, key, free)))
     return rows
 
 
-def published(seen: Found, key: str, free):
+def compare_published(seen: Found, key: str, free):
     """Return the published value, and how far ours is off in standard deviations: without and with a memory."""
     if key not in PUBLISHED or key not in seen.result.intervals:
         return "-", "-"
@@ -56,7 +56,7 @@ def published(seen: Found, key: str, free):
     return f"{value:.5g} +- {sd:.3g}", f"{off[0]:+.1f}, {off[1]:+.1f}"
 
 
-def state(seen: Found, taken: float) -> str:
+def describe_state(seen: Found, taken: float) -> str:
     """Return how the sampling ended, in a line."""
     quality = seen.result.quality
     said = "converged" if seen.result.converged else f"NOT converged ({'; '.join(seen.result.lacks)})"
@@ -67,16 +67,16 @@ def state(seen: Found, taken: float) -> str:
 HEAD = ("parameter", "median [95 %]", "x wider", "published", "z without, with")
 
 
-def carriage(args, folder):
+def identify_carriage(args, folder):
     """EMPS: either recording, and both together with noise and random force of each its own."""
     for files in (*((name,) for name in EMPS_FILES), EMPS_FILES):
         begin = time.perf_counter()
         seen = emps(folder, args.shared / "data" / "emps", files, args.plan)
         taken = time.perf_counter() - begin
-        show(f"EMPS, {' and '.join(files)}: {state(seen, taken)}", HEAD, rows_of(seen))
+        show(f"EMPS, {' and '.join(files)}: {describe_state(seen, taken)}", HEAD, list_rows(seen))
 
 
-def band(args, folder):
+def identify_band(args, folder):
     """The friction damper: each recording by itself, and the slow ones together."""
     data = args.shared / "data" / "brfd_friction_backlash"
     rows = []
@@ -84,21 +84,21 @@ def band(args, folder):
         begin = time.perf_counter()
         seen = damper(folder, data, (name,), args.plan)
         taken = time.perf_counter() - begin
-        values = [told(seen, key) for key in ("x0", "k0", "c", "m", FRICTION, "offset_force.force")]
-        rows.append((name, *values, far(seen), f"{seen.free_error:.3f}", state(seen, taken)))
+        values = [format_parameter(seen, key) for key in ("x0", "k0", "c", "m", FRICTION, "offset_force.force")]
+        rows.append((name, *values, format_travel(seen), f"{seen.free_error:.3f}", describe_state(seen, taken)))
     head = ("recording", "x0 (mm)", "k0 (MN/m)", "c (kN s/m)", "m (kg)", "friction (kN)", "offset (kN)")
     show("Friction damper with backlash", (*head, "travel (in)", "free run nrmse", "sampling"), rows)
     begin = time.perf_counter()
     seen = damper(folder, data, TOGETHER, args.plan)
     taken = time.perf_counter() - begin
-    show(f"Damper, {len(TOGETHER)} recordings together: {state(seen, taken)}", HEAD, rows_of(seen))
+    show(f"Damper, {len(TOGETHER)} recordings together: {describe_state(seen, taken)}", HEAD, list_rows(seen))
 
 
 FRICTION = "lugre_friction.force"
 SCALE = {"x0": 1e3, "k0": 1e-6, "m": 1.0}
 
 
-def told(seen: Found, key: str) -> str:
+def format_parameter(seen: Found, key: str) -> str:
     """Return a parameter in the unit of the table: median and 95 % interval."""
     if key not in seen.result.intervals:
         return "-"
@@ -106,13 +106,13 @@ def told(seen: Found, key: str) -> str:
     return f"{between.median * scale:.3g} [{between.low * scale:.3g}, {between.high * scale:.3g}]"
 
 
-def far(seen: Found) -> str:
+def format_travel(seen: Found) -> str:
     """Return the travel (inch) from a reversal to half of the plateau: 0.27 to 0.31 inch as read off the loops."""
     low, median, high = np.quantile(travel(seen) / INCH, [0.025, 0.5, 0.975])
     return f"{median:.3f} [{low:.3f}, {high:.3f}]"
 
 
-PARTS = {"emps": ("emps", carriage), "damper": ("brfd_friction_backlash", band)}
+PARTS = {"emps": ("emps", identify_carriage), "damper": ("brfd_friction_backlash", identify_band)}
 
 
 def main():

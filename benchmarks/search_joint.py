@@ -62,7 +62,7 @@ class Tried(NamedTuple):
         return float(np.sqrt(np.mean((self.exponents[CHAOTIC].mean(axis=1) - PAPER[CHAOTIC]) ** 2)))
 
 
-def tried(ratio: float, damping: float, half: float, *, starts: int, periods: int, transient: int) -> Tried:
+def try_place(ratio: float, damping: float, half: float, *, starts: int, periods: int, transient: int) -> Tried:
     """Return the exponents of a joint at all levels from some starts."""
     model, natural = default().make("model", "robot_joint"), OMEGA / ratio
     values = {"m": 1.0, "c": damping * natural, "k0": natural**2, "x0": math.radians(half), "mgl": 0.0}
@@ -78,26 +78,26 @@ def tried(ratio: float, damping: float, half: float, *, starts: int, periods: in
     return Tried(ratio, damping, half, found, scatter)
 
 
-def searched(places: list[tuple[float, float, float]], **effort: int) -> list[Tried]:
+def search_places(places: list[tuple[float, float, float]], **effort: int) -> list[Tried]:
     """Return all places tried, the best first."""
     found: list[Tried | None] = [None] * len(places)
 
     def work(begin: int, end: int) -> None:
         for k in range(begin, end):
-            found[k] = tried(*places[k], **effort)
+            found[k] = try_place(*places[k], **effort)
 
     spread(work, len(places), slices=len(places))
     return sorted((one for one in found if one), key=lambda one: (-round(one.right, 1), one.seen < SEEN, one.off))
 
 
-def near(one: Tried, rng: np.random.Generator, many: int, reach: float) -> list[tuple[float, float, float]]:
+def draw_near(one: Tried, rng: np.random.Generator, many: int, reach: float) -> list[tuple[float, float, float]]:
     """Return places close to one; the backlash is only known as about 1.5 degrees."""
     scale = np.exp(reach * rng.standard_normal((many, 2)))
     half = rng.uniform(0.7, 0.8, many)
     return [(one.ratio * a, one.damping * b, h) for (a, b), h in zip(scale, half, strict=True)]
 
 
-def told(found: list[Tried], many: int) -> None:
+def print_places(found: list[Tried], many: int) -> None:
     for one in found[:many]:
         levels = " ".join(f"{x:6.2f}" for x in one.exponents.mean(axis=1))
         print(
@@ -113,16 +113,16 @@ def main() -> None:
     ratios = np.geomspace(0.05, 1.2, 24 if quick else 96)
     dampings = np.geomspace(0.01, 0.6, 12 if quick else 40)
     grid = [(float(r), float(d), 0.75) for r in ratios for d in dampings]
-    found = searched(grid, starts=2, periods=150, transient=100)
-    told(found, 30)
+    found = search_places(grid, starts=2, periods=150, transient=100)
+    print_places(found, 30)
     rng = np.random.default_rng(2)
     for reach, starts, periods in ((0.03, 4, 300), (0.01, 8, 1000), (0.004, 12, 2000)):
         if quick:
             break
         print(f"within {reach:g} of the best, {starts} starts, {periods} periods")
-        places = [p for one in found[:8] for p in [(one.ratio, one.damping, one.half), *near(one, rng, 24, reach)]]
-        found = searched(places, starts=starts, periods=periods, transient=200)
-        told(found, 8)
+        places = [p for one in found[:8] for p in [(one.ratio, one.damping, one.half), *draw_near(one, rng, 24, reach)]]
+        found = search_places(places, starts=starts, periods=periods, transient=200)
+        print_places(found, 8)
 
 
 if __name__ == "__main__":
