@@ -265,10 +265,15 @@ NOTHING = SimpleNamespace(active=frozenset())
         ({"a": 90.0, "smooth": 2.0, "": 0.0}, {"a": -11.0}, None),
         ({"a": 12.0, "b": 20.0, "smooth": 2.0, "": 0.0}, {"a": 1.0, "b": -4.0}, "b"),
         ({"a": 12.0, "b": 20.0, "smooth": 2.0, "": 0.0}, {"a": 1.0, "b": -9.0}, "a"),
+        ({"a": 12.0, "s": 11.0, "smooth": 2.0, "": 0.0}, {"a": 1.0, "s": 0.0}, "a"),
+        ({"a": 12.0, "s": 13.0, "smooth": 2.0, "": 0.0}, {"a": 1.0, "s": 0.0}, None),
     ],
 )
 def test_held_out_data_decide_between_a_term_and_a_smooth_force(monkeypatch, scores, leads, chosen):
-    """Log odds of the fitted data and log scores of held-out data add; odds of 20, times those asked, are wanted."""
+    """Log odds of the fitted data and log scores of held-out data add; odds of 20, times those asked, are wanted.
+
+    `s` is a delay of a sensor: where it explains all data better, they do not decide for the force.
+    """
     fits = {k: SimpleNamespace(status="converged", key=k, problem=NOTHING) for k in scores}
     fitted_sets = {frozenset(k): TermSet(frozenset(k), fits[k], 50.0 if k else 0.0) for k in ("", *leads)}
     selection = SimpleNamespace(
@@ -280,7 +285,10 @@ def test_held_out_data_decide_between_a_term_and_a_smooth_force(monkeypatch, sco
         discrepancy_fit=lambda term_set: SimpleNamespace(fit=fits["smooth"], corrected=None),
         expansion=lambda term_set: SimpleNamespace(inflation=1.0),
     )
-    monkeypatch.setattr(confirming, "find_term", lambda problem, key: (SimpleNamespace(acts="motion"), ()))
+    acts = {"s": "sensor"}
+    monkeypatch.setattr(
+        confirming, "find_term", lambda problem, key: (SimpleNamespace(acts=acts.get(key, "motion")), ())
+    )
     monkeypatch.setattr(confirming, "score_heldout", lambda fit, pieces: scores[fit.key])
     monkeypatch.setattr(confirming, "cut_heldout", lambda observations, held: ())
     d = SimpleNamespace(selection=selection, learned=None, held=(), settings=DEFAULT)

@@ -103,7 +103,8 @@ def decide_by_heldout(
 
     On the fitted data a small smooth force explains about as much as such a term. The log score of the held-out data is
     added to the log odds of the fitted data; the sum is the log posterior odds of all data. A set is compared with the
-    best of: the smooth force, the smooth force with corrected channels, the learned curves, and the chosen set.
+    best of: the smooth force, the smooth force with corrected channels, the learned curves, and the chosen set. Nothing
+    is decided for a force if a term of a channel explains all data better.
     """
     d, selection = outcome.diagnosis, outcome.diagnosis.selection
     here = selection.fitted_sets.get(selection.chosen.problem.active)
@@ -117,9 +118,14 @@ def decide_by_heldout(
     close = sorted(close, key=lambda v: -selection.compute_log_odds(v, here))[:MOST_COMPARED]
     if not close:
         return None
-    gains = _measure_heldout_gains(d, close, here, cut_heldout(observations, d.held))
+    pieces = cut_heldout(observations, d.held)
+    gains = _measure_heldout_gains(d, close, here, pieces)
     best = max(close, key=lambda v: selection.compute_log_odds(v, here) + gains[v.terms])
     if not selection.compute_log_odds(best, here) + gains[best.terms] - math.log(len(close)) > decisive:
+        return None
+    channels = _list_tied(selection, here, decisive, channels=True)
+    scores = _measure_heldout_gains(d, channels, here, pieces)
+    if any(v.weight + scores[v.terms] > best.weight + gains[best.terms] for v in channels):
         return None
     return best.fit, gains
 
@@ -206,12 +212,13 @@ def _has_force_over_time(selection: Selection, here: TermSet) -> bool:
     return rival is not None and any(OverTime.name in key for key in rival.fit.problem.active)
 
 
-def _list_tied(selection: Selection, here: TermSet, decisive: float) -> list[TermSet]:
+def _list_tied(selection: Selection, here: TermSet, decisive: float, *, channels: bool = False) -> list[TermSet]:
     """Return the sets with one more force that evidence supports, but that are not better than a smooth force.
 
-    Terms of channels are left out, because usual channel errors are part of the discrepancy.
+    With `channels` it is one more term of a channel instead: usual channel errors are part of the discrepancy.
     """
-    keys = [k for k in sorted(selection.tied - here.terms) if find_term(here.fit.problem, k)[0].acts == "motion"]
+    keys = sorted(selection.tied - here.terms)
+    keys = [k for k in keys if (find_term(here.fit.problem, k)[0].acts != "motion") == channels]
     more = [here.terms | {key} for key in keys]
     sets = [selection.fitted_sets[terms] for terms in more if terms in selection.fitted_sets]
     return [v for v in sets if v.fit.status != "diverged" and v.weight > here.weight + decisive]
