@@ -1,6 +1,6 @@
 """A made-up diagnosis that looks like a real one: Case 1 with 3 N of dry friction hidden, and the files it would leave.
 
-Run it to look at a report: `python tests/framework/report_fixture.py FOLDER`.
+`draw_report.py` beside it draws the page.
 """
 
 from __future__ import annotations
@@ -8,7 +8,6 @@ from __future__ import annotations
 import copy
 import json
 import math
-import sys
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -397,11 +396,3 @@ def write(folder: Path, facts: dict[str, Any], data: xr.Dataset | None = None) -
     if data is not None:
         data.to_netcdf(folder / "arrays.nc", engine="h5netcdf")
     return folder
-
-
-if __name__ == "__main__":
-    from lostmotion.diagnosis.report.hero import save_hero
-    from lostmotion.diagnosis.report.page import write_report
-
-    home = write(Path(sys.argv[1]), mismatch(), arrays())
-    print(write_report(home), save_hero(home))  # noqa: T201
