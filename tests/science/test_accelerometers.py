@@ -33,15 +33,15 @@ SPEC.loader.exec_module(machines)
 @cache
 def recorded(number):
     """Return a machine of the campaign with seed 0, its recording and its true states: they take seconds."""
-    machine = machines.machine_of(0, number)
-    return machine, *machines.recorded(machine, 0)
+    machine = machines.draw_machine(0, number)
+    return machine, *machines.record(machine, 0)
 
 
 def posed(number):
     """Return a machine, its problem on what is fitted, the coordinates of the truth, and the true states."""
     machine, observation, states = recorded(number)
     system = System(default().make("model", machine.model), ())
-    problem = make_problem(system, machines.case_of(machine), split_heldout([observation])[0])
+    problem = make_problem(system, machines.make_case(machine), split_heldout([observation])[0])
     levels = {
         RANDOM: math.log((machines.EXCITATION_NOISE * machine.peak) ** 2 * machine.dt),
         NOISE: math.log(machine.noise * states[:, 2].std()),
@@ -72,7 +72,7 @@ def test_the_usual_noise_of_a_hammer_goes_with_its_peak():
 def test_between_hits_the_noise_of_a_hammer_is_no_force():
     """A body at rest that does not answer the noise was said to be held by friction, in 4 of 50 machines."""
     t, rng = np.arange(4000.0), np.random.default_rng(3)
-    true = machines.hammer(t, np.array([200.3, 2100.8]), np.array([8.0, 15.0]), np.array([1.0, 0.6]))
+    true = machines.make_hammer_blows(t, np.array([200.3, 2100.8]), np.array([8.0, 15.0]), np.array([1.0, 0.6]))
     noise = 1e-3 * rng.standard_normal(len(t))
     kept = window_force(true + noise)
     rest = np.abs(kept - true)[true == 0.0]
@@ -94,7 +94,7 @@ def test_what_edges_of_hits_do_between_samples_is_told_as_it_is():
         begin, width = 200.0 + rng.random(), math.exp(rng.uniform(math.log(6.0), math.log(25.0)))
         share = np.clip((t - begin) / width, 0.0, 1.0)
         true = np.diff(width / math.pi * (1.0 - np.cos(math.pi * share)))
-        force = machines.hammer(t, np.array([begin]), np.array([width]), np.array([1.0]))
+        force = machines.make_hammer_blows(t, np.array([begin]), np.array([width]), np.array([1.0]))
         seen = Observation.of("a", force, force[:, None], 1.0, "acceleration")
         means = seen.drive.cubics[:-1, :, 0] @ (1.0 / np.arange(1.0, 5.0))
         told, made = told + float(np.sum(seen.input_variance)), made + float(np.sum((means - true) ** 2))
@@ -177,7 +177,7 @@ def test_intervals_cover_and_nothing_is_named_where_nothing_is_hidden():
 
     Fewer than 13 cover in 1 of 140 draws of six machines; something is named in 1 of 15 or so. The seed is fixed.
     """
-    rows = [machines.one(11, number) for number in range(6)]
+    rows = [machines.run_machine(11, number) for number in range(6)]
     covers = [e["covers"] for row in rows for e in row["estimates"].values()]
     assert sum(covers) >= binom.ppf(0.005, len(covers), 0.95)
     assert [row["found"] for row in rows] == [[]] * 6
