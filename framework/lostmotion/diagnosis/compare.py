@@ -91,7 +91,7 @@ def predict(fit: Fit, pieces: Sequence[HeldOutStretch], horizon: Horizon, rates:
     problems = [fit.problem.on((piece.observation,)) for piece in pieces]
     tracked = [filter_recording(problem, fit.theta) for problem in problems]
     runs, expected, lengths = [], [], [p.observation.samples - p.begin for p in pieces]
-    scores = compute_block_scores(fit, pieces)
+    scores = [compute_block_scores(fit, piece) for piece in pieces]
     for piece, problem, seen in zip(pieces, problems, tracked, strict=True):
         held = slice(piece.begin, None)
         expected.append(seen.expected_score(held))
@@ -103,7 +103,7 @@ def predict(fit: Fit, pieces: Sequence[HeldOutStretch], horizon: Horizon, rates:
     forecasts, restarts = _forecast(problems[0], fit, first.states, pieces[0], horizon)
     tail = slice(pieces[0].begin, None)
     return Prediction(
-        log_score=float(np.average(scores.reshape(len(pieces), -1).mean(axis=1), weights=lengths)),
+        log_score=float(np.average([np.mean(own) for own in scores], weights=lengths)),
         expected_score=float(np.average(expected, weights=lengths)),
         nrmse=float(np.mean(nrmse)),
         by_sensor=tuple(nrmse),
@@ -119,7 +119,7 @@ def predict(fit: Fit, pieces: Sequence[HeldOutStretch], horizon: Horizon, rates:
         white=_combine_p_values(
             [compute_whiteness(*_select_used(first, tail, sensor)) for sensor in range(len(joint))]
         ),
-        scores=scores,
+        scores=np.concatenate(scores),
     )
 
 

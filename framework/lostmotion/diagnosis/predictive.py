@@ -31,16 +31,13 @@ class HeldOutStretch:
     begin: int
 
 
-def compute_block_scores(fit: Fit, pieces: Sequence[HeldOutStretch]) -> Array:
-    """Return the log density per sample of successive blocks of held-out data, (pieces * BLOCKS,).
+def compute_block_scores(fit: Fit, piece: HeldOutStretch) -> Array:
+    """Return the log density per sample of successive blocks of a held-out part, (blocks,), at most `BLOCKS`.
 
     Each is the logarithm of the mean density over draws from the posterior: a block alone hardly changes the posterior.
     """
-    thetas, scores = _draw_near(fit), []
-    for piece in pieces:
-        parts = np.array_split(_compute_log_densities(fit, piece, thetas), BLOCKS, axis=1)
-        scores += [_average(np.sum(part, axis=1)) / part.shape[1] for part in parts if part.shape[1]]
-    return np.array(scores)
+    parts = np.array_split(_compute_log_densities(fit, piece, _draw_near(fit)), BLOCKS, axis=1)
+    return np.array([_average(np.sum(part, axis=1)) / part.shape[1] for part in parts if part.shape[1]])
 
 
 def score_heldout(fit: Fit, pieces: Sequence[HeldOutStretch]) -> float:
