@@ -118,14 +118,13 @@ def decide_by_heldout(
     close = sorted(close, key=lambda v: -selection.compute_log_odds(v, here))[:MOST_COMPARED]
     if not close:
         return None
-    pieces = cut_heldout(observations, d.held)
-    gains = _measure_heldout_gains(d, close, here, pieces)
+    channels = _list_tied(selection, here, decisive, channels=True)
+    measured = _measure_heldout_gains(d, [*close, *channels], here, cut_heldout(observations, d.held))
+    gains = {v.terms: measured[v.terms] for v in close}
     best = max(close, key=lambda v: selection.compute_log_odds(v, here) + gains[v.terms])
     if not selection.compute_log_odds(best, here) + gains[best.terms] - math.log(len(close)) > decisive:
         return None
-    channels = _list_tied(selection, here, decisive, channels=True)
-    scores = _measure_heldout_gains(d, channels, here, pieces)
-    if any(v.weight + scores[v.terms] > best.weight + gains[best.terms] for v in channels):
+    if any(v.weight + measured[v.terms] > best.weight + gains[best.terms] for v in channels):
         return None
     return best.fit, gains
 

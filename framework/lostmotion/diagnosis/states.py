@@ -14,6 +14,7 @@ from lostmotion.diagnosis.search import SearchResult
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.natural import find_term
 from lostmotion.inference.penalties import are_related
+from lostmotion.inference.term_sets import SimplestTerms
 from lostmotion.quantities import TIME
 from lostmotion.report.words import to_words
 from lostmotion.results import percent, rounded
@@ -60,7 +61,7 @@ def list_warnings(d: SearchResult, key: str) -> list[str]:
 def _warn_of_probability(d: SearchResult, key: str) -> Iterator[str]:
     p = compute_probability(d, key)
     if d.selection.simplest:
-        others = _list_simplest_alternatives(d, key)
+        others = _list_simplest_alternatives(d, d.selection.simplest, key)
         yield (
             "It explains the fitted data better than any learned curve and predicts held-out data as well as one; but a"
             f" small generic smooth force explains about as much, so its probability is {rounded(p)}."
@@ -134,12 +135,9 @@ def _warn_of_rest(d: SearchResult, key: str) -> Iterator[str]:
             yield f"With it, {percent(share)} of the missing force is still missing."
 
 
-def _list_simplest_alternatives(d: SearchResult, key: str) -> list[str]:
+def _list_simplest_alternatives(d: SearchResult, simplest: SimplestTerms, key: str) -> list[str]:
     """Return the names of the terms, one of which may be the simplest explanation in place of the chosen terms."""
-    simplest, found = d.selection.simplest, d.selection.chosen.problem.active
-    if simplest is None:
-        return []
-    least, p = d.settings.name.rival, simplest.probabilities
+    found, least, p = d.selection.chosen.problem.active, d.settings.name.rival, simplest.probabilities
     keys = sorted((k for k in p if k not in found and p[k] > least * p.get(key, 0.0)), key=lambda k: -p[k])
     return list(dict.fromkeys(to_words(find_term(d.before.problem, k)[0].name) for k in keys))
 
