@@ -8,7 +8,9 @@ import pytest
 from lostmotion.diagnosis import confirming
 from lostmotion.diagnosis import search as searching
 from lostmotion.diagnosis.compare import PARTS
+from lostmotion.inference import selection as selecting
 from lostmotion.inference.term_sets import Selection, TermSet
+from lostmotion.likelihood.problem import RANDOM
 from lostmotion.settings import DEFAULT
 
 NOTHING = SimpleNamespace(active=frozenset())
@@ -43,7 +45,7 @@ def test_a_law_better_than_any_curve_is_the_simplest_explanation(monkeypatch, we
     selection = Selection(nominal, nominal, fitted_sets)
     monkeypatch.setattr(Selection, "discrepancy_fit", lambda self, term_set: smooth)
     monkeypatch.setattr(Selection, "expansion", lambda self, term_set: expansion)
-    monkeypatch.setattr(confirming, "has_usual_random_force", lambda fit: fit.key != "l")
+    monkeypatch.setattr(confirming, "compute_random_force_gain", lambda fit: 50.0 * (fit.key == "l"))
     monkeypatch.setattr(confirming, "delay_in_samples", lambda fit, key: 0.1 if key == "u" else np.inf)
     monkeypatch.setattr(confirming, "score_heldout", lambda fit, pieces: scores[fit.key])
     monkeypatch.setattr(confirming, "compute_run_errors", lambda fit, pieces, horizon: np.ones(PARTS))
@@ -97,3 +99,38 @@ def test_sets_with_a_term_that_held_out_data_refute_have_no_probability(monkeypa
     chances = Selection(**vars(selection)).probabilities()
     assert set(chances) == {frozenset(), frozenset({"damping"}), frozenset({"damping", "offset"})}
     assert chances[frozenset({"damping", "offset"})] > 0.99
+
+
+def fit_of(*keys):
+    return SimpleNamespace(problem=SimpleNamespace(active=frozenset(keys), settings=DEFAULT), status="converged")
+
+
+@pytest.mark.parametrize(("confirmed", "largest"), [(False, DEFAULT.rival.much - 9.0), (True, 300.0)])
+def test_a_gain_that_no_fit_confirms_does_not_make_a_set_probable(monkeypatch, confirmed, largest):
+    """A set 9 behind whose discrepancy predicts 309, and one with a further term that is 14 behind."""
+    weights = {"": 0.0, "sat": 60.0, "gain": 51.0, "cogging sat": 46.0}
+    fitted_sets = {
+        frozenset(k.split()): TermSet(frozenset(k.split()), fit_of(*k.split()), w) for k, w in weights.items()
+    }
+    chosen, other, more = (fitted_sets[frozenset(k.split())] for k in ("sat", "gain", "cogging sat"))
+    selection = Selection(fitted_sets[frozenset()].fit, chosen.fit, fitted_sets)
+    selection.expansions = dict.fromkeys((chosen.terms, other.terms, more.terms))
+    leads = {other.terms: 300.0, more.terms: 16.0}
+    monkeypatch.setattr(Selection, "discrepancy_fit", lambda self, term_set: confirmed or None)
+    monkeypatch.setattr(Selection, "compute_log_odds", lambda self, term_set, over: -leads[over.terms])
+    chances = selection.probabilities()
+    assert np.log(chances[other.terms] / chances[chosen.terms]) == pytest.approx(largest)
+    assert np.log(chances[more.terms] / chances[chosen.terms]) == pytest.approx(-14.0)
+
+
+@pytest.mark.parametrize(
+    ("deviations", "ratio", "robust"), [(2.3, 1.0, True), (2.3, 1.5, False), (3.5, 1.5, True), (3.5, 2.5, False)]
+)
+def test_a_vague_amplitude_counts_where_samples_are_independent(monkeypatch, deviations, ratio, robust):
+    """The share of a drive that saturates is vague only because its limit goes with it."""
+    monkeypatch.setattr(selecting, "measure_significance", lambda fit: (deviations, ratio))
+    force = SimpleNamespace(active=frozenset("a"), settings=DEFAULT, keys=(RANDOM,))
+    fit = SimpleNamespace(problem=force, theta=np.zeros(1))
+    term_set = TermSet(frozenset("a"), fit, 10.0)
+    selector = SimpleNamespace(selection=None, limits=DEFAULT.select, _significances={})
+    assert selecting.Selector._is_robust(selector, term_set, term_set) == robust

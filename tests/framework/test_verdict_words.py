@@ -67,6 +67,19 @@ def test_what_grows_is_not_said_to_fall(monkeypatch, force, error, told):
     assert f"over one drive period {end} of the response" in said
 
 
+def test_a_force_within_the_noise_is_not_said_to_rise(monkeypatch):
+    outcome = diagnosed([0.0])
+    outcome.before, outcome.after.nrmse = SimpleNamespace(nrmse=0.2), 0.1
+    monkeypatch.setattr(verdict, "compute_noise_floor", lambda _: 0.01)
+    monkeypatch.setattr(
+        verdict, "measure_unexplained", lambda _, after: UnexplainedForce(not after, 2.0 if after else 1.0, "N", 0.1)
+    )
+    friction = Mechanism(mechanism="friction", probability=1.0, state="named", parameters={}, says="Friction acts.")
+    assert verdict.summarise(outcome, [friction])[1].startswith(
+        "With it the free-running prediction error of held-out data over one drive period falls from 20 % to 10 %"
+    )
+
+
 def test_noise_that_may_be_motion_is_doubted():
     assert note_large_noise(diagnosed([0.2])) == []
     assert note_large_noise(diagnosed([0.0], white=0.7)) == []

@@ -123,6 +123,28 @@ def test_filter_equals_that_of_matrices(name, sensors, random):
     assert np.allclose(fast.variances, slow.variances, rtol=slack)
 
 
+def test_sliding_friction_with_an_elastic_part_is_smoothed():
+    """Of a bristle that slides the filter knows the deflection to 1e-18, and rounding errors must not be amplified.
+
+    The smoothed force was 1.7 N m at a prior standard deviation of 0.0006 N m before.
+    """
+    system = System(RobotJoint(), (DahlFriction(),))
+    values = {"m": 0.104, "c": 0.0985, "k0": 54.9, "x0": 0.00738}
+    full = system.vector({**values, "dahl_friction.force": 0.0033, "dahl_friction.deflection": 0.00125})
+    drive = Drive.smooth([lambda t: 0.06 * np.cos(3.25 * t), lambda t: -0.195 * np.sin(3.25 * t)], 0.0171, 400)
+    truth = system.simulate(full, system.everything, np.array([0.001, 0.1]), drive, 7).states[:, :1]
+    noise = 1e-2 * truth.std()
+    z = truth + noise * np.random.default_rng(0).standard_normal(truth.shape)
+    points = replace(
+        points_of(Dynamics(system, system.everything), full, drive, z, 1),
+        pace=np.array([77.0]), process=np.array([1e-8]), white=np.array([[noise**2]]),
+    )  # fmt: skip
+    observation = Observation("seen", z, drive.inputs, drive.dt, (Sensor("position"),))
+    for engine in (Lanes(), Reference()):
+        seen = engine.smooth(Dynamics(system, system.everything, 7, "latent"), observation, points)
+        assert seen.states[:, 3].std() < 6e-4
+
+
 @pytest.mark.parametrize("name", TWINS)
 def test_free_run_equals_its_slow_twin_and_that_of_matrices(name):
     model, term, values, columns = TWINS[name]

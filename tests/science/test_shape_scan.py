@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 from test_unknown_force import CLEAN, RIPPLE, fitted
 from truths import case_of
 
+from lostmotion.case import CaseFile, Prior
 from lostmotion.contracts import Param, Term
 from lostmotion.diagnosis.search import diagnose
+from lostmotion.inference.setup import make_problem, search_maximum
 from lostmotion.inference.shape_scan import scan_shapes
+from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.candidates import candidates_of
 from lostmotion.quantities import FORCE, LENGTH
@@ -69,3 +73,36 @@ def test_a_short_pitch_is_named_with_its_size():
     values = found.after.values
     assert values["ratchet.force"] == pytest.approx(-1.0, abs=0.1)
     assert values["ratchet.pitch"] == pytest.approx(PITCH, rel=0.01)
+
+
+def clipped(limit):
+    """Return the fit of a linear oscillator to its motion under three tones of which only `limit` acts, by leapfrog."""
+    rng, dt, fine, samples = np.random.default_rng(5), 0.01, 50, 3000
+    times = dt / fine * (np.arange(samples * fine) + 0.5)
+    tones = sum(np.cos(w * times + 1.7 * w) for w in (7.0, 13.0, 19.0))
+    x, v, seen = 0.0, 0.0, np.zeros(samples)
+    for k, push in enumerate(np.clip(tones, -limit, limit)):
+        if k % fine == 0:
+            seen[k // fine] = x
+        v += dt / fine * (push - 2.0 * v - 400.0 * x)
+        x += dt / fine * v
+    force = sum(np.cos(w * dt * np.arange(samples) + 1.7 * w) for w in (7.0, 13.0, 19.0))
+    z = seen + 0.01 * seen.std() * rng.standard_normal(samples)
+    observation = Observation.of("seen", z, force[:, None], dt, "position")
+    registry = default()
+    model = registry.make("model", "linear_oscillator")
+    system = System(model, candidates_of(model, [registry.load("term", "drive_saturation")]))
+    priors = {"c": Prior(low=0.2, high=20.0, scale="log"), "k": Prior(low=40.0, high=4e3, scale="log")}
+    case = CaseFile("study", Path(), (), "linear_oscillator", {"m": 1.0}, priors, {}, (), "")
+    return search_maximum(make_problem(system, case, (observation,)), rng, points=24, finalists=2)
+
+
+@pytest.mark.parametrize("limit", [2.2, 2.5])
+def test_the_limit_of_a_drive_that_saturates_is_scanned_for(limit):
+    """Three tones of 1 N add up to 3 N; the usual values of the limit are 60 % apart."""
+    found = scan_shapes(clipped(limit))
+    assert found["drive_saturation"][0]["drive_saturation.limit"] == pytest.approx(limit, rel=0.1)
+
+
+def test_a_drive_that_does_not_saturate_has_no_limit():
+    assert scan_shapes(clipped(9.0)) == {}

@@ -23,7 +23,7 @@ from lostmotion.inference.channel_correction import CorrectedFit
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.learned import OverTime
 from lostmotion.inference.natural import find_term
-from lostmotion.inference.random_force import has_usual_random_force
+from lostmotion.inference.random_force import compute_random_force_gain
 from lostmotion.inference.term_sets import Selection, SimplestTerms, TermSet
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import RANDOM
@@ -149,6 +149,7 @@ def find_simplest(outcome: Outcome, observations: Sequence[Observation]) -> tupl
     least = here.weight + max(curve, decisive + max(gain, 0.0))
     sets = _list_simple_sets(selection, here)
     good = sorted((v for v in sets if v.weight > least), key=lambda v: -v.weight)[:MOST_COMPARED]
+    good = [v for v in good if compute_random_force_gain(v.fit) <= d.settings.locate.significant]
     best = (
         _select_predicting(outcome, good, cut_heldout(observations, d.held), decisive * usual.inflation)
         if good
@@ -185,7 +186,7 @@ def _select_predicting(
 
 
 def _list_simple_sets(selection: Selection, here: TermSet) -> list[TermSet]:
-    """Return the fitted sets without a remaining random force in which each term is decisive.
+    """Return the fitted sets in which each term is decisive.
 
     The chosen set, its subsets and, if it has terms, its extensions are left out, and sets of several terms with a
     delay that is usual in acquisition systems.
@@ -195,7 +196,7 @@ def _list_simple_sets(selection: Selection, here: TermSet) -> list[TermSet]:
     def qualifies(term_set: TermSet) -> bool:
         if term_set.terms <= here.terms or (here.terms and term_set.terms > here.terms) or term_set.terms & barred:
             return False
-        if term_set.fit.status == "diverged" or not has_usual_random_force(term_set.fit):
+        if term_set.fit.status == "diverged":
             return False
         parts = (selection.fitted_sets.get(term_set.terms - {key}) for key in term_set.terms)
         decisive = all(term_set.weight > part.weight + settings.select.decisive for part in parts if part)

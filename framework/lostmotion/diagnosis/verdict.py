@@ -302,20 +302,31 @@ def summarise(outcome: Outcome, found: Sequence[Mechanism], rest: Sequence[OpenT
         opening[0] = f"{opening[0][:-1]}, and the model leaves it out."
     elif len(found) > 1:
         opening.append(f"The model leaves out {'both' if len(found) == 2 else f'all {len(found)} of them'}.")
-    old, new = measure_unexplained(d, after=False), measure_unexplained(d, after=True)
-    errors = [outcome.before.nrmse, outcome.after.nrmse]
-    sizes = [rounded(one.rms, 3) for one in (old, new)]
-    verbs = ["rises" if new.rms > old.rms else "falls", " rises" if errors[1] > errors[0] else " falls"]
-    if verbs[1].strip() == verbs[0]:
-        verbs[1] = ""
-    opening.append(
-        f"With {'it' if len(found) == 1 else 'them'} the unexplained force{_describe_body(d)} {verbs[0]} from"
-        f" {sizes[0]} to {sizes[1]} {new.unit} (rms), and the free-running prediction error of held-out"
-        f" data over {time}{verbs[1]} from {percent(errors[0])} to {percent(errors[1])} of the"
-        " response; the noise alone is"
-        f" {percent(floor)}."
-    )
+    opening.append(_describe_improvement(outcome, len(found), time, floor))
     opening += note_large_noise(outcome)
     if d.unexplained:
-        opening.append(f"A force of {sizes[1]} {new.unit} rms remains that no term of the library explains.")
+        new = measure_unexplained(d, after=True)
+        opening.append(f"A force of {rounded(new.rms, 3)} {new.unit} rms remains that no term of the library explains.")
     return (*opening, *left)
+
+
+def _describe_improvement(outcome: Outcome, found: int, time: str, floor: float) -> str:
+    """Return the sentence on the unexplained force and the held-out error without and with the found terms.
+
+    The size of a force that is within the noise is told only where it falls.
+    """
+    d, errors = outcome.diagnosis, [outcome.before.nrmse, outcome.after.nrmse]
+    old, new = measure_unexplained(d, after=False), measure_unexplained(d, after=True)
+    rises, worse = new.rms > old.rms, errors[1] > errors[0]
+    verb, force = " rises" if worse else " falls", ""
+    if new.significant or not rises:
+        force = (
+            f" the unexplained force{_describe_body(d)} {'rises' if rises else 'falls'} from {rounded(old.rms, 3)} to"
+            f" {rounded(new.rms, 3)} {new.unit} (rms), and"
+        )
+        verb = "" if rises == worse else verb
+    return (
+        f"With {'it' if found == 1 else 'them'}{force} the free-running prediction error of held-out data over"
+        f" {time}{verb} from {percent(errors[0])} to {percent(errors[1])} of the response; the noise alone is"
+        f" {percent(floor)}."
+    )

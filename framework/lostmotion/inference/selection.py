@@ -254,14 +254,15 @@ class Selector:
 
         With autocorrelated residuals samples are not independent, and a term that resembles them always gains. Each
         amplitude must therefore be significant by its robust standard deviation. If this exceeds the usual one by a
-        factor, the set must also reduce the random force by a share.
+        factor, the set must also reduce the random force by a share. Where it does not exceed the usual one, samples
+        are independent, and the evidence decides: an amplitude may be vague only because a shape goes with it.
         """
         if term_set.terms not in self._significances:
             self._significances[term_set.terms] = measure_significance(term_set.fit)
         least, memory = self._significances[term_set.terms]
         levels = [v.fit.theta[v.fit.problem.keys.index(RANDOM)] for v in (term_set, here)]
         calm = memory < self.limits.memory or levels[0] < levels[1] + math.log(1.0 - self.limits.share)
-        return least > self.limits.certain and calm
+        return memory < self.limits.independent or (least > self.limits.certain and calm)
 
     def _run_score_tests(self, fit: Fit) -> list[ScoreTest]:
         """Return the score tests of all terms at a fit; terms with many parameters only if a related one is promising.

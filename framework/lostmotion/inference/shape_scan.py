@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -56,13 +56,21 @@ class SmoothedMotion:
         return float(np.ptp(self.states[:, 0]))
 
     def compute_law(self, key: str, values: Mapping[str, float]) -> Array:
-        """Return the acceleration (samples,) that a term with these parameters gives the body at its place."""
+        """Return the acceleration (samples,) that a term with these parameters gives the body at its place.
+
+        A term of the drive gives it to the first body.
+        """
         problem, observation = self.problem, self.problem.observations[0]
-        system, row = problem.system, place_of(problem.system.model, find_term(problem, key)[0]).row
+        system, term = problem.system, find_term(problem, key)[0]
         full = problem.full(self.theta)
         full[[system.index[name] for name in values]] = list(values.values())
+        if term.acts == "drive":
+            changed = replace(problem, active=problem.active | {key}).drive_at(full, 0).inputs[: len(self.states)]
+            row = system.model.interfaces[0].row
+            return np.asarray(self._rates(self._packed, frozenset(), changed)[:, row] - self._driven[:, row])
+        row = place_of(system.model, term).row
         packed = system.pack(full[None], observation.dt / problem.nsub, observation.harmonic)
-        return np.asarray(self._rates(packed, frozenset({key}))[:, row] - self._bare[:, row])
+        return np.asarray(self._rates(packed, frozenset({key}), observation.inputs)[:, row] - self._bare[:, row])
 
     def compute_columns(self, key: str, shape: Mapping[str, float]) -> Array:
         """Return the effect of each amplitude of a term alone at its typical size, (samples, amplitudes)."""
@@ -74,18 +82,27 @@ class SmoothedMotion:
         ]
         return np.stack(laws, axis=1)
 
-    def _rates(self, packed: Array, active: frozenset[str]) -> Array:
-        observation = self.problem.observations[0]
-        told = (packed, self.states, observation.inputs, observation.time)
-        return compute_derivatives(self.problem.system, active, *told)[0]
+    def _rates(self, packed: Array, active: frozenset[str], inputs: Array) -> Array:
+        times = self.problem.observations[0].time
+        return compute_derivatives(self.problem.system, active, packed, self.states, inputs, times)[0]
+
+    @cached_property
+    def _packed(self) -> Array:
+        """The parameters of the fit without any term."""
+        problem, observation = self.problem, self.problem.observations[0]
+        full = problem.full(self.theta)[None]
+        return problem.system.pack(full, observation.dt / problem.nsub, observation.harmonic)
 
     @cached_property
     def _bare(self) -> Array:
         """The derivatives (samples, n) of the states without any term."""
-        problem, observation = self.problem, self.problem.observations[0]
-        full = problem.full(self.theta)[None]
-        packed = problem.system.pack(full, observation.dt / problem.nsub, observation.harmonic)
-        return self._rates(packed, frozenset())
+        return self._rates(self._packed, frozenset(), self.problem.observations[0].inputs)
+
+    @cached_property
+    def _driven(self) -> Array:
+        """The derivatives (samples, n) of the states with the input that acts in the fit, and without other terms."""
+        inputs = self.problem.drive(0, self.theta).inputs[: len(self.states)]
+        return self._rates(self._packed, frozenset(), inputs)
 
     def measure_steadiness(self, key: str, shape: Mapping[str, float]) -> float:
         """Return the correlation of a law with the gradient in standard errors, all amplitudes together."""
@@ -167,9 +184,12 @@ def scan_shapes(fit: Fit) -> dict[str, list[dict[str, float]]]:
 
 
 def list_scannable(problem: Problem) -> list[str]:
-    """Return the keys of forces without states, and of nonlinear sensors, that have a free shape and are not active."""
+    """Return the keys of the terms whose shapes are scanned: those with a free shape that are not active.
+
+    They are forces without states, terms of the drive, and terms that make a sensor nonlinear.
+    """
     idle = [(key, find_term(problem, key)[0]) for key in problem.system.keys if key not in problem.active]
-    plain = [key for key, term in idle if term.acts == "motion" and not term.states]
+    plain = [key for key, term in idle if term.acts in ("motion", "drive") and not term.states]
     return [key for key in (*plain, *problem.system.bending_terms) if _list_free_shapes(problem, key)]
 
 
@@ -185,7 +205,8 @@ def _select_best_shape(motion: SmoothedMotion | SensorErrors, key: str) -> dict[
     def steadiest(tried: list[dict[str, float]]) -> tuple[float, dict[str, float]]:
         return max(((motion.measure_steadiness(key, shape), shape) for shape in tried), key=lambda pair: pair[0])
 
-    top, best = steadiest(list_shapes(problem, key, motion.travel))
+    travel = 0.0 if find_term(problem, key)[0].acts == "drive" else motion.travel
+    top, best = steadiest(list_shapes(problem, key, travel))
     return (
         best
         if top > max(problem.settings.select.shape_steady, steadiest(_list_star_shapes(problem, key, usual))[0])

@@ -345,14 +345,15 @@ class Selection:
 
         Sets with an expansion are compared together with the discrepancy; the others are compared by evidence, and are
         at most as probable as the least probable of the former. The log odds of a set over a subset are at most those
-        that were confirmed.
+        that were confirmed, and those of any set are limited where no fit confirms the gain of its discrepancy.
         """
         excluded = (self.declined | self.withdrawn | self.replaced) - self.chosen.problem.active
         considered = {k: v for k, v in self.fitted_sets.items() if not k & excluded}
         chosen = self.fitted_sets[self.chosen.problem.active]
         log_odds = {k: v.weight - chosen.weight for k, v in considered.items()}
         known = [terms for terms in considered if terms in self.expansions and terms != chosen.terms]
-        log_odds |= {terms: -self.compute_log_odds(chosen, self.fitted_sets[terms]) for terms in known}
+        pairs = [(terms, considered[terms]) for terms in known]
+        log_odds |= {k: min(-self.compute_log_odds(chosen, v), self._limit_log_odds(v, chosen)) for k, v in pairs}
         for (more, fewer), known_odds in sorted(self.known_log_odds.items(), key=lambda known: len(known[0][0])):
             if fewer < more and more in log_odds and fewer in log_odds and more != chosen.terms:
                 log_odds[more] = min(log_odds[more], log_odds[fewer] + known_odds.value)
@@ -363,6 +364,16 @@ class Selection:
         raw = {k: math.exp(height - top) for k, height in log_odds.items()}
         total = sum(raw.values())
         return {k: w / total for k, w in raw.items()}
+
+    def _limit_log_odds(self, term_set: TermSet, over: TermSet) -> float:
+        """Return the largest log odds of a set over the chosen one, from their weights.
+
+        A discrepancy adds no more to a set than to a subset of it, and a gain that no fit confirms counts up to `much`.
+        """
+        if term_set.terms > over.terms:
+            return term_set.weight - over.weight
+        confirmed = self.discrepancy_fit(term_set) is not None
+        return math.inf if confirmed else term_set.weight - over.weight + self.limits.much
 
     def list_close_fits(self) -> list[Fit]:
         """Return the fits of the best sets that are close to the chosen one, without that one."""

@@ -335,7 +335,11 @@ class Problem:
 
     def drive(self, index: int, theta: Array) -> Drive:
         """Return the input that acts in a recording at the coordinates `theta`."""
-        return self._make_drives(self.full(theta, index)[None], index)[0][0]
+        return self.drive_at(self.full(theta, index), index)
+
+    def drive_at(self, full: Array, index: int) -> Drive:
+        """Return the input that acts in a recording with the full parameter vector `full` of the system."""
+        return self._make_drives(full[None], index)[0][0]
 
     def noise(self, theta: Array, index: int = 0, sensor: int = 0) -> tuple[float, float]:
         """Return the intensity of the random force (N^2 s) and the variance of the white noise of a sensor."""

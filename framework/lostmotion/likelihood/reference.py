@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from lostmotion.contracts import Array, Engine
 from lostmotion.kernels.crossing import BEND_LIMIT, PACED_LIMIT, PACED_SHARE, STEP_LIMIT, TINY
 from lostmotion.kernels.filter import INNER_POINT, INNER_WEIGHT, OUTER_POINT, OUTER_WEIGHT, UNREAD_VARIANCE
+from lostmotion.kernels.smooth import SURE
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Smoothed
 from lostmotion.likelihood.lanes import count_fine_steps, find_input_variance
@@ -44,8 +45,9 @@ class Reference(Engine):
         reached = np.array([run.filter()], dtype=np.int64)
         seen, ahead, steps = run.seen, run.ahead, run.steps
         states, covs = [seen[-1][0]], [seen[-1][1]]
+        sure = np.diag((SURE * np.max([np.abs(y) for y, _ in seen], axis=0)) ** 2 + 1e-300)
         for (y, cov), (mean, before), step in zip(seen[-2::-1], ahead[:0:-1], steps[::-1], strict=True):
-            gain = np.linalg.solve(before + 1e-300 * np.eye(len(y)), step @ cov).T
+            gain = np.linalg.solve(before + sure, step @ cov).T
             covs.append(cov + gain @ (covs[-1] - before) @ gain.T)
             states.append(y + gain @ (states[-1] - mean))
         filtered, covariance = (np.array([pair[i] for pair in seen]) for i in (0, 1))

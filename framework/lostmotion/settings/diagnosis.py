@@ -88,6 +88,11 @@ class SelectSettings:
         "An amplitude counts when it is at least this many robust standard deviations from its null.",
         "White, Econometrica 50 (1982) 1-25",
     )
+    independent: float = threshold(
+        1.1,
+        "Up to this ratio of robust to usual standard deviations, samples count as independent: evidence decides.",
+        least=1.0,
+    )
     memory: float = threshold(
         2.0,
         "From this ratio of robust to usual standard deviations on, the residuals count as correlated in time.",
