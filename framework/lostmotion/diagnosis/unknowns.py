@@ -14,6 +14,7 @@ from lostmotion.contracts import Array, place_of
 from lostmotion.diagnosis.search import ForceLocation, SearchResult
 from lostmotion.diagnosis.states import OPEN
 from lostmotion.inference.curves import Band, compute_band, smooth_motions
+from lostmotion.inference.fit import Fit
 from lostmotion.inference.learned import list_covariates
 from lostmotion.inference.likeness import find_likeness
 from lostmotion.inference.locate import join_names
@@ -23,6 +24,7 @@ from lostmotion.inference.proposal import Axis, propose_formula
 from lostmotion.inference.shares import SURROGATES
 from lostmotion.inference.surfaces import OverHistory, Surface
 from lostmotion.inference.unexplained import UnknownForce
+from lostmotion.likelihood.problem import RANDOM
 from lostmotion.quantities import LENGTH, NUMBER, SPEED, TIME, Dimension
 from lostmotion.report.words import to_words
 from lostmotion.results import Interval, percent, rounded
@@ -40,6 +42,7 @@ OVER: dict[str, tuple[str, Dimension]] = {
 the elongation of a spring in series with a dashpot."""
 NOT_FOUND = "A proposal, not a finding: the finding is the curve, and other formulas may fit it as well."
 NONE_FITS = "No short formula fits the curve."
+NO_INTERVAL = "A smoothed force is the visible part of the missing one; its rms has no interval."
 BAND = 1.96
 RATIO = "the robust likelihood ratio of a curve over each covariate in the filter"
 
@@ -112,19 +115,39 @@ def make_unnamed_entry(d: SearchResult) -> Mechanism:
     """Return the entry of a force that neither a term nor a curve explains: "unknown" with structure, else random."""
     located = d.left or d.located
     depends = [] if d.found else located.structure
-    rms = float(np.std(located.missing.force))
-    unit = _find_unit(d, Dimension(1, 0, 0))
-    share = rms / d.after.problem.scales.force
-    size = f"{rounded(rms, 3)} {unit} rms, {percent(share)} of {d.yardstick}"
-    on = f"depends on {join_names(depends)}" if depends else "depends on nothing that was recorded"
+    visible, unit = float(np.std(located.missing.force)), _find_unit(d, Dimension(1, 0, 0))
+    share = f"{percent(visible / d.after.problem.scales.force)} of {d.yardstick}"
+    if depends:
+        size = Interval(visible, math.nan, math.nan, unit, withheld=NO_INTERVAL)
+        says = f"A force of {rounded(visible, 3)} {unit} rms, {share}, is missing; no term explains it; it depends on"
+        says = f"{says} {join_names(depends)}."
+    else:
+        size = _compute_random_size(d.after, d.shown.dt, unit)
+        says = (
+            f"A random force of {size} rms (up to {rounded(0.5 / d.shown.dt, 3)} Hz) acts; no term explains it; it"
+            f" depends on nothing that was recorded. The sensors show {rounded(visible, 3)} {unit} rms of it, {share}."
+        )
     return Mechanism(
         mechanism="unknown" if depends else "random_force",
         probability=1.0 - math.exp(-d.random_gain),
         state=OPEN,
         depends_on=tuple(depends),
-        parameters={"rms": Interval(rms, rms, rms, unit)},
-        says=f"A force of {size}, is missing; no term explains it; it {on}.",
+        parameters={"rms": size},
+        says=says,
     )
+
+
+def _compute_random_size(fit: Fit, dt: float, unit: str) -> Interval:
+    """Return the rms of the random force of a fit, up to half the sampling rate, with its 95 % interval.
+
+    White noise of intensity I has a variance of I / dt in this band. Where each recording has a random force of its
+    own, it is the largest.
+    """
+    at = max((i for i, f in enumerate(fit.problem.free) if f.parameter == RANDOM), key=lambda i: float(fit.theta[i]))
+    half = BAND * math.sqrt(max(float(fit.local.covariance[at, at]), 0.0))
+    middle, low, high = (math.exp(0.5 * (float(fit.theta[at]) + shift)) for shift in (0.0, -half, half))
+    root = math.sqrt(dt)
+    return Interval(middle / root, low / root, high / root, unit)
 
 
 def _find_unit(d: SearchResult, dimension: Dimension) -> str:
