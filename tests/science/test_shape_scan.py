@@ -14,6 +14,7 @@ from truths import case_of
 from lostmotion.case import CaseFile, Prior
 from lostmotion.contracts import Param, Term
 from lostmotion.diagnosis.search import diagnose
+from lostmotion.inference import shape_scan
 from lostmotion.inference.setup import make_problem, search_maximum
 from lostmotion.inference.shape_scan import scan_shapes
 from lostmotion.likelihood.observation import Observation
@@ -75,8 +76,11 @@ def test_a_short_pitch_is_named_with_its_size():
     assert values["ratchet.pitch"] == pytest.approx(PITCH, rel=0.01)
 
 
-def clipped(limit):
-    """Return the fit of a linear oscillator to its motion under three tones of which only `limit` acts, by leapfrog."""
+def clipped(limit, term="drive_saturation", step=0.0):
+    """Return the fit of a linear oscillator to its motion under three tones of which only `limit` acts, by leapfrog.
+
+    Readings are rounded to a `step` (m).
+    """
     rng, dt, fine, samples = np.random.default_rng(5), 0.01, 50, 3000
     times = dt / fine * (np.arange(samples * fine) + 0.5)
     tones = sum(np.cos(w * times + 1.7 * w) for w in (7.0, 13.0, 19.0))
@@ -88,10 +92,11 @@ def clipped(limit):
         x += dt / fine * v
     force = sum(np.cos(w * dt * np.arange(samples) + 1.7 * w) for w in (7.0, 13.0, 19.0))
     z = seen + 0.01 * seen.std() * rng.standard_normal(samples)
+    z = step * np.round(z / step) if step else z
     observation = Observation.of("seen", z, force[:, None], dt, "position")
     registry = default()
     model = registry.make("model", "linear_oscillator")
-    system = System(model, candidates_of(model, [registry.load("term", "drive_saturation")]))
+    system = System(model, candidates_of(model, [registry.load("term", n) for n in (term, "sensor_quantisation")]))
     priors = {"c": Prior(low=0.2, high=20.0, scale="log"), "k": Prior(low=40.0, high=4e3, scale="log")}
     case = CaseFile("study", Path(), (), "linear_oscillator", {"m": 1.0}, priors, {}, (), "")
     return search_maximum(make_problem(system, case, (observation,)), rng, points=24, finalists=2)
@@ -106,3 +111,11 @@ def test_the_limit_of_a_drive_that_saturates_is_scanned_for(limit):
 
 def test_a_drive_that_does_not_saturate_has_no_limit():
     assert scan_shapes(clipped(9.0)) == {}
+
+
+def test_the_rounding_of_stored_values_is_no_wave_of_the_sensor(monkeypatch):
+    """Its errors have the pitch of the step; a wave of that pitch was named beside the quantisation."""
+    fit = clipped(9.0, "position_ripple", step=1e-3)
+    assert scan_shapes(fit) == {}
+    monkeypatch.setattr(shape_scan, "ROUNDED", 0.0)
+    assert scan_shapes(fit)["position_ripple"][0]["position_ripple.pitch"] == pytest.approx(1e-3, rel=0.01)

@@ -17,6 +17,7 @@ from lostmotion.inference.fit import Fit
 from lostmotion.inference.late import estimate_onset
 from lostmotion.inference.mixture import draw_posterior
 from lostmotion.inference.natural import find_term
+from lostmotion.inference.profile import stretch_draws
 from lostmotion.likelihood.predict import Horizon
 from lostmotion.quantities import unit_of
 from lostmotion.results import Interval, percent, rounded
@@ -43,10 +44,15 @@ class Outcome:
     angle: str = "rad"
 
 
-def draw_parameters(fit: Fit, rng: np.random.Generator) -> Array:
-    """Return draws (DRAWS, keys) of the physical parameters from the posterior about a fit."""
+def draw_parameters(fit: Fit, rng: np.random.Generator, stretches: Array | None = None) -> Array:
+    """Return draws (DRAWS, keys) of the physical parameters from the posterior about a fit.
+
+    Their deviations are multiplied by `stretches`, as `measure_stretches` returns them.
+    """
     free = fit.problem.free
     theta = draw_posterior(fit, rng, DRAWS)
+    if stretches is not None:
+        theta = stretch_draws(fit, theta, stretches)
     physical = set(list_physical_keys(fit))
     kept = [i for i, f in enumerate(free) if f.key in physical]
     return np.array([[free[i].value(row[i]) for i in kept] for row in theta])

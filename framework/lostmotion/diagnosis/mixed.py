@@ -17,14 +17,16 @@ MOST = 3
 """The largest number of alternative explanations in the mixture."""
 
 
-def draw_mixture(diagnosis: SearchResult, rng: np.random.Generator) -> Array:
+def draw_mixture(diagnosis: SearchResult, rng: np.random.Generator, stretches: Array | None = None) -> Array:
     """Return draws (draws, keys) of the parameters of the model after the diagnosis.
+
+    Deviations of the chosen set are multiplied by `stretches`, as `measure_stretches` returns them.
 
     Those of the machine are a mixture over the chosen set and its rivals, weighted by posterior probability (Hoeting et
     al., Statistical Science 14 (1999) 382-417); those of the terms are from the chosen set.
     """
     chosen = diagnosis.after
-    made = draw_parameters(chosen, rng)
+    made = draw_parameters(chosen, rng, stretches)
     if diagnosis.learned:
         return made
     rivals = _list_rivals(diagnosis)

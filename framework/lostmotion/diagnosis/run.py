@@ -55,6 +55,7 @@ from lostmotion.diagnosis.verdict import (
 )
 from lostmotion.errors import ContractError
 from lostmotion.inference.fit import Fit
+from lostmotion.inference.profile import measure_stretches
 from lostmotion.inference.term_sets import Selection
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.system import System, key_of
@@ -80,9 +81,9 @@ if TYPE_CHECKING:
     import xarray as xr
 
 Say = Callable[[str], None]
-SHOW, NEXT, EVIDENCE, WHEN = 1, 2, 3, 4
-"""Streams of random numbers for attractors, experiments, the check of evidence and disagreement over time; no finding
-depends on them."""
+SHOW, NEXT, EVIDENCE, WHEN, PROFILES = 1, 2, 3, 4, 5
+"""Streams of random numbers for attractors, experiments, the check of evidence, disagreement over time and the draws of
+intervals; no finding depends on them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,6 +144,7 @@ def diagnose_prepared(
     outcome = replace(
         outcome, unconfirmed=find_unconfirmed(outcome, prepared.observations), angle=find_angle_unit(prepared.case)
     )
+    outcome = _follow_profiles(outcome, np.random.default_rng([seed, PROFILES]))
     diagnosis = outcome.diagnosis
     motions = list_motions(diagnosis)
     say("attractors")
@@ -195,10 +197,17 @@ def compare_heldout(diagnosis: SearchResult, prepared: Prepared, rng: np.random.
     return Outcome(diagnosis, before, after, horizon, draws, draws if same else draw_mixture(diagnosis, rng))
 
 
+def _follow_profiles(outcome: Outcome, rng: np.random.Generator) -> Outcome:
+    """Return the outcome with draws that are as wide as the profile of each parameter."""
+    d = outcome.diagnosis
+    draws = draw_mixture(d, rng, measure_stretches(d.after))
+    return replace(outcome, draws_before=draws if d.after is d.before else outcome.draws_before, draws_after=draws)
+
+
 def _choose_by_heldout(outcome: Outcome, prepared: Prepared, rng: np.random.Generator, say: Say) -> Outcome:
     """Return the outcome with the set of terms that held-out data choose, or else with the simplest explanation.
 
-    If both a set of no more terms and one with a further term predict better, that with the smaller error is taken.
+    If both a set of no more terms and one with a further term predict better, the better of them is taken.
     """
     diagnosis, trials = outcome.diagnosis, list[Outcome]()
     if (better := find_better_set(outcome, prepared.observations)) is not None:
@@ -208,12 +217,12 @@ def _choose_by_heldout(outcome: Outcome, prepared: Prepared, rng: np.random.Gene
     if (close := decide_by_heldout(outcome, prepared.observations)) is not None:
         say(f"held-out data decide for {' and '.join(sorted(close[0].problem.active))}")
         weighed = replace(diagnosis.selection, heldout_gains=dict(close[1]))
-        trials += _keep_good(outcome, _try_terms(outcome, weighed, close[0], prepared, rng))
+        trials += _keep_good(_try_terms(outcome, weighed, close[0], prepared, rng))
     if not trials and (simplest := find_simplest(outcome, prepared.observations)) is not None:
         say(f"{' and '.join(sorted(simplest[0].problem.active))} as the simplest explanation")
         weighed = replace(diagnosis.selection, simplest=simplest[1])
-        trials += _keep_good(outcome, _try_terms(outcome, weighed, simplest[0], prepared, rng))
-    return min(trials, key=lambda trial: trial.after.nrmse, default=outcome)
+        trials += _keep_good(_try_terms(outcome, weighed, simplest[0], prepared, rng))
+    return min(trials, key=lambda trial: trial.after.nrmse / trial.before.nrmse, default=outcome)
 
 
 def _try_terms(
@@ -224,10 +233,13 @@ def _try_terms(
     return compare_heldout(replace_terms(changed, fit, rng.spawn(1)[0]), prepared, rng)
 
 
-def _keep_good(outcome: Outcome, trial: Outcome) -> list[Outcome]:
-    """Return the trial in a list if it predicts no worse than the nominal model and leaves no larger force, or none."""
+def _keep_good(trial: Outcome) -> list[Outcome]:
+    """Return the trial in a list if it predicts no worse than the nominal model and leaves no larger force, or none.
+
+    Each trial has a horizon of its own, so both predictions are those of the trial.
+    """
     d = trial.diagnosis
-    return [trial] if d.explains and not is_worse(outcome.before, trial.after, d.settings.heldout) else []
+    return [trial] if d.explains and not is_worse(trial.before, trial.after, d.settings.heldout) else []
 
 
 def check_heldout(

@@ -132,8 +132,8 @@ class SearchResult:
 
     @property
     def explains(self) -> bool:
-        """Whether the missing force with the found terms is no larger than without their forces."""
-        if self.left is None:
+        """Whether the missing force is no larger with the found terms, or is within the noise with them."""
+        if self.left is None or not self.unexplained:
             return True
         most = self.settings.heldout.missing * float(np.std(self.located.missing.force))
         return float(np.std(self.left.missing.force)) <= most

@@ -10,9 +10,11 @@ import numpy as np
 
 from lostmotion.contracts import Array, place_of
 from lostmotion.inference.calls import require_finite
+from lostmotion.inference.far_values import hold_shape, try_far_values
 from lostmotion.inference.fit import (
     Fit,
     Sensitivity,
+    begin_at,
     compute_sensitivity,
     maximise,
     raise_random_force,
@@ -40,8 +42,6 @@ from lostmotion.likelihood.system import ALWAYS, Slot, onset_key
 from lostmotion.quantities import FORCE, TIME
 
 CREEP, FINEST = 0.02, 32
-SHORT = 1500
-"""Samples on which values far from the null are tried."""
 SHARES = (1.0, 0.3, 0.01)
 """Fits begin with these shares of the amplitude that a score test predicts."""
 CALM, LARGE = 0.05, 0.7
@@ -55,8 +55,6 @@ ROUGHLY = 0.1
 """A fit that is to be compared with others has converged when a step predicts less gain in log posterior than this."""
 MUTE = 1e-6
 """An amplitude of typical size with less information than this has no effect while the others are zero."""
-FARTHEST = 4
-"""The number of values far from the null that are refitted: those at which the likelihood is highest to begin with."""
 
 
 Shapes = Mapping[str, Sequence[Mapping[str, float]]]
@@ -65,12 +63,16 @@ Shapes = Mapping[str, Sequence[Mapping[str, float]]]
 
 @dataclass(frozen=True)
 class ScoreTest:
-    """The result of a score test of a term: the predicted gain in log-likelihood, and the starting point of its fit."""
+    """The result of a score test of a term: the predicted gain in log-likelihood, and the starting point of its fit.
+
+    `base` are coordinates of the other parameters (n,) from which the fit begins; None for those without the term.
+    """
 
     key: str
     gain: float
     start: Mapping[str, float]
     distinct: float
+    base: Array | None = None
 
     @property
     def late(self) -> bool:
@@ -102,8 +104,8 @@ def run_score_tests(
     hints = _test_shapes(fit, slopes, key, (*usual, *more))
     bounded = find_term(problem, key)[0].acts == "sensor" and len(problem.observations[0].sensors) > 1
     late = bounded and amplitudes[0].param.dimension == TIME
-    if len(amplitudes) == 1 and amplitudes[0].param.far and not problem.active and not late:
-        hints.append(_try_far_values(fit, amplitudes[0], key, hints[0].distinct))
+    if len(amplitudes) == 1 and not problem.active and not late and (far := try_far_values(fit, amplitudes[0], key)):
+        hints.append(ScoreTest(key, far.gain, {amplitudes[0].key: far.value}, hints[0].distinct, far.base))
     if len(amplitudes) == 1 and amplitudes[0].param.scan:
         hints += _test_secants(fit, slopes, key, amplitudes[0])
     ever = [h for h in hints if not h.late]
@@ -134,27 +136,6 @@ def _refine_sensor_onset(fit: Fit, hint: ScoreTest) -> ScoreTest:
     return replace(hint, start={**hint.start, onset_key(hint.key): float(grid[best])})
 
 
-def _try_far_values(fit: Fit, slot: Slot, key: str, distinct: float) -> ScoreTest:
-    """Return the best of the values of an amplitude that are too far from the null for a score test.
-
-    For each value the other parameters are refitted roughly, on the beginning of the recording. It is done for the
-    nominal model alone: a missing term of this size is evident there.
-    """
-    short = fit.problem.on(tuple(t.part(0, min(t.samples, SHORT)) for t in fit.problem.observations))
-    size = compute_size(slot.param, fit.problem.scales)
-    best, gain, bottom = 0.0, 0.0, maximise(restart(replace(fit, problem=short)), fit.theta, rounds=2)
-    wider = short.extend((_hold_shape(slot),), {key})
-    theta = raise_random_force(short, bottom.theta, RAISED)
-    log_densities = wider.log_likelihoods(np.array([np.append(theta, factor * size) for factor in slot.param.far]))
-    for i in np.argsort(-log_densities)[:FARTHEST]:
-        value = slot.param.far[i] * size
-        trial = short.hold_values({slot.key: value})
-        found = maximise(replace(trial, active=trial.active | {key}), bottom.theta, rounds=3, tolerance=1.0)
-        if found.log_likelihood - bottom.log_likelihood > gain:
-            best, gain = value, found.log_likelihood - bottom.log_likelihood
-    return ScoreTest(key, gain if gain > fit.problem.settings.select.far else 0.0, {slot.key: best}, distinct)
-
-
 def _test_secants(fit: Fit, slopes: Sensitivity, key: str, slot: Slot) -> list[ScoreTest]:
     """Return score tests of a term whose response is strongly nonlinear in its amplitude, at amplitudes of a scan.
 
@@ -163,7 +144,7 @@ def _test_secants(fit: Fit, slopes: Sensitivity, key: str, slot: Slot) -> list[S
     """
     problem = fit.problem
     reached = list_tried_values(slot.param, problem.scales)
-    wider = problem.extend((_hold_shape(slot),), {key})
+    wider = problem.extend((hold_shape(slot),), {key})
     here, seen = slopes.here, wider.filter_many(np.vstack([np.append(slopes.theta, a) for a in reached]))
     hints = []
     for i, amplitude in enumerate(reached):
@@ -234,7 +215,7 @@ def count_steps_for_sticking(problem: Problem, theta: Array, *, creep: float = C
 def _test_shapes(fit: Fit, slopes: Sensitivity, key: str, shapes: Sequence[Mapping[str, float]]) -> list[ScoreTest]:
     """Return the score tests of a term at several shapes, all of them computed together."""
     amplitudes, fixed = sort_slots(fit.problem, key)
-    frees = (*make_term_parameters(fit.problem, key, amplitudes, {}), *(_hold_shape(slot) for slot in fixed))
+    frees = (*make_term_parameters(fit.problem, key, amplitudes, {}), *(hold_shape(slot) for slot in fixed))
     wider = fit.problem.extend(frees, {key})
     sizes = np.array([compute_size(s.param, fit.problem.scales) for s in amplitudes])
     zeros = [np.concatenate([slopes.theta, np.zeros(len(sizes)), [shape[s.key] for s in fixed]]) for shape in shapes]
@@ -251,11 +232,6 @@ def _test_shapes(fit: Fit, slopes: Sensitivity, key: str, shapes: Sequence[Mappi
         if late.late:
             hints.append(_refine_sensor_onset(fit, late) if key in fit.problem.system.rescaling else late)
     return hints
-
-
-def _hold_shape(slot: Slot) -> FreeParameter:
-    """Return a shape parameter as a coordinate without bounds."""
-    return FreeParameter(slot.key, slot.unit, 0.0, -math.inf, math.inf)
 
 
 def _join_sensitivities(
@@ -321,7 +297,8 @@ def fit_term(fit: Fit, hint: ScoreTest, *, hopeless: float = -math.inf) -> Fit:
     Without the term the likelihood is that of the given fit; a fit that ends lower has failed.
     """
     _, slots = find_term(fit.problem, hint.key)
-    problems = [add_term(restart(fit), hint, _scale_start(hint, slots, factor)) for factor in SHARES]
+    begun = restart(fit) if hint.base is None else begin_at(fit.problem, hint.base)
+    problems = [add_term(begun, hint, _scale_start(hint, slots, factor)) for factor in SHARES]
     log_densities = [p.log_posterior(p.clip(p.start)) for p in problems[:2]]
     order = (*np.argsort(log_densities)[::-1], *range(2, len(SHARES)))
     fits: list[Fit] = []

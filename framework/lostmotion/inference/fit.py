@@ -333,10 +333,13 @@ def use_cores(fit: Fit, jobs: int) -> Fit:
 
 def restart(fit: Fit) -> Problem:
     """Return the problem of a fit with its maximum as the starting point."""
-    problem = fit.problem
-    return replace(
-        problem, free=tuple(replace(f, start=float(c)) for f, c in zip(problem.free, fit.theta, strict=True))
-    )
+    return begin_at(fit.problem, fit.theta)
+
+
+def begin_at(problem: Problem, theta: Array) -> Problem:
+    """Return a problem with the coordinates `theta` as the starting point."""
+    frees = zip(problem.free, theta, strict=True)
+    return replace(problem, free=tuple(replace(f, start=float(c)) for f, c in frees))
 
 
 def compute_robust_covariance(fit: Fit) -> Array:

@@ -34,6 +34,9 @@ from lostmotion.likelihood.problem import RANDOM
 MOST_FITTED, MOST_LATE = 6, 2
 """The numbers of terms without and with an onset that are fitted in a round. If the motion changes, many terms with an
 onset predict a large gain."""
+MOST_SIMPLE, SIMPLE_SHARE = 3, 0.5
+"""So many more terms with one parameter are fitted, if they predict this share of the largest gain: a test far from the
+maximum ranks laws with several parameters too high."""
 MOST_COMPARED = 4
 """The number of sets of largest weight that are compared with the discrepancy in each round: each costs a hundred
 runs of the filter."""
@@ -208,6 +211,8 @@ class Selector:
         }
         for term_set in good:
             self.selection.settle_comparison(term_set, here, needs[term_set.terms])
+        for term_set in good[1:]:
+            self.selection.confirm_lead(term_set, good[0])
         log_odds = {v.terms: self.selection.compute_log_odds(v, here) for v in good}
         self.selection.tied = set()
         near = [v for v in good if log_odds[v.terms] > max(log_odds.values()) - self.limits.decisive]
@@ -293,7 +298,9 @@ class Selector:
         good = sorted(
             (h for h in hints if h.gain > self.limits.promising and h.distinct > LEAST_DISTINCT), key=lambda h: -h.gain
         )
-        good = [h for h in good if not h.late][:MOST_FITTED] + [h for h in good if h.late][:MOST_LATE]
+        soon, late = [h for h in good if not h.late], [h for h in good if h.late]
+        simple = [h for h in soon[MOST_FITTED:] if len(h.start) == 1 and h.gain > SIMPLE_SHARE * soon[0].gain]
+        good = soon[:MOST_FITTED] + simple[:MOST_SIMPLE] + late[:MOST_LATE]
         for size in sorted({len(h.start) for h in good}):
             group = [h for h in good if len(h.start) == size]
             self.say(f"fits with {', '.join(h.key for h in group)}")

@@ -33,6 +33,8 @@ APART, FEWEST = 0.033, 30
 TURN, MOST_SHAPES = 0.25, 300
 """Neighbouring lengths differ by this share of a period over the travel, so that no pitch between them is missed,
 and their largest number."""
+ROUNDED = 1.5
+"""Waves of a sensor that are no longer than so many steps of its stored values are not tried."""
 MOST_SAMPLES = 3000
 BLOCKS = 40
 """Parts of a recording over which the correlation of a law with the gradient is averaged for its standard error."""
@@ -111,11 +113,15 @@ class SmoothedMotion:
 
 @dataclass(frozen=True)
 class SensorErrors:
-    """The readings of a sensor: predictions (samples,), and errors over their variances (samples,)."""
+    """The readings of a sensor: predictions (samples,), and errors over their variances (samples,).
+
+    `step` is that of the stored values, 0 where none is visible.
+    """
 
     problem: Problem
     foretold: Array
     gradient: Array
+    step: float
 
     @property
     def travel(self) -> float:
@@ -141,7 +147,16 @@ def _make_sensor_errors(problem: Problem, theta: Array, key: str) -> SensorError
     errors, variances = (row.reshape(-1, width)[:, sensor] for row in (seen.errors, seen.variances))
     readings = observation.readings[:, sensor]
     kept = np.isfinite(readings)
-    return SensorErrors(problem, (readings - errors)[kept], (errors / variances)[kept])
+    step = _measure_step(problem, observation.sensors[sensor].place, readings)
+    return SensorErrors(problem, (readings - errors)[kept], (errors / variances)[kept], step)
+
+
+def _measure_step(problem: Problem, place: str, readings: Array) -> float:
+    """Return the step of the stored values of a sensor, by the scatter of its rounding; 0 where none is visible."""
+    beside = problem.system.channel_terms.values()
+    marked = [t for t in beside if isinstance(t, SensorTerm) and t.marked and t.at == place]
+    seen = [(term, term.quantisation(readings)[0]) for term in marked]
+    return max((math.sqrt(12.0) * term.scatter(p) for term, p in seen if p), default=0.0)
 
 
 def _combine_steadiness(laws: Array, gradient: Array) -> float:
@@ -206,7 +221,12 @@ def _select_best_shape(motion: SmoothedMotion | SensorErrors, key: str) -> dict[
         return max(((motion.measure_steadiness(key, shape), shape) for shape in tried), key=lambda pair: pair[0])
 
     travel = 0.0 if find_term(problem, key)[0].acts == "drive" else motion.travel
-    top, best = steadiest(list_shapes(problem, key, travel))
+    shapes = list_shapes(problem, key, travel)
+    if isinstance(motion, SensorErrors):  # a wave of the length of a step is the rounding itself
+        shapes = [shape for shape in shapes if min(shape.values()) > ROUNDED * motion.step]
+    if not shapes:
+        return None
+    top, best = steadiest(shapes)
     return (
         best
         if top > max(problem.settings.select.shape_steady, steadiest(_list_star_shapes(problem, key, usual))[0])

@@ -219,6 +219,12 @@ class Selection:
             _evaluate_fit(fit_discrepancy(self.expansion(term_set)), term_set.fit),
         )
 
+    def confirm_lead(self, term_set: TermSet, over: TermSet) -> None:
+        """Fit the discrepancy of a set that leads one of larger weight by a gain that is only predicted."""
+        gain = self.expansion(term_set).find_best().gain
+        if self.discrepancy_fit(term_set) is None and gain > 0.0 and self.compute_log_odds(term_set, over) > 0.0:
+            self._fit_smooth_forces(term_set)
+
     def discrepancy_fit(self, term_set: TermSet) -> DiscrepancyFit | None:
         """Return the fit of the discrepancy of a set; None if none was made."""
         return self.discrepancy_fits[term_set.terms][1] if self._has_discrepancy_fit(term_set) else None
@@ -366,10 +372,7 @@ class Selection:
         return {k: w / total for k, w in raw.items()}
 
     def _limit_log_odds(self, term_set: TermSet, over: TermSet) -> float:
-        """Return the largest log odds of a set over the chosen one, from their weights.
-
-        A discrepancy adds no more to a set than to a subset of it, and a gain that no fit confirms counts up to `much`.
-        """
+        """Return the largest log odds of a set over the chosen one: a gain that no fit confirms counts up to `much`."""
         if term_set.terms > over.terms:
             return term_set.weight - over.weight
         confirmed = self.discrepancy_fit(term_set) is not None
@@ -383,9 +386,11 @@ class Selection:
 
     def inclusion(self, key: str) -> float:
         """Return the posterior inclusion probability of a term."""
-        if self.simplest:
-            return self.simplest.probabilities.get(key, 0.0)
-        return sum(p for terms, p in self.probabilities().items() if key in terms)
+        return (
+            self.simplest.probabilities.get(key, 0.0)
+            if self.simplest
+            else sum(p for terms, p in self.probabilities().items() if key in terms)
+        )
 
     def gain(self, key: str) -> float:
         """Return the log evidence that a term alone adds to the nominal model, or a bound from its score test."""

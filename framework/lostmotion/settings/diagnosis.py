@@ -121,8 +121,11 @@ class SelectSettings:
     )
     onset_last: float = threshold(0.9, "An onset after this share of a recording is not considered.", most=1.0)
     shape_steady: float = threshold(
-        3.0,
-        "A shape of a law is tested when its correlation with the gradient is this many standard errors from zero.",
+        2.0,
+        (
+            "A shape of a law is tested when its correlation with the gradient is this many standard errors from zero. "
+            "A stop that is hit in a few places of a sweep has 2.3."
+        ),
     )
     shape_gain: float = threshold(
         8.0, "A shape that a scan finds is tried when its score test predicts this gain in log-likelihood."

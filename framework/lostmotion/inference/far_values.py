@@ -1,0 +1,85 @@
+"""Values of an amplitude that are too far from its null for a score test, tried by refits on part of a recording.
+
+A score test is a linear prediction at the nominal fit. A delay of a tenth of a cycle, or a gap as wide as the motion,
+is out of its reach: the nominal parameters are then far from the true ones, too.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from lostmotion.contracts import Array
+from lostmotion.inference.fit import Fit, maximise, raise_random_force, restart
+from lostmotion.inference.natural import compute_size, list_tried_values
+from lostmotion.inference.random_force import has_usual_random_force
+from lostmotion.likelihood.problem import FreeParameter, Problem
+from lostmotion.likelihood.system import Slot
+
+SHORT = 1500
+"""Samples on which values are tried."""
+MOST_TRIED = 4
+"""The number of values that are refitted: those at which the likelihood is highest to begin with."""
+RAISED, RAISED_MOST = 2.0, 6.0
+"""The increase of the log random force from the nominal fit, and from the middle of the priors."""
+ROUNDS, MORE_ROUNDS = 3, 12
+"""The most steps of a refit from the nominal fit, and from the middle of the priors."""
+
+
+@dataclass(frozen=True)
+class FarValue:
+    """A value of an amplitude, its gain in log-likelihood, and the coordinates (n,) of the other parameters there.
+
+    `base` is None where a fit is to begin from the nominal fit.
+    """
+
+    value: float
+    gain: float
+    base: Array | None
+
+
+def try_far_values(fit: Fit, slot: Slot, key: str) -> FarValue | None:
+    """Return the best of the values of an amplitude that are far from the null, or None where none is better.
+
+    The other parameters are refitted roughly, on the beginning of the recording. It is done for the nominal model
+    alone: a missing term of this size is evident there. An amplitude with a scan is tried where a random force beyond
+    the usual is left, also from the middle of the priors, because a gap makes a spring seem far too soft.
+    """
+    values = [factor * compute_size(slot.param, fit.problem.scales) for factor in slot.param.far]
+    scanned = bool(slot.param.scan) and not has_usual_random_force(fit)
+    if scanned:
+        values += list_tried_values(slot.param, fit.problem.scales)
+    if not values:
+        return None
+    short = fit.problem.on(tuple(t.part(0, min(t.samples, SHORT)) for t in fit.problem.observations))
+    bottom = maximise(restart(replace(fit, problem=short)), fit.theta, rounds=2)
+    wider = short.extend((hold_shape(slot),), {key})
+    theta = raise_random_force(short, bottom.theta, RAISED)
+    log_densities = wider.log_likelihoods(np.array([np.append(theta, value) for value in values]))
+    best: FarValue | None = None
+    least = fit.problem.settings.select.far
+    for i in np.argsort(-log_densities)[:MOST_TRIED]:
+        trial = _hold_value(short, slot, key, values[i])
+        refits: list[tuple[Fit, Array | None]] = [(maximise(trial, bottom.theta, rounds=ROUNDS, tolerance=1.0), None)]
+        if scanned:
+            begin = raise_random_force(short, short.start, RAISED_MOST)
+            other = maximise(trial, begin, rounds=MORE_ROUNDS, tolerance=1.0)
+            refits.append((other, other.theta))
+        for found, base in refits:
+            gain = found.log_likelihood - bottom.log_likelihood
+            if gain > (best.gain if best else least):
+                best = FarValue(values[i], gain, base)
+    return best
+
+
+def _hold_value(problem: Problem, slot: Slot, key: str, value: float) -> Problem:
+    """Return a problem with a term active, and its amplitude held at a value."""
+    trial = problem.hold_values({slot.key: value})
+    return replace(trial, active=trial.active | {key})
+
+
+def hold_shape(slot: Slot) -> FreeParameter:
+    """Return a shape parameter as a coordinate without bounds."""
+    return FreeParameter(slot.key, slot.unit, 0.0, -math.inf, math.inf)

@@ -1,0 +1,99 @@
+"""The profile of the posterior over each parameter, where the normal approximation is too narrow.
+
+At a maximum on a flat ridge, as with a gap that the motion never crosses, the curvature says little about how far the
+ridge goes. The parameter is therefore held at two standard deviations to either side, and all others are adjusted. If
+the posterior falls by much less than a normal one, the end of the interval is sought farther out (Venzon, Moolgavkar,
+Applied Statistics 37 (1988) 87-94).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from lostmotion.contracts import Array
+from lostmotion.inference.fit import Fit, maximise, use_one_core
+from lostmotion.inference.mixture import MANY
+from lostmotion.kernels.threads import each
+from lostmotion.likelihood.space import LEVELS
+
+FIRST, NARROW = 2.0, 1.0
+"""Standard deviations at which a profile is checked, and the fall of the log posterior there (2 for a normal one) below
+which it is followed."""
+WIDTH = 1.96
+END = 0.5 * WIDTH**2
+"""The fall of the log posterior at the end of a central interval of 95 %."""
+DOUBLINGS, HALVINGS = 6, 2
+ROUNDS = 6
+
+
+def measure_stretches(fit: Fit) -> Array:
+    """Return by what factor the lower and the upper half of each interval is wider than a normal one, (n, 2).
+
+    It is 1 for noise levels, for parameters of one of several recordings, and for fits with so many parameters that a
+    refit takes seconds.
+    """
+    factors = np.ones((len(fit.theta), 2))
+    if len(fit.theta) > MANY:
+        return factors
+    single = use_one_core(fit)
+    shared = [i for i, f in enumerate(fit.problem.free) if f.level not in LEVELS and f.recording is None]
+    asked = [(i, side) for i in shared for side in (0, 1)]
+    found = each(lambda one: _measure_half(single, *one), asked, fit.problem.jobs)
+    for (i, side), factor in zip(asked, found, strict=True):
+        factors[i, side] = factor
+    return factors
+
+
+def stretch_draws(fit: Fit, draws: Array, stretches: Array) -> Array:
+    """Return draws (draws, n) of the coordinates with their deviations from the maximum multiplied by `stretches`."""
+    away = draws - fit.theta
+    return fit.problem.clip(fit.theta + away * np.where(away < 0.0, stretches[:, 0], stretches[:, 1]))
+
+
+def _measure_half(fit: Fit, at: int, side: int) -> float:
+    """Return the factor for one half of the interval of one parameter."""
+    sd, sign = math.sqrt(max(float(fit.local.covariance[at, at]), 0.0)), (-1.0, 1.0)[side]
+    free = fit.problem.free[at]
+    most = abs((free.low, free.high)[side] - float(fit.theta[at]))
+    if not 0.0 < sd < math.inf or not most > FIRST * sd:
+        return 1.0
+    near, far, begin = (0.0, 0.0), FIRST * sd, fit.theta
+    fall, begin = _fall_at(fit, at, sign * far, begin)
+    if not fall < NARROW:
+        return 1.0
+    for _ in range(DOUBLINGS):
+        if not fall < END or far >= most:
+            break
+        near, far = (far, fall), min(2.0 * far, most)
+        fall, begin = _fall_at(fit, at, sign * far, begin)
+    if fall < END:
+        return far / (WIDTH * sd)
+    end = far
+    for _ in range(HALVINGS + 1):
+        end = near[0] + (far - near[0]) * (math.sqrt(END) - math.sqrt(near[1])) / (math.sqrt(fall) - math.sqrt(near[1]))
+        there, begin = _fall_at(fit, at, sign * end, begin)
+        if there < END:
+            near = (end, there)
+        else:
+            far, fall = end, there
+    return max(end / (WIDTH * sd), 1.0)
+
+
+def _fall_at(fit: Fit, at: int, shift: float, begin: Array) -> tuple[float, Array]:
+    """Return the fall of the log posterior where one parameter is shifted and held, and all coordinates there.
+
+    The others begin at `begin`, or at their expectation under the normal approximation.
+    """
+    free, value = fit.problem.free[at], float(fit.theta[at]) + shift
+    held = fit.problem.hold_values({free.parameter: free.value(value)})
+    held = replace(held, free=(*held.free[:at], *held.free[at + 1 :]))
+    slope = fit.local.covariance[:, at] / fit.local.covariance[at, at]
+    starts = held.clip(np.delete(np.array([begin, fit.theta + shift * slope]), at, axis=1))
+    found = maximise(held, starts[int(np.argmax(held.log_likelihoods(starts)))], rounds=ROUNDS, tolerance=0.1)
+    theta = np.insert(found.theta, at, value)
+    height = found.log_likelihood + float(fit.problem.log_prior(theta))
+    best = fit.log_likelihood + float(fit.problem.log_prior(fit.theta))
+    return max(best - height, 0.0) if math.isfinite(height) else math.inf, theta

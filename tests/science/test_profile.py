@@ -1,0 +1,98 @@
+"""Play so wide that the spring hardly acts: it is far from the nominal model, and its interval is not a normal one."""
+
+import math
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from lostmotion.case import CaseFile, Prior
+from lostmotion.inference.candidates import compute_slopes, fit_term, run_score_test
+from lostmotion.inference.profile import END, WIDTH, _fall_at, measure_stretches, stretch_draws
+from lostmotion.inference.setup import make_problem, search_maximum
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.system import System
+from lostmotion.preparation.candidates import candidates_of
+from lostmotion.registry import default
+
+M, C, K, GAP, DT, SAMPLES, FINE = 3.27, 5.06, 1898.0, 0.00079, 0.0086, 1500, 40
+AMPLITUDE, OMEGA = 1.2, 18.0
+
+
+@cache
+def nominal(gap=GAP):
+    """Return the fit of a linear oscillator to the velocity of one whose spring has play, by leapfrog."""
+    rng, h = np.random.default_rng(17), DT / FINE
+    x, v, seen = 0.0, 0.0, np.zeros(SAMPLES)
+    for k in range(SAMPLES * FINE):
+        if k % FINE == 0:
+            seen[k // FINE] = v
+        push = AMPLITUDE * np.cos(OMEGA * h * (k + 0.5))
+        v += h * (push - C * v - K * (x - min(max(x, -gap), gap))) / M
+        x += h * v
+    drive = AMPLITUDE * np.cos(OMEGA * DT * np.arange(SAMPLES))
+    z = seen + 0.01 * seen.std() * rng.standard_normal(SAMPLES)
+    observation = Observation.of("seen", z, drive[:, None], DT, "velocity")
+    registry = default()
+    model = registry.make("model", "linear_oscillator")
+    priors = {"c": Prior(low=0.4, high=27.0, scale="log"), "k": Prior(low=738.0, high=5380.0, scale="log")}
+    case = CaseFile("study", Path(), (), "linear_oscillator", {"m": M}, priors, {}, (), "")
+    system = System(model, candidates_of(model, [registry.load("term", "backlash")]))
+    return search_maximum(make_problem(system, case, (observation,)), rng, points=24, finalists=2)
+
+
+def test_play_is_found_though_the_nominal_spring_is_far_too_soft():
+    """A score test at the nominal fit predicts almost nothing: the secants there are those of a wrong stiffness."""
+    fit = nominal()
+    assert fit.values["k"] < 0.8 * K
+    hint = run_score_test(fit, compute_slopes(fit), "backlash")
+    found = fit_term(fit, hint)
+    assert hint.gain > 100.0
+    assert found.values["backlash.gap"] == pytest.approx(GAP, rel=0.02)
+    assert found.values["k"] == pytest.approx(K, rel=0.02)
+
+
+def test_a_spring_without_play_has_no_far_value():
+    fit = nominal(0.0)
+    hint = run_score_test(fit, compute_slopes(fit), "backlash")
+    assert hint.gain < 5.0
+    assert hint.base is None
+
+
+def widened(fit, key, factor):
+    """Return a fit whose curvature claims an interval of one parameter narrower by a factor than it is."""
+    at = fit.problem.keys.index(key)
+    scale = np.eye(len(fit.theta))
+    scale[at, at] = factor
+    information = scale @ fit.local.information @ scale
+    return replace(fit, local=replace(fit.local, information=information)), at
+
+
+def test_an_interval_is_as_wide_as_the_profile():
+    """The ends found for a curvature that is sixteen times too large are those of the true profile."""
+    fit = nominal(0.0)
+    true = math.sqrt(fit.local.covariance[fit.problem.keys.index("k")][fit.problem.keys.index("k")])
+    narrow, at = widened(fit, "k", 4.0)
+    stretches = measure_stretches(narrow)
+    for side, sign in ((0, -1.0), (1, 1.0)):
+        end = sign * stretches[at, side] * WIDTH * math.sqrt(narrow.local.covariance[at, at])
+        assert abs(end) == pytest.approx(WIDTH * true, rel=0.15)
+        assert _fall_at(narrow, at, end, narrow.theta)[0] == pytest.approx(END, rel=0.25)
+    other = [i for i in range(len(fit.theta)) if i != at]
+    assert np.all(stretches[other] < 1.3)
+
+
+def test_a_normal_posterior_is_not_widened():
+    assert np.all(measure_stretches(nominal(0.0)) == 1.0)
+
+
+def test_draws_are_stretched_to_either_side():
+    fit = nominal(0.0)
+    at = fit.problem.keys.index("c")
+    stretches = np.ones((len(fit.theta), 2))
+    stretches[at] = 2.0, 3.0
+    draws = np.tile(fit.theta, (2, 1))
+    draws[:, at] += [-0.01, 0.01]
+    assert stretch_draws(fit, draws, stretches)[:, at] - fit.theta[at] == pytest.approx([-0.02, 0.03])
