@@ -234,7 +234,7 @@ def test_a_score_that_falls_within_a_wide_scatter_speaks_against_a_model_that_pr
 def test_what_makes_predictions_worse_is_taken_back_until_they_are_not(monkeypatch):
     errors = {("a", "b", "curve"): 0.5, ("a", "b"): 0.4, ("a",): 0.1, (): 0.3}
 
-    def compare_heldout(d, prepared, rng):
+    def compare_heldout(d, prepared):
         return SimpleNamespace(diagnosis=d, before=prediction(0.3, [0.0]), after=prediction(errors[d.found], [0.0]))
 
     def simpler(d, rng):

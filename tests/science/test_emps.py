@@ -7,7 +7,7 @@ import pytest
 from machines import CARRIAGE, EMPS, EMPS_FILES, PUBLISHED
 
 from lostmotion.diagnosis.findings import compute_intervals
-from lostmotion.diagnosis.run import compare_heldout
+from lostmotion.diagnosis.run import compare_heldout, draw_posteriors
 from lostmotion.diagnosis.search import diagnose
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.prepare import prepare
@@ -29,7 +29,7 @@ def outcome(shared, tmp_path_factory):
     case.write_text("".join(EMPS.format(file=file) for file in files) + CARRIAGE)
     prepared, rng = prepare(case, default()), np.random.default_rng(0)
     found = diagnose(prepared.case, prepared.observations, System(prepared.model, prepared.terms), rng=rng)
-    return compare_heldout(found, prepared, rng)
+    return draw_posteriors(compare_heldout(found, prepared), rng)
 
 
 def test_friction_and_offset_are_found(outcome):

@@ -3,19 +3,14 @@
 import math
 from dataclasses import replace
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 import pytest
+from truths import fit_oscillator
 
-from lostmotion.case import CaseFile, Prior
 from lostmotion.inference.candidates import compute_slopes, fit_term, run_score_test
 from lostmotion.inference.profile import END, WIDTH, _fall_at, measure_stretches, stretch_draws
-from lostmotion.inference.setup import make_problem, search_maximum
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.system import System
-from lostmotion.preparation.candidates import candidates_of
-from lostmotion.registry import default
 
 M, C, K, GAP, DT, SAMPLES, FINE = 3.27, 5.06, 1898.0, 0.00079, 0.0086, 1500, 40
 AMPLITUDE, OMEGA = 1.2, 18.0
@@ -35,12 +30,7 @@ def nominal(gap=GAP):
     drive = AMPLITUDE * np.cos(OMEGA * DT * np.arange(SAMPLES))
     z = seen + 0.01 * seen.std() * rng.standard_normal(SAMPLES)
     observation = Observation.of("seen", z, drive[:, None], DT, "velocity")
-    registry = default()
-    model = registry.make("model", "linear_oscillator")
-    priors = {"c": Prior(low=0.4, high=27.0, scale="log"), "k": Prior(low=738.0, high=5380.0, scale="log")}
-    case = CaseFile("study", Path(), (), "linear_oscillator", {"m": M}, priors, {}, (), "")
-    system = System(model, candidates_of(model, [registry.load("term", "backlash")]))
-    return search_maximum(make_problem(system, case, (observation,)), rng, points=24, finalists=2)
+    return fit_oscillator(observation, rng, m=M, c=(0.4, 27.0), k=(738.0, 5380.0), terms=("backlash",))
 
 
 def test_play_is_found_though_the_nominal_spring_is_far_too_soft():

@@ -1,16 +1,11 @@
 """The size of a random force that nothing explains, with an interval that holds."""
 
-from pathlib import Path
-
 import numpy as np
 from scipy.linalg import expm
+from truths import fit_oscillator
 
-from lostmotion.case import CaseFile, Prior
 from lostmotion.diagnosis.unknowns import _compute_random_size
-from lostmotion.inference.setup import make_problem, search_maximum
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.system import System
-from lostmotion.registry import default
 
 DT, SAMPLES, RMS, SEEDS = 0.01, 1500, 0.3, 12
 
@@ -26,10 +21,7 @@ def shaken(seed):
         y = step @ np.append(y, push)
     z = seen + 0.02 * seen.std() * rng.standard_normal(SAMPLES)
     observation = Observation.of("seen", z, recorded[:, None], DT, "position")
-    priors = {"c": Prior(low=0.2, high=20.0, scale="log"), "k": Prior(low=40.0, high=4e3, scale="log")}
-    case = CaseFile("study", Path(), (), "linear_oscillator", {"m": 1.0}, priors, {}, (), "")
-    problem = make_problem(System(default().make("model", "linear_oscillator")), case, (observation,))
-    return search_maximum(problem, rng, points=24, finalists=2)
+    return fit_oscillator(observation, rng)
 
 
 def test_intervals_of_random_forces_hold():

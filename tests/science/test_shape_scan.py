@@ -4,18 +4,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 from test_unknown_force import CLEAN, RIPPLE, fitted
-from truths import case_of
+from truths import case_of, fit_oscillator
 
-from lostmotion.case import CaseFile, Prior
 from lostmotion.contracts import Param, Term
 from lostmotion.diagnosis.search import diagnose
 from lostmotion.inference import shape_scan
-from lostmotion.inference.setup import make_problem, search_maximum
 from lostmotion.inference.shape_scan import scan_shapes
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
@@ -94,12 +91,7 @@ def clipped(limit, term="drive_saturation", step=0.0):
     z = seen + 0.01 * seen.std() * rng.standard_normal(samples)
     z = step * np.round(z / step) if step else z
     observation = Observation.of("seen", z, force[:, None], dt, "position")
-    registry = default()
-    model = registry.make("model", "linear_oscillator")
-    system = System(model, candidates_of(model, [registry.load("term", n) for n in (term, "sensor_quantisation")]))
-    priors = {"c": Prior(low=0.2, high=20.0, scale="log"), "k": Prior(low=40.0, high=4e3, scale="log")}
-    case = CaseFile("study", Path(), (), "linear_oscillator", {"m": 1.0}, priors, {}, (), "")
-    return search_maximum(make_problem(system, case, (observation,)), rng, points=24, finalists=2)
+    return fit_oscillator(observation, rng, terms=(term, "sensor_quantisation"))
 
 
 @pytest.mark.parametrize("limit", [2.2, 2.5])

@@ -8,7 +8,7 @@ import numpy as np
 from independent import Machine, recording
 
 from lostmotion.case import CaseFile, Prior
-from lostmotion.inference.setup import make_noise_levels, make_problem
+from lostmotion.inference.setup import make_noise_levels, make_problem, search_maximum
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.candidates import candidates_of
@@ -30,6 +30,16 @@ def case_of(unknown):
     known = {k: v for k, v in TRUE.items() if k not in unknown}
     priors = {k: Prior(low=PRIORS[k][0], high=PRIORS[k][1], scale="log") for k in unknown}
     return CaseFile("study", Path(), (), "lin_backlash", known, priors, {}, (), "")
+
+
+def fit_oscillator(observation, rng, *, m=1.0, c=(0.2, 20.0), k=(40.0, 4e3), terms=()):
+    """Return the fit of a linear oscillator of mass `m` to a recording; `terms` may act, `c` and `k` are ranges."""
+    registry = default()
+    model = registry.make("model", "linear_oscillator")
+    priors = {key: Prior(low=low, high=high, scale="log") for key, (low, high) in (("c", c), ("k", k))}
+    case = CaseFile("study", Path(), (), model.name, {"m": m}, priors, {}, (), "")
+    system = System(model, candidates_of(model, [registry.load("term", name) for name in terms]))
+    return search_maximum(make_problem(system, case, (observation,)), rng, points=24, finalists=2)
 
 
 def system_of(name="lin_backlash"):

@@ -30,16 +30,16 @@ DRAWS = 2000
 class Outcome:
     """A diagnosis, the predictions of both models, their horizon, and draws (draws, keys) of both posteriors.
 
-    `unconfirmed` has a warning for each term that held-out data do not confirm. Sentences state angles in the unit
-    `angle`, rad or deg.
+    Draws are empty until the terms are final. `unconfirmed` has a warning for each term that held-out data do not
+    confirm. Sentences state angles in the unit `angle`, rad or deg.
     """
 
     diagnosis: SearchResult
     before: Prediction
     after: Prediction
     horizon: Horizon
-    draws_before: Array
-    draws_after: Array
+    draws_before: Array = field(default_factory=lambda: np.zeros((0, 0)))
+    draws_after: Array = field(default_factory=lambda: np.zeros((0, 0)))
     unconfirmed: Mapping[str, str] = field(default_factory=dict)
     angle: str = "rad"
 

@@ -20,10 +20,9 @@ MOST = 3
 def draw_mixture(diagnosis: SearchResult, rng: np.random.Generator, stretches: Array | None = None) -> Array:
     """Return draws (draws, keys) of the parameters of the model after the diagnosis.
 
-    Deviations of the chosen set are multiplied by `stretches`, as `measure_stretches` returns them.
-
     Those of the machine are a mixture over the chosen set and its rivals, weighted by posterior probability (Hoeting et
     al., Statistical Science 14 (1999) 382-417); those of the terms are from the chosen set.
+    Deviations of the chosen set are multiplied by `stretches`, as `measure_stretches` returns them.
     """
     chosen = diagnosis.after
     made = draw_parameters(chosen, rng, stretches)

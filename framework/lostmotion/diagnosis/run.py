@@ -81,7 +81,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 Say = Callable[[str], None]
-SHOW, NEXT, EVIDENCE, WHEN, PROFILES = 1, 2, 3, 4, 5
+SHOW, NEXT, EVIDENCE, WHEN, DRAWN = 1, 2, 3, 4, 5
 """Streams of random numbers for attractors, experiments, the check of evidence, disagreement over time and the draws of
 intervals; no finding depends on them."""
 
@@ -144,7 +144,7 @@ def diagnose_prepared(
     outcome = replace(
         outcome, unconfirmed=find_unconfirmed(outcome, prepared.observations), angle=find_angle_unit(prepared.case)
     )
-    outcome = _follow_profiles(outcome, np.random.default_rng([seed, PROFILES]))
+    outcome = draw_posteriors(outcome, np.random.default_rng([seed, DRAWN]))
     diagnosis = outcome.diagnosis
     motions = list_motions(diagnosis)
     say("attractors")
@@ -183,7 +183,7 @@ def _run_search(
         return _run_search(fewer, registry, seed, work)
 
 
-def compare_heldout(diagnosis: SearchResult, prepared: Prepared, rng: np.random.Generator) -> Outcome:
+def compare_heldout(diagnosis: SearchResult, prepared: Prepared) -> Outcome:
     """Return the diagnosis with the predictions of both models for the held-out data."""
     pieces = cut_heldout(prepared.observations, diagnosis.held)
     same = diagnosis.after is diagnosis.before
@@ -193,15 +193,15 @@ def compare_heldout(diagnosis: SearchResult, prepared: Prepared, rng: np.random.
     horizon = choose_heldout_horizon(diagnosis.after, pieces, average_exponent(rates[-1]))
     both = each(lambda pair: predict(pair[0], pieces, horizon, pair[1]), list(zip(fits, rates, strict=True)), jobs)
     before, after = both[0], both[-1]
-    draws = draw_parameters(diagnosis.before, rng)
-    return Outcome(diagnosis, before, after, horizon, draws, draws if same else draw_mixture(diagnosis, rng))
+    return Outcome(diagnosis, before, after, horizon)
 
 
-def _follow_profiles(outcome: Outcome, rng: np.random.Generator) -> Outcome:
-    """Return the outcome with draws that are as wide as the profile of each parameter."""
+def draw_posteriors(outcome: Outcome, rng: np.random.Generator) -> Outcome:
+    """Return the outcome with draws of both posteriors; those after are as wide as the profile of each parameter."""
     d = outcome.diagnosis
-    draws = draw_mixture(d, rng, measure_stretches(d.after))
-    return replace(outcome, draws_before=draws if d.after is d.before else outcome.draws_before, draws_after=draws)
+    after = draw_mixture(d, rng, measure_stretches(d.after))
+    before = after if d.after is d.before else draw_parameters(d.before, rng)
+    return replace(outcome, draws_before=before, draws_after=after)
 
 
 def _choose_by_heldout(outcome: Outcome, prepared: Prepared, rng: np.random.Generator, say: Say) -> Outcome:
@@ -230,7 +230,7 @@ def _try_terms(
 ) -> Outcome:
     """Return the outcome with the terms of another fit, and with a changed selection."""
     changed = replace(outcome.diagnosis, selection=selection)
-    return compare_heldout(replace_terms(changed, fit, rng.spawn(1)[0]), prepared, rng)
+    return compare_heldout(replace_terms(changed, fit, rng.spawn(1)[0]), prepared)
 
 
 def _keep_good(trial: Outcome) -> list[Outcome]:
@@ -251,7 +251,7 @@ def check_heldout(
     predictions are worse with the findings than without them, or the missing force is larger, one finding is withdrawn:
     learned curves first, then the least probable term.
     """
-    outcome, limits = compare_heldout(diagnosis, prepared, rng), diagnosis.settings.heldout
+    outcome, limits = compare_heldout(diagnosis, prepared), diagnosis.settings.heldout
     outcome = _choose_by_heldout(outcome, prepared, rng, say)
     while (found := outcome.diagnosis).found:
         if not is_worse(outcome.before, outcome.after, limits) and found.explains:
@@ -260,7 +260,7 @@ def check_heldout(
         if less is None:
             break
         say(f"held-out predictions without {less.withdrawn[-1]}")
-        outcome = compare_heldout(less, prepared, rng)
+        outcome = compare_heldout(less, prepared)
     return outcome
 
 

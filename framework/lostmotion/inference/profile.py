@@ -25,7 +25,8 @@ which it is followed."""
 WIDTH = 1.96
 END = 0.5 * WIDTH**2
 """The fall of the log posterior at the end of a central interval of 95 %."""
-DOUBLINGS, HALVINGS = 6, 2
+DOUBLINGS, REFINEMENTS = 6, 3
+"""How often the distance is doubled, and the end then interpolated."""
 ROUNDS = 6
 
 
@@ -60,8 +61,8 @@ def _measure_half(fit: Fit, at: int, side: int) -> float:
     most = abs((free.low, free.high)[side] - float(fit.theta[at]))
     if not 0.0 < sd < math.inf or not most > FIRST * sd:
         return 1.0
-    near, far, begin = (0.0, 0.0), FIRST * sd, fit.theta
-    fall, begin = _fall_at(fit, at, sign * far, begin)
+    near, far = (0.0, 0.0), FIRST * sd
+    fall, begin = _fall_at(fit, at, sign * far, fit.theta)
     if not fall < NARROW:
         return 1.0
     for _ in range(DOUBLINGS):
@@ -71,8 +72,7 @@ def _measure_half(fit: Fit, at: int, side: int) -> float:
         fall, begin = _fall_at(fit, at, sign * far, begin)
     if fall < END:
         return far / (WIDTH * sd)
-    end = far
-    for _ in range(HALVINGS + 1):
+    for _ in range(REFINEMENTS):
         end = near[0] + (far - near[0]) * (math.sqrt(END) - math.sqrt(near[1])) / (math.sqrt(fall) - math.sqrt(near[1]))
         there, begin = _fall_at(fit, at, sign * end, begin)
         if there < END:
@@ -90,8 +90,8 @@ def _fall_at(fit: Fit, at: int, shift: float, begin: Array) -> tuple[float, Arra
     free, value = fit.problem.free[at], float(fit.theta[at]) + shift
     held = fit.problem.hold_values({free.parameter: free.value(value)})
     held = replace(held, free=(*held.free[:at], *held.free[at + 1 :]))
-    slope = fit.local.covariance[:, at] / fit.local.covariance[at, at]
-    starts = held.clip(np.delete(np.array([begin, fit.theta + shift * slope]), at, axis=1))
+    cross = fit.local.covariance[:, at]
+    starts = held.clip(np.delete(np.array([begin, fit.theta + shift * cross / cross[at]]), at, axis=1))
     found = maximise(held, starts[int(np.argmax(held.log_likelihoods(starts)))], rounds=ROUNDS, tolerance=0.1)
     theta = np.insert(found.theta, at, value)
     height = found.log_likelihood + float(fit.problem.log_prior(theta))

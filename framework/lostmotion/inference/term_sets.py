@@ -386,11 +386,9 @@ class Selection:
 
     def inclusion(self, key: str) -> float:
         """Return the posterior inclusion probability of a term."""
-        return (
-            self.simplest.probabilities.get(key, 0.0)
-            if self.simplest
-            else sum(p for terms, p in self.probabilities().items() if key in terms)
-        )
+        if self.simplest:
+            return self.simplest.probabilities.get(key, 0.0)
+        return sum(p for terms, p in self.probabilities().items() if key in terms)
 
     def gain(self, key: str) -> float:
         """Return the log evidence that a term alone adds to the nominal model, or a bound from its score test."""
