@@ -21,13 +21,14 @@ from lostmotion.inference.candidates import (
     run_score_tests,
 )
 from lostmotion.inference.commoner import rewrite_in_commoner_terms
-from lostmotion.inference.fit import Fit, maximise, raise_random_force, restart, use_cores, use_one_core
+from lostmotion.inference.fit import Fit, maximise, restart, use_cores, use_one_core
 from lostmotion.inference.late import compute_onset_price, drop_weak_onsets
 from lostmotion.inference.natural import find_term
 from lostmotion.inference.penalties import are_related, compute_penalty
 from lostmotion.inference.random_force import has_usual_random_force
 from lostmotion.inference.significance import measure_significance
 from lostmotion.inference.term_sets import CLOSE, Selection, TermSet
+from lostmotion.inference.unseen import lacks_position, refit_start, refit_with_terms
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.problem import RANDOM
 
@@ -234,25 +235,17 @@ class Selector:
         return term_set.weight > here.weight + (self.limits.decisive if term_set.terms > here.terms else 0.0)
 
     def _refit_close_sets(self) -> None:
-        """Refit the best sets from a larger random force, because some of them may have stopped at a local maximum.
-
-        Sets without a random force beyond the usual are not refitted.
-        """
+        """Refit the best sets, because some of them may have stopped at a local maximum."""
         best = max(v.weight for v in self.selection.fitted_sets.values())
         close = [
             v for v in self.selection.fitted_sets.values() if v.weight > best - CLOSE and v.terms not in self._refitted
         ]
-        close = [v for v in close if not has_usual_random_force(v.fit)]
+        close = [v for v in close if not has_usual_random_force(v.fit) or (v.terms and lacks_position(v.fit.problem))]
         if not close:
             return
         self.say(f"refits with {', '.join(' and '.join(sorted(v.terms)) or 'no term' for v in close)}")
         self._refitted.update(v.terms for v in close)
-
-        def again(term_set: TermSet) -> Fit:
-            fit = use_one_core(term_set.fit)
-            return maximise(fit.problem, raise_random_force(fit.problem, fit.theta, 6.0))
-
-        self._add_sets(each(again, close, self.jobs))
+        self._add_sets(each(lambda v: refit_with_terms(v.fit), close, self.jobs))
 
     def _is_robust(self, term_set: TermSet, here: TermSet) -> bool:
         """Return whether a better set is robust against autocorrelated residuals.
@@ -380,6 +373,9 @@ class Selector:
             term_set = self.selection.fitted_sets.get(terms) or self._add_set(
                 maximise(chosen.problem.remove_term(key, chosen.values))
             )
+            if terms and terms not in self._refitted and lacks_position(chosen.problem):
+                self._refitted.add(terms)
+                term_set = self._add_set(refit_start(term_set.fit))
             self.selection.fit_discrepancy(term_set)
             self.selection.settle_comparison(here, term_set, self.limits.decisive)
             decisive = here.weight > term_set.weight + self.limits.decisive
