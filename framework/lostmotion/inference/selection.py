@@ -26,9 +26,9 @@ from lostmotion.inference.late import compute_onset_price, drop_weak_onsets
 from lostmotion.inference.natural import find_term
 from lostmotion.inference.penalties import are_related, compute_penalty
 from lostmotion.inference.random_force import has_usual_random_force
+from lostmotion.inference.refits import Refits, refit_from, refit_with_terms
 from lostmotion.inference.significance import measure_significance
-from lostmotion.inference.term_sets import CLOSE, Selection, TermSet
-from lostmotion.inference.unseen import lacks_position, refit_start, refit_with_terms
+from lostmotion.inference.term_sets import Selection, TermSet
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.problem import RANDOM
 
@@ -72,7 +72,7 @@ class Selector:
         self.say, self.shapes, self.jobs, self.promise = say, shapes or {}, nominal.problem.jobs, promise
         self.limits = nominal.problem.settings.select
         self.selection = Selection(nominal, nominal)
-        self._refitted: set[frozenset[str]] = set()
+        self._refits = Refits()
         self._built_on: set[frozenset[str]] = set()
         self._rewritten: set[frozenset[str]] = set()
         self._significances: dict[frozenset[str], tuple[float, float]] = {}
@@ -235,17 +235,14 @@ class Selector:
         return term_set.weight > here.weight + (self.limits.decisive if term_set.terms > here.terms else 0.0)
 
     def _refit_close_sets(self) -> None:
-        """Refit the best sets, because some of them may have stopped at a local maximum."""
-        best = max(v.weight for v in self.selection.fitted_sets.values())
-        close = [
-            v for v in self.selection.fitted_sets.values() if v.weight > best - CLOSE and v.terms not in self._refitted
-        ]
-        close = [v for v in close if not has_usual_random_force(v.fit) or (v.terms and lacks_position(v.fit.problem))]
-        if not close:
-            return
-        self.say(f"refits with {', '.join(' and '.join(sorted(v.terms)) or 'no term' for v in close)}")
-        self._refitted.update(v.terms for v in close)
-        self._add_sets(each(lambda v: refit_with_terms(v.fit), close, self.jobs))
+        """Refit the best sets, and sets with another noise from the best one: some stopped at a local maximum."""
+        if close := self._refits.take_close(self.selection):
+            self.say(f"refits with {', '.join(' and '.join(sorted(v.terms)) or 'no term' for v in close)}")
+            self._add_sets(each(lambda v: refit_with_terms(v.fit), close, self.jobs))
+        best = max(self.selection.fitted_sets.values(), key=lambda v: v.weight)
+        if far := self._refits.take_far(self.selection, best):
+            self.say(f"refits with the noise of {' and '.join(sorted(best.terms)) or 'no term'}")
+            self._add_sets(each(lambda v: refit_from(v.fit, best.fit), far, self.jobs))
 
     def _is_robust(self, term_set: TermSet, here: TermSet) -> bool:
         """Return whether a better set is robust against autocorrelated residuals.
@@ -373,9 +370,8 @@ class Selector:
             term_set = self.selection.fitted_sets.get(terms) or self._add_set(
                 maximise(chosen.problem.remove_term(key, chosen.values))
             )
-            if terms and terms not in self._refitted and lacks_position(chosen.problem):
-                self._refitted.add(terms)
-                term_set = self._add_set(refit_start(term_set.fit))
+            if (refitted := self._refits.refit_subset(term_set)) is not None:
+                term_set = self._add_set(refitted)
             self.selection.fit_discrepancy(term_set)
             self.selection.settle_comparison(here, term_set, self.limits.decisive)
             decisive = here.weight > term_set.weight + self.limits.decisive

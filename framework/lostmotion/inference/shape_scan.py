@@ -19,6 +19,7 @@ from lostmotion.contracts import Array, SensorTerm, place_of
 from lostmotion.inference.candidates import compute_slopes, run_score_test
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.natural import compute_size, find_term, list_tried_values, sort_slots
+from lostmotion.inference.resonance_scan import scan_resonances
 from lostmotion.inference.setup import choose_steps
 from lostmotion.likelihood.latent import smooth_expected_force
 from lostmotion.likelihood.motion import compute_derivatives
@@ -175,19 +176,19 @@ def _compute_steadiness(law: Array, gradient: Array, edges: NDArray[np.intp]) ->
 
 
 def scan_shapes(fit: Fit) -> dict[str, list[dict[str, float]]]:
-    """Return for each law without states the shape that correlates clearly with the gradient, where there is one.
+    """Return for each law the shape that correlates clearly with the gradient, or the resonance, where there is one.
 
     A stop that is hit rarely leaves no random force, so all laws are scanned for any fit.
     """
-    keys, whole = list_scannable(fit.problem), fit.problem.observations[0]
+    keys, whole, found = list_scannable(fit.problem), fit.problem.observations[0], scan_resonances(fit)
     if not keys:
-        return {}
+        return found
     problem = choose_steps(fit.problem, fit.theta).on((whole.part(0, min(whole.samples, MOST_SAMPLES)),))
     states, gradient = smooth_expected_force(problem, fit.theta)
     motion = SmoothedMotion(
         problem, fit.theta, np.ascontiguousarray(states[:, : len(problem.system.model.states)]), gradient
     )
-    slopes, found = None, {}
+    slopes = None
     for key in keys:
         of_sensor = find_term(problem, key)[0].acts == "sensor"
         if best := _select_best_shape(_make_sensor_errors(problem, fit.theta, key) if of_sensor else motion, key):

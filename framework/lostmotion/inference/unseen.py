@@ -8,9 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.inference.fit import Expansion, Fit, maximise, raise_random_force, use_one_core
+from lostmotion.inference.fit import Expansion, Fit, maximise
 from lostmotion.inference.mixture import compute_nodes, compute_root
-from lostmotion.inference.random_force import has_usual_random_force
 from lostmotion.likelihood.initial import shows_place
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import RANDOM, Problem
@@ -136,18 +135,6 @@ def _smooth_start(fit: Fit, observation: Observation, index: int) -> tuple[Obser
 
 def _scale_covariance(covariance: Array, unit: Array) -> Array:
     return covariance / np.outer(unit, unit)
-
-
-def refit_with_terms(fit: Fit) -> Fit:
-    """Return the fit on one core from a larger random force, and with initial states that are smoothed with its terms.
-
-    It may have stopped at a local maximum. A fit without a random force beyond the usual is started again only where no
-    sensor shows the position: it begins with the initial states that were smoothed without its terms.
-    """
-    fit = use_one_core(fit)
-    if not has_usual_random_force(fit):
-        fit = maximise(fit.problem, raise_random_force(fit.problem, fit.theta, 6.0))
-    return refit_start(fit)
 
 
 def reduce_random_force(fit: Fit) -> Fit:

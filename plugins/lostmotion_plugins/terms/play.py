@@ -39,7 +39,7 @@ class Backlash(Term):
 
 @dataclass(frozen=True)
 class EndStop(Term):
-    """A stiff contact beyond a travel, at both ends or at one of them; it is tried from half of the amplitude on."""
+    """A stiff contact beyond a travel, at both ends or at one of them; it is tried from a third of the amplitude on."""
 
     at: str = "ground"
     name: ClassVar[str] = "end_stop"
@@ -49,7 +49,7 @@ class EndStop(Term):
     paper: ClassVar[str] = "Shaw, Holmes, J. Sound and Vibration 90 (1983) 129-155, eq. (1)"
     params = (
         Param("stiffness", "stiffness of the stop", STIFFNESS, low=0.0, null=0.0, typical=10.0),
-        Param("travel", "travel to the stop", LENGTH, low=0.0, scale="log", typical=1.0, scan=(0.5, 3.0)),
+        Param("travel", "travel to the stop", LENGTH, low=0.0, scale="log", typical=1.0, scan=(0.3, 3.0)),
         Param("side", "0 for both ends, 1 or -1 for one of them", NUMBER, choices=(0.0, 1.0, -1.0), words=_SIDES),
     )
     resembles = ("cubic_stiffness",)

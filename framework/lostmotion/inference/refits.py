@@ -1,0 +1,86 @@
+"""Refits of sets of terms that may have stopped at a local maximum: which sets, and from where."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from lostmotion.inference.fit import Fit, maximise, raise_random_force, use_one_core
+from lostmotion.inference.random_force import has_usual_random_force
+from lostmotion.inference.term_sets import CLOSE, Selection, TermSet
+from lostmotion.inference.unseen import lacks_position, refit_start
+from lostmotion.likelihood.space import LEVELS
+
+FAR = 300.0
+"""Sets whose log weight is lower than the largest by more than this are not refitted."""
+MOST_SHARED = 3
+"""The number of sets that are refitted from the best one in each round."""
+
+
+@dataclass
+class Refits:
+    """The sets that were refitted: from their own fit, and from that of another set."""
+
+    own: set[frozenset[str]] = field(default_factory=set)
+    shared: set[tuple[frozenset[str], frozenset[str]]] = field(default_factory=set)
+
+    def take_close(self, selection: Selection) -> list[TermSet]:
+        """Return the sets close to the best one that were not refitted yet, and count them as refitted.
+
+        A set without a random force beyond the usual is refitted only where no sensor shows the position.
+        """
+        sets = selection.fitted_sets.values()
+        best = max(v.weight for v in sets)
+        close = [v for v in sets if v.weight > best - CLOSE and v.terms not in self.own]
+        close = [v for v in close if not has_usual_random_force(v.fit) or (v.terms and lacks_position(v.fit.problem))]
+        self.own.update(v.terms for v in close)
+        return close
+
+    def take_far(self, selection: Selection, best: TermSet) -> list[TermSet]:
+        """Return sets as large as the best one that have another noise, and count them as refitted from it.
+
+        The random force, the white and the slow noise of a sensor divide the scatter of the readings among them, and a
+        fit may stop at a wrong division.
+        """
+        sets = [v for v in selection.fitted_sets.values() if len(v.terms) == len(best.terms)]
+        sets = [v for v in sets if best.weight > v.weight > best.weight - FAR and v.fit.status != "diverged"]
+        far = [v for v in sets if (v.terms, best.terms) not in self.shared and _have_other_noise(v.fit, best.fit)]
+        far = sorted(far, key=lambda v: -v.weight)[:MOST_SHARED]
+        self.shared.update((v.terms, best.terms) for v in far)
+        return far
+
+    def refit_subset(self, term_set: TermSet) -> Fit | None:
+        """Return the fit of a set with initial states that are smoothed with its terms; None if it has been refitted.
+
+        It is needed only where no sensor shows the position, and the nominal model has it from the beginning.
+        """
+        if not term_set.terms or term_set.terms in self.own or not lacks_position(term_set.fit.problem):
+            return None
+        self.own.add(term_set.terms)
+        return refit_start(term_set.fit)
+
+
+def refit_with_terms(fit: Fit) -> Fit:
+    """Return the fit on one core from a larger random force, and with initial states that are smoothed with its terms.
+
+    A fit without a random force beyond the usual begins where it is.
+    """
+    fit = use_one_core(fit)
+    if not has_usual_random_force(fit):
+        fit = maximise(fit.problem, raise_random_force(fit.problem, fit.theta, 6.0))
+    return refit_start(fit)
+
+
+def refit_from(fit: Fit, other: Fit) -> Fit:
+    """Return the fit on one core from the coordinates, where they are the same, and initial states of another one."""
+    theta, keys = fit.theta.copy(), other.problem.keys
+    for i, key in enumerate(fit.problem.keys):
+        if key in keys:
+            theta[i] = other.theta[keys.index(key)]
+    problem = use_one_core(fit).problem.on(other.problem.observations)
+    return maximise(problem, problem.clip(theta))
+
+
+def _have_other_noise(one: Fit, other: Fit) -> bool:
+    """Return whether a noise level differs by more than a factor e."""
+    levels = {f.key for f in one.problem.free if f.level in LEVELS} & set(other.values)
+    return any(abs(one.values[key] - other.values[key]) > 1.0 for key in levels)

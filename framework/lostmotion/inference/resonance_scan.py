@@ -1,0 +1,63 @@
+"""A scan of resonances, such as the frequency of a hidden mass, over their whole range.
+
+A law with states has no force along the recorded motion, so its shapes are tested by the filter. A resonance is found
+only if its frequency is tried to within its width.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from lostmotion.inference.candidates import compute_slopes, run_score_test
+from lostmotion.inference.fit import Fit
+from lostmotion.inference.natural import compute_size, find_term, list_tried_values, sort_slots
+from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.system import Slot
+from lostmotion.quantities import FREQUENCY
+
+APART = 0.1
+"""The spacing of frequencies in logarithms: the width of a resonance with 5 % of critical damping."""
+MOST_SAMPLES = 3000
+
+
+def scan_resonances(fit: Fit) -> dict[str, list[dict[str, float]]]:
+    """Return for each idle law with a resonance the shape with the largest gain by score tests, if that is large."""
+    idle = [key for key in fit.problem.system.keys if key not in fit.problem.active]
+    keys = [key for key in idle if find_term(fit.problem, key)[0].states and _list_resonances(fit.problem, key)]
+    if not keys:
+        return {}
+    first = fit.problem.observations[0]
+    part = replace(fit, problem=fit.problem.on((first.part(0, min(first.samples, MOST_SAMPLES)),)))
+    slopes, found = compute_slopes(part), {}
+    for key in keys:
+        shapes = _list_shapes(part.problem, key)
+        hint = run_score_test(part, slopes, key, shapes)
+        if hint.gain > fit.problem.settings.select.shape_gain:
+            found[key] = [{name: hint.start[name] for name in shapes[0]}]
+    return found
+
+
+def _list_resonances(problem: Problem, key: str) -> list[Slot]:
+    """Return the shapes of a law that are frequencies with a scan."""
+    return [s for s in sort_slots(problem, key)[1] if s.param.dimension == FREQUENCY and s.param.scan]
+
+
+def _list_shapes(problem: Problem, key: str) -> list[Mapping[str, float]]:
+    """Return each frequency over its range together with each usual value of the other shapes."""
+    fine = {s.key for s in _list_resonances(problem, key)}
+    shapes = sort_slots(problem, key)[1]
+    grids = [_make_grid(s, problem) if s.key in fine else list_tried_values(s.param, problem.scales) for s in shapes]
+    return [dict(zip((s.key for s in shapes), values, strict=True)) for values in itertools.product(*grids)]
+
+
+def _make_grid(slot: Slot, problem: Problem) -> list[float]:
+    """Return the frequencies (Hz) that are tried."""
+    size = compute_size(slot.param, problem.scales)
+    low, high = (size * end for end in slot.param.scan or ())
+    values: list[float] = np.geomspace(low, high, math.ceil(math.log(high / low) / APART) + 1).tolist()
+    return values
