@@ -48,7 +48,7 @@ class EndStop(Term):
     formula: ClassVar[str] = "-stiffness * (|x| - travel) * sign(x) where |x| > travel, on one side or both"
     paper: ClassVar[str] = "Shaw, Holmes, J. Sound and Vibration 90 (1983) 129-155, eq. (1)"
     params = (
-        Param("stiffness", "stiffness of the stop", STIFFNESS, low=0.0, null=0.0, typical=10.0),
+        Param("stiffness", "stiffness of the stop", STIFFNESS, low=0.0, null=0.0, typical=100.0),
         Param("travel", "travel to the stop", LENGTH, low=0.0, scale="log", typical=1.0, scan=(0.3, 3.0)),
         Param("side", "0 for both ends, 1 or -1 for one of them", NUMBER, choices=(0.0, 1.0, -1.0), words=_SIDES),
     )
