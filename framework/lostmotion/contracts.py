@@ -110,7 +110,9 @@ class Term(ABC):
     of natural size. `further` declares the results of `derived`. `resembles` names terms that explain recordings
     almost as well; `equals` those that no recording of a machine with constant parameters can tell from this one.
     A term whose effect is the same `anywhere` is tried only at the ground. `unlikely` is subtracted from the log odds
-    of a cause that an engineer considers last. `force` and `rate` are static, or methods that read numeric fields.
+    of a cause that an engineer considers last. `usual` errors of a channel are in every acquisition system, and in the
+    generic smooth discrepancy with which terms are compared. `force` and `rate` are static, or methods that read
+    numeric fields.
     Example: `force` of viscous damping is `return -p[0] * v`; see `plugins/template` for a term with a state.
     """
 
@@ -130,6 +132,7 @@ class Term(ABC):
     equals: ClassVar[tuple[str, ...]] = ()
     anywhere: ClassVar[bool] = False
     unlikely: ClassVar[float] = 0.0
+    usual: ClassVar[bool] = False
 
     @staticmethod
     @abstractmethod

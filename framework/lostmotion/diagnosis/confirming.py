@@ -104,7 +104,7 @@ def decide_by_heldout(
     On the fitted data a small smooth force explains about as much as such a term. The log score of the held-out data is
     added to the log odds of the fitted data; the sum is the log posterior odds of all data. A set is compared with the
     best of: the smooth force, the smooth force with corrected channels, the learned curves, and the chosen set. Nothing
-    is decided for a force if a term of a channel explains all data better.
+    is decided for a term if a usual error of a channel explains all data better.
     """
     d, selection = outcome.diagnosis, outcome.diagnosis.selection
     here = selection.fitted_sets.get(selection.chosen.problem.active)
@@ -169,10 +169,10 @@ def _select_predicting(
 ) -> TermSet | None:
     """Return the first set that predicts held-out data better than the chosen one, and as well as a smooth force.
 
-    Its log score may be lower than that of the best smooth force by `slack`; its free runs must
-    not be significantly worse than those of the present model.
+    Its log score may be lower than that of the best smooth force by `slack`; its free runs must not be worse than those
+    of the present model, significantly and by more than `HeldOutSettings.rise`.
     """
-    d, selection = outcome.diagnosis, outcome.diagnosis.selection
+    d, selection, limits = outcome.diagnosis, outcome.diagnosis.selection, outcome.diagnosis.settings.heldout
     here = selection.fitted_sets[selection.chosen.problem.active]
     rival, own = selection.discrepancy_fit(here), score_heldout(here.fit, pieces)
     others = [*([rival.fit] if rival else ()), *([d.learned.fit] if d.learned else ())]
@@ -180,7 +180,8 @@ def _select_predicting(
     errors = compute_run_errors(d.after, pieces, outcome.horizon)
     for term_set in sets:
         score, its = score_heldout(term_set.fit, pieces), compute_run_errors(term_set.fit, pieces, outcome.horizon)
-        if own < score > bar and not is_better(errors, its, d.settings.heldout.chance):
+        worse = _compute_rms(its) > (1.0 + limits.rise) * _compute_rms(errors)
+        if own < score > bar and not (worse and is_better(errors, its, limits.chance)):
             return term_set
     return None
 
@@ -213,12 +214,12 @@ def _has_force_over_time(selection: Selection, here: TermSet) -> bool:
 
 
 def _list_tied(selection: Selection, here: TermSet, decisive: float, *, channels: bool = False) -> list[TermSet]:
-    """Return the sets with one more force that evidence supports, but that are not better than a smooth force.
+    """Return the sets with one more term that evidence supports, but that are not better than a smooth force.
 
-    With `channels` it is one more term of a channel instead: usual channel errors are part of the discrepancy.
+    With `channels` it is a usual error of a channel, which is a part of the discrepancy; otherwise any other term.
     """
     keys = sorted(selection.tied - here.terms)
-    keys = [k for k in keys if (find_term(here.fit.problem, k)[0].acts != "motion") == channels]
+    keys = [k for k in keys if find_term(here.fit.problem, k)[0].usual == channels]
     more = [here.terms | {key} for key in keys]
     sets = [selection.fitted_sets[terms] for terms in more if terms in selection.fitted_sets]
     return [v for v in sets if v.fit.status != "diverged" and v.weight > here.weight + decisive]

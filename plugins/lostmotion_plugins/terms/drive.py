@@ -58,6 +58,7 @@ class ExcitationGain(DriveTerm):
 
     at: str = "drive"
     name: ClassVar[str] = "excitation_gain"
+    usual: ClassVar[bool] = True
     physics: ClassVar[str] = "The drive that acts is larger than the recorded one by the fraction {error}"
     formula: ClassVar[str] = "(1 + error) * u"
     paper: ClassVar[str] = "Pintelon, Schoukens, System Identification: a Frequency Domain Approach (2012), section 1.6"
@@ -75,6 +76,7 @@ class ExcitationDelay(DriveTerm):
 
     at: str = "drive"
     name: ClassVar[str] = "excitation_delay"
+    usual: ClassVar[bool] = True
     unlikely: ClassVar[float] = 3.0
     physics: ClassVar[str] = "The drive acts {delay} after it was recorded"
     formula: ClassVar[str] = "u(t - delay)"

@@ -23,6 +23,7 @@ class ActuatorLag(DriveTerm):
 
     at: str = "drive"
     name: ClassVar[str] = "actuator_lag"
+    usual: ClassVar[bool] = True
     unlikely: ClassVar[float] = 1.5
     physics: ClassVar[str] = "The drive follows the recorded one with a time constant of {time}"
     formula: ClassVar[str] = "w,  time * w' = u - w"
@@ -86,6 +87,7 @@ class SensorLag(SensorTerm):
     at: str = "sensor"
     channel: str = "position"
     name: ClassVar[str] = "sensor_lag"
+    usual: ClassVar[bool] = True
     unlikely: ClassVar[float] = 1.5
     physics: ClassVar[str] = "The sensor follows the true value with a time constant of {time}"
     formula: ClassVar[str] = "w,  time * w' = z - w"

@@ -32,6 +32,7 @@ class SensorGain(SensorTerm):
 
     at: str = "sensor"
     name: ClassVar[str] = "sensor_gain"
+    usual: ClassVar[bool] = True
     physics: ClassVar[str] = "The sensor of the response reads too high by the fraction {error}"
     formula: ClassVar[str] = "(1 + error) * x"
     paper: ClassVar[str] = "Pintelon, Schoukens, System Identification: a Frequency Domain Approach (2012), section 1.6"
@@ -53,6 +54,7 @@ class SensorOffset(SensorTerm):
 
     at: str = "sensor"
     name: ClassVar[str] = "sensor_offset"
+    usual: ClassVar[bool] = True
     physics: ClassVar[str] = "The sensor reads {offset} where the machine is at zero"
     formula: ClassVar[str] = "x + offset"
     paper: ClassVar[str] = "Pintelon, Schoukens, System Identification: a Frequency Domain Approach (2012), section 1.6"
@@ -71,6 +73,7 @@ class SensorDelay(SensorTerm):
 
     at: str = "sensor"
     name: ClassVar[str] = "sensor_delay"
+    usual: ClassVar[bool] = True
     unlikely: ClassVar[float] = 3.0
     physics: ClassVar[str] = "The sensor of the response is delayed by {delay}"
     formula: ClassVar[str] = "x(t - delay)"
