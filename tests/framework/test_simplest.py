@@ -105,10 +105,13 @@ def fit_of(*keys):
     return SimpleNamespace(problem=SimpleNamespace(active=frozenset(keys), settings=DEFAULT), status="converged")
 
 
-@pytest.mark.parametrize(("confirmed", "largest"), [(False, DEFAULT.rival.much - 9.0), (True, 300.0)])
-def test_a_gain_that_no_fit_confirms_does_not_make_a_set_probable(monkeypatch, confirmed, largest):
-    """A set 9 behind whose discrepancy predicts 309, and one with a further term that is 14 behind."""
-    weights = {"": 0.0, "sat": 60.0, "gain": 51.0, "cogging sat": 46.0}
+@pytest.mark.parametrize(
+    ("ahead", "confirmed", "largest"),
+    [(-9.0, False, -9.0), (9.0, False, DEFAULT.rival.much + 9.0), (-9.0, True, 300.0)],
+)
+def test_a_gain_that_no_fit_confirms_does_not_make_a_set_probable(monkeypatch, ahead, confirmed, largest):
+    """A set 9 behind or ahead whose discrepancy predicts 309, and one with a further term that is 14 behind."""
+    weights = {"": 0.0, "sat": 60.0, "gain": 60.0 + ahead, "cogging sat": 46.0}
     fitted_sets = {
         frozenset(k.split()): TermSet(frozenset(k.split()), fit_of(*k.split()), w) for k, w in weights.items()
     }
@@ -116,6 +119,7 @@ def test_a_gain_that_no_fit_confirms_does_not_make_a_set_probable(monkeypatch, c
     selection = Selection(fitted_sets[frozenset()].fit, chosen.fit, fitted_sets)
     selection.expansions = dict.fromkeys((chosen.terms, other.terms, more.terms))
     leads = {other.terms: 300.0, more.terms: 16.0}
+    monkeypatch.setattr(Selection, "expansion", lambda self, term_set: None)
     monkeypatch.setattr(Selection, "discrepancy_fit", lambda self, term_set: confirmed or None)
     monkeypatch.setattr(Selection, "compute_log_odds", lambda self, term_set, over: -leads[over.terms])
     chances = selection.probabilities()
@@ -134,3 +138,21 @@ def test_a_vague_amplitude_counts_where_samples_are_independent(monkeypatch, dev
     term_set = TermSet(frozenset("a"), fit, 10.0)
     selector = SimpleNamespace(selection=None, limits=DEFAULT.select, _significances={})
     assert selecting.Selector._is_robust(selector, term_set, term_set) == robust
+
+
+def test_a_set_as_good_as_the_chosen_one_is_compared_before_probabilities_are_stated(monkeypatch):
+    """A spring and a weight with 0.6 between them: the spring had no probability, for want of an expansion."""
+    weights = {"": 0.0, "weight": 54.2, "spring": 53.6, "far": 40.0}
+    sets = {frozenset(k.split()): TermSet(frozenset(k.split()), fit_of(*k.split()), w) for k, w in weights.items()}
+    selection = Selection(sets[frozenset()].fit, sets[frozenset({"weight"})].fit, sets)
+    selection.expansions = {frozenset({"weight"}): None, frozenset(): None}
+
+    def expand(self, term_set):
+        self.expansions[term_set.terms] = None
+
+    monkeypatch.setattr(Selection, "expansion", expand)
+    monkeypatch.setattr(Selection, "discrepancy_fit", lambda self, term_set: None)
+    monkeypatch.setattr(Selection, "compute_log_odds", lambda self, term_set, over: term_set.weight - over.weight)
+    chances = selection.probabilities()
+    assert chances[frozenset({"spring"})] == pytest.approx(1.0 / (1.0 + np.exp(0.6)))
+    assert chances[frozenset({"far"})] < 1e-5

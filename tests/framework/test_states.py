@@ -285,10 +285,7 @@ def test_held_out_data_decide_between_a_term_and_a_smooth_force(monkeypatch, sco
         discrepancy_fit=lambda term_set: SimpleNamespace(fit=fits["smooth"], corrected=None),
         expansion=lambda term_set: SimpleNamespace(inflation=1.0),
     )
-    acts = {"s": "sensor"}
-    monkeypatch.setattr(
-        confirming, "find_term", lambda problem, key: (SimpleNamespace(acts=acts.get(key, "motion")), ())
-    )
+    monkeypatch.setattr(confirming, "find_term", lambda problem, key: (SimpleNamespace(usual=key == "s"), ()))
     monkeypatch.setattr(confirming, "score_heldout", lambda fit, pieces: scores[fit.key])
     monkeypatch.setattr(confirming, "cut_heldout", lambda observations, held: ())
     d = SimpleNamespace(selection=selection, learned=None, held=(), settings=DEFAULT)

@@ -76,10 +76,10 @@ def _warn_of_probability(d: SearchResult, key: str) -> Iterator[str]:
 
 
 def _warn_of_equal_terms(d: SearchResult, key: str) -> Iterator[str]:
-    """Yield a warning if other, unrelated terms explain the fitted data as well without this one.
+    """Yield a warning if other terms explain the fitted data as well without this one.
 
     Such a set is less probable because of its prior penalties or the comparison with a smooth force, not because of
-    the data.
+    the data. A related law with more parameters contains this one and is no alternative.
     """
     chosen, problem = d.selection.chosen, d.before.problem
     terms = chosen.problem.active
@@ -92,7 +92,8 @@ def _warn_of_equal_terms(d: SearchResult, key: str) -> Iterator[str]:
             continue
         near = chosen.log_evidence - term_set.fit.log_evidence < d.settings.name.related
         if near and not any(
-            _are_indistinguishable(own, t) or are_related(own, t) for t in (find_term(problem, k)[0] for k in fresh)
+            _are_indistinguishable(own, t) or (are_related(own, t) and len(t.params) > len(own.params))
+            for t in (find_term(problem, k)[0] for k in fresh)
         ):
             names = " and ".join(
                 [_name_term(d, fresh[0]), *(to_words(find_term(problem, k)[0].name) for k in fresh[1:])]

@@ -27,6 +27,7 @@ from lostmotion.inference.late import (
     cut_at_onsets,
     list_onsets,
     make_onset_parameter,
+    refine_change,
     refine_onset,
 )
 from lostmotion.inference.natural import (
@@ -306,7 +307,8 @@ def fit_term(fit: Fit, hint: ScoreTest, *, hopeless: float = -math.inf) -> Fit:
         fits.append(maximise(problems[i], hopeless=hopeless, tolerance=ROUGHLY))
         if fits[-1].status in ("converged", "abandoned") and fits[-1].log_likelihood > fit.log_likelihood - 1.0:
             break
-    return refine_onset(max(fits, key=lambda f: f.local.log_posterior), hint.key)
+    best = max(fits, key=lambda f: f.local.log_posterior)
+    return refine_change(refine_onset(best, hint.key), hint.key)
 
 
 def refit_with_noise(fit: Fit) -> Fit:

@@ -87,6 +87,38 @@ def refine_onset(fit: Fit, key: str) -> Fit:
     return late if late.local.log_posterior > fit.local.log_posterior else fit
 
 
+def find_change_time(problem: Problem, key: str) -> int | None:
+    """Return the index of the free time at which a term changes the machine; None for a term without one.
+
+    It is a time in the recording with a scan, such as that of a change of inertia.
+    """
+    _, slots = find_term(problem, key)
+    times = [s.key for s in slots if s.param.lasting and s.param.dimension == TIME and s.param.scan]
+    return next((i for i, name in enumerate(problem.keys) if name in times), None)
+
+
+def refine_change(fit: Fit, key: str) -> Fit:
+    """Return the fit with the time of a change at the highest of many maxima; unchanged for a term without one.
+
+    The likelihood of such a time has a maximum in nearly every cycle of the motion, so it is computed on a grid over
+    the recording, then between the neighbours of the best time.
+    """
+    if fit.status == "diverged" or (at := find_change_time(fit.problem, key)) is None:
+        return fit
+    observation, best = fit.problem.observations[0], fit.theta.copy()
+    limits, span = fit.problem.settings.select, observation.samples * observation.dt
+    grid = observation.time[0] + span * np.linspace(limits.onset_first, limits.onset_last, GRID)
+    for _ in range(2):
+        thetas = np.repeat(best[None], len(grid), axis=0)
+        thetas[:, at] = np.log(grid)
+        thetas = np.array([fit.problem.clip(theta) for theta in thetas])
+        best = thetas[int(np.nanargmax(fit.problem.log_posteriors(thetas)))]
+        grid = math.exp(best[at]) + np.linspace(-1.0, 1.0, TIMES + 1) * (grid[1] - grid[0])
+        grid = grid[grid > 0.0]
+    found = maximise(fit.problem, best)
+    return found if found.local.log_posterior > fit.local.log_posterior else fit
+
+
 def drop_weak_onsets(fit: Fit) -> Fit:
     """Return a fit with only those onsets that the evidence supports; all other terms act from the beginning.
 

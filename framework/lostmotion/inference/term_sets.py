@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from lostmotion.inference.candidates import ScoreTest
-from lostmotion.inference.channel_correction import CorrectedFit, correct_channels
+from lostmotion.inference.discrepancy_fits import DiscrepancyFit, evaluate_fit
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.natural import find_term
 from lostmotion.inference.rival import (
@@ -27,14 +27,6 @@ CLOSE = 12.0
 """Sets within this distance of the best in log weight are refitted, and kept for comparison."""
 BEAM = 3
 """The number of sets of one size that are extended in each round."""
-LEAST_GAIN = -10.0
-"""The least gain of a discrepancy without effect: free known values and channel errors that explain nothing reduce the
-log evidence by about this much."""
-
-MOST_ADDITIONS, WORTHWHILE = 2, 6.0
-"""Smooth forces are added to a fit at most this number of times, if they predict at least this gain in log evidence."""
-MOST_CORRECTIONS = 3
-"""Channels are corrected at most this number of times, if their errors predict a large gain."""
 
 
 @dataclass(frozen=True)
@@ -44,74 +36,6 @@ class TermSet:
     terms: frozenset[str]
     fit: Fit
     weight: float
-
-
-class DiscrepancyFit(NamedTuple):
-    """The fit of a set with the smooth forces of its discrepancy: gain in log evidence, log penalty, predicted rest.
-
-    `rest` is the gain that errors of known values and channels predict in addition, up to a limit. `fit` is the fit
-    with smooth forces to the uncorrected recordings, `corrected` the fit to recordings with corrected channels.
-    """
-
-    evidence: float
-    price: float
-    rest: float
-    fit: Fit
-    corrected: CorrectedFit | None = None
-
-    @property
-    def free_values_cost(self) -> float:
-        """The measured change of log evidence by free known values and channel errors, at most zero."""
-        return max(LEAST_GAIN, min(self.rest, 0.0))
-
-    def compute_gain(self, inflation: float) -> float:
-        """Return the gain in log evidence, with log-likelihoods divided by `inflation`."""
-        return self.evidence / inflation - self.price + self.rest
-
-
-def _evaluate_fit(found: tuple[Fit, float] | None, fit: Fit) -> DiscrepancyFit | None:
-    """Return the evaluated fit with smooth forces, compared with the fit without; None if there is none."""
-    if found is None or found[0].status == "diverged":
-        return None
-    best, price, rest = _add_smooth_forces(*found)
-    right = None
-    fitted = DiscrepancyFit(best.log_evidence - fit.log_evidence, price, _limit_gain(rest), best)
-    for _ in range(MOST_CORRECTIONS):
-        if not rest.compute_fixed_gain(rest.inflation) > rest.fit.problem.settings.rival.much:
-            break
-        right = correct_channels(rest, right)
-        if right is None or right.fit.status == "diverged":
-            break
-        rest = expand_fit(right.fit)
-        evidence = right.fit.log_evidence + right.log_jacobian - fit.log_evidence
-        more = DiscrepancyFit(evidence, price + right.price, _limit_gain(rest), best, right)
-        if not more.compute_gain(rest.inflation) > fitted.compute_gain(rest.inflation):
-            break
-        fitted = more
-    return fitted
-
-
-def _add_smooth_forces(best: Fit, price: float) -> tuple[Fit, float, DiscrepancyExpansion]:
-    """Return a fit with smooth forces, its log penalty, and its expansion.
-
-    Further smooth forces are added as long as they predict a further gain and the fit confirms it.
-    """
-    rest = expand_fit(best)
-    for _ in range(MOST_ADDITIONS):
-        if not rest.find_best().gain - rest.compute_fixed_gain(rest.inflation) > WORTHWHILE:
-            break
-        more = fit_discrepancy(rest)
-        if more is None or more[0].status == "diverged" or more[0].log_evidence - more[1] < best.log_evidence:
-            break
-        best, price = more[0], price + more[1]
-        rest = expand_fit(best)
-    return best, price, rest
-
-
-def _limit_gain(rest: DiscrepancyExpansion) -> float:
-    """Return the predicted gain of an expansion about a fit with smooth forces, up to a limit."""
-    predicted, limits = rest.predict_gain(), rest.fit.problem.settings.rival
-    return min(predicted if predicted < limits.absurd else rest.compute_fixed_gain(rest.inflation), limits.much)
 
 
 class KnownLogOdds(NamedTuple):
@@ -216,7 +140,7 @@ class Selection:
         """Fit the discrepancy beside a set, and store the result."""
         self.discrepancy_fits[term_set.terms] = (
             term_set.fit,
-            _evaluate_fit(fit_discrepancy(self.expansion(term_set)), term_set.fit),
+            evaluate_fit(fit_discrepancy(self.expansion(term_set)), term_set.fit),
         )
 
     def confirm_lead(self, term_set: TermSet, over: TermSet) -> None:
@@ -256,7 +180,7 @@ class Selection:
         known = self.discrepancy_fit(over)
         if known is None or self.discrepancy_fit(term_set) is None:
             return
-        found = _evaluate_fit(fit_imitation(self.expansion(term_set), term_set.terms - over.terms), over.fit)
+        found = evaluate_fit(fit_imitation(self.expansion(term_set), term_set.terms - over.terms), over.fit)
         if found is not None:
             self.discrepancy_fits[over.terms] = (
                 over.fit,
@@ -349,20 +273,25 @@ class Selection:
     def probabilities(self) -> dict[frozenset[str], float]:
         """Return the posterior probability of each fitted set, without sets of declined or withdrawn terms.
 
-        Sets with an expansion are compared together with the discrepancy; the others are compared by evidence, and are
-        at most as probable as the least probable of the former. The log odds of a set over a subset are at most those
-        that were confirmed, and those of any set are limited where no fit confirms the gain of its discrepancy.
+        Sets with an expansion or close to the chosen one are compared together with the discrepancy; the others are
+        compared by evidence, and are at most as probable as the least probable of the former. The log odds of a set
+        over a subset are at most those that were confirmed, and those of any set are limited where no fit confirms the
+        gain of its discrepancy.
         """
         excluded = (self.declined | self.withdrawn | self.replaced) - self.chosen.problem.active
         considered = {k: v for k, v in self.fitted_sets.items() if not k & excluded}
         chosen = self.fitted_sets[self.chosen.problem.active]
+        if chosen.terms in self.expansions:
+            for term_set in [v for v in considered.values() if v.weight > chosen.weight - CLOSE]:
+                self.expansion(term_set)
         log_odds = {k: v.weight - chosen.weight for k, v in considered.items()}
         known = [terms for terms in considered if terms in self.expansions and terms != chosen.terms]
         pairs = [(terms, considered[terms]) for terms in known]
-        log_odds |= {k: min(-self.compute_log_odds(chosen, v), self._limit_log_odds(v, chosen)) for k, v in pairs}
+        free = log_odds | {k: -self.compute_log_odds(chosen, v) for k, v in pairs}
         for (more, fewer), known_odds in sorted(self.known_log_odds.items(), key=lambda known: len(known[0][0])):
-            if fewer < more and more in log_odds and fewer in log_odds and more != chosen.terms:
-                log_odds[more] = min(log_odds[more], log_odds[fewer] + known_odds.value)
+            if fewer < more and more in free and fewer in free and more != chosen.terms:
+                free[more] = min(free[more], free[fewer] + known_odds.value)
+        log_odds = free | {k: min(free[k], self._limit_log_odds(v, chosen)) for k, v in pairs}
         least = min([0.0, *(log_odds[terms] for terms in known)])
         log_odds |= {k: min(h, least) for k, h in log_odds.items() if k not in self.expansions}
         log_odds |= {k: log_odds[k] + score for k, score in self.heldout_gains.items() if k in log_odds}
@@ -372,11 +301,16 @@ class Selection:
         return {k: w / total for k, w in raw.items()}
 
     def _limit_log_odds(self, term_set: TermSet, over: TermSet) -> float:
-        """Return the largest log odds of a set over the chosen one: a gain that no fit confirms counts up to `much`."""
+        """Return the largest log odds of a set over the chosen one: a gain that no fit confirms counts up to `much`.
+
+        It does not count for a set of less weight, nor for one with additional terms.
+        """
+        ahead = term_set.weight - over.weight
         if term_set.terms > over.terms:
-            return term_set.weight - over.weight
-        confirmed = self.discrepancy_fit(term_set) is not None
-        return math.inf if confirmed else term_set.weight - over.weight + self.limits.much
+            return ahead
+        if self.discrepancy_fit(term_set) is not None:
+            return math.inf
+        return ahead + self.limits.much if ahead > 0.0 else ahead
 
     def list_close_fits(self) -> list[Fit]:
         """Return the fits of the best sets that are close to the chosen one, without that one."""
