@@ -35,9 +35,9 @@ from lostmotion.likelihood.problem import RANDOM
 MOST_FITTED, MOST_LATE = 6, 2
 """The numbers of terms without and with an onset that are fitted in a round. If the motion changes, many terms with an
 onset predict a large gain."""
-MOST_SIMPLE, SIMPLE_SHARE = 3, 0.5
-"""So many more terms with one parameter are fitted, if they predict this share of the largest gain: a test far from the
-maximum ranks laws with several parameters too high."""
+MOST_SIMPLE, MOST_FIRST, SHARE = 3, 6, 0.5
+"""So many more terms are fitted that predict this share of the largest gain: those with one parameter, and beside the
+nominal model any. A test far from the maximum ranks some laws too high."""
 MOST_COMPARED = 4
 """The number of sets of largest weight that are compared with the discrepancy in each round: each costs a hundred
 runs of the filter."""
@@ -289,8 +289,9 @@ class Selector:
             (h for h in hints if h.gain > self.limits.promising and h.distinct > LEAST_DISTINCT), key=lambda h: -h.gain
         )
         soon, late = [h for h in good if not h.late], [h for h in good if h.late]
-        simple = [h for h in soon[MOST_FITTED:] if len(h.start) == 1 and h.gain > SIMPLE_SHARE * soon[0].gain]
-        good = soon[:MOST_FITTED] + simple[:MOST_SIMPLE] + late[:MOST_LATE]
+        more = [h for h in soon[MOST_FITTED:] if h.gain > SHARE * soon[0].gain]
+        more = [h for h in more if len(h.start) == 1][:MOST_SIMPLE] if fit.problem.active else more[:MOST_FIRST]
+        good = soon[:MOST_FITTED] + more + late[:MOST_LATE]
         for size in sorted({len(h.start) for h in good}):
             group = [h for h in good if len(h.start) == size]
             self.say(f"fits with {', '.join(h.key for h in group)}")

@@ -11,10 +11,11 @@ from lostmotion.quantities import FORCE, LENGTH, NUMBER
 from lostmotion_plugins.laws import resist_sliding
 from lostmotion_plugins.terms.changing import ParametricStiffness
 
-TYPICAL_PITCH, PITCH_RANGE = 0.3, (0.1, 3.4)
+TYPICAL_PITCH, PITCH_RANGE = 0.3, (0.1, 4.2)
 """The usual pitch in amplitudes of the motion, and the range of pitches that are tried in units of that.
 
-The longest one has two periods within the travel. A longer one could not be told from another smooth curve."""
+The longest one has 1.6 periods within the travel of a harmonic motion, and three within that of a multisine, which has
+rare peaks. A longer one could not be told from another smooth curve."""
 
 PITCH = Param(
     "pitch", "travel or turn after which it repeats", LENGTH, low=0.0, scale="log", typical=TYPICAL_PITCH,
