@@ -103,17 +103,14 @@ class Model(ABC):
 class Term(ABC):
     """A physical effect that a model may lack: a force at an interface, with states of its own where it needs them.
 
-    `at` names the interface, `physics` is a sentence with the parameters in braces, `formula` the law as text. A
-    parameter with a `null` is an amplitude: where all of these are at their null, the force is exactly zero. `p` holds
-    the values of `params`, then of `needs`: parameters that the interface `holds`, or names in `PSEUDO_NEEDS`. Each of
-    `states` starts at zero, except the first ones, for which `begins` gives a dimension: they may start at any value
-    of natural size. `further` declares the results of `derived`. `resembles` names terms that explain recordings
-    almost as well; `equals` those that no recording of a machine with constant parameters can tell from this one.
-    A term whose effect is the same `anywhere` is tried only at the ground. `unlikely` is subtracted from the log odds
-    of a cause that an engineer considers last. `usual` errors of a channel are in every acquisition system, and in the
-    generic smooth discrepancy with which terms are compared. `force` and `rate` are static, or methods that read
-    numeric fields.
-    Example: `force` of viscous damping is `return -p[0] * v`; see `plugins/template` for a term with a state.
+    `at` names the interface, `physics` is a sentence with the parameters in braces, `formula` the law. A parameter with
+    a `null` is an amplitude: where all of these are at their null, the force is exactly zero. `p` holds the values of
+    `params`, then of `needs`: parameters that the interface `holds`, or names in `PSEUDO_NEEDS`. Each of `states`
+    starts at zero, except the first ones, for which `begins` gives a dimension: any value of natural size. `further`
+    declares the results of `derived`. `resembles` names terms that explain recordings almost as well; `equals` those
+    that no recording of a machine with constant parameters can tell from this one. A term whose effect is the same
+    `anywhere` is tried only at the ground. `unlikely` is subtracted from the log odds of a rare cause. `usual` errors
+    of a channel belong to the discrepancy. `force` and `rate` are static, or methods that read numeric fields.
     """
 
     at: str
