@@ -20,6 +20,7 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
+import click
 import numpy as np
 
 from lostmotion.case import dump_case
@@ -233,6 +234,8 @@ def run_task(task):
             code = run.main(args=arguments, standalone_mode=False) or 0
         except SystemExit as end:
             code = end.code
+        except click.ClickException as err:  # the effect left nothing to diagnose, for instance a constant reading
+            return {**row, "status": f"not made: {err.format_message()}"}
         row |= {"model": rig.model, "dt": 1.0 / rig.rate, "seconds": time.process_time() - begin, "status": code}
         if code:
             return row

@@ -293,10 +293,16 @@ def test_held_out_data_decide_between_a_term_and_a_smooth_force(monkeypatch, sco
     assert (found and found[0].key) == chosen
 
 
-def test_of_sets_that_explain_what_was_fitted_the_one_that_predicts_better_is_taken(monkeypatch):
-    """Ten parts, errors that scatter by 5 %: one set errs by a tenth less, one by a tenth more, one as much. Seeded."""
+@pytest.mark.parametrize(("less", "scattered", "taken"), [(0.9, 0.05, "a"), (0.995, 1e-4, None)])
+def test_of_sets_that_explain_what_was_fitted_the_one_that_predicts_better_is_taken(
+    monkeypatch, less, scattered, taken
+):
+    """Ten parts, errors that scatter by 5 %: one set errs by a tenth less, one by a tenth more, one as much. Seeded.
+
+    An error that is lower by half a percent in each part is significant, and no reason to replace a set.
+    """
     rng = np.random.default_rng(3)
-    factors = {"ab": 1.0, "a": 0.9, "b": 1.1, "c": 1.0}
+    factors = {"ab": 1.0, "a": less, "b": 1.1, "c": 1.0}
     problem = SimpleNamespace(keys=(RANDOM,))
     fits = {k: SimpleNamespace(status="converged", key=k, problem=problem, theta=np.zeros(1)) for k in ("", *factors)}
     fitted_sets = {frozenset(k): TermSet(frozenset(k), fit, 50.0 if k else 0.0) for k, fit in fits.items()}
@@ -311,15 +317,15 @@ def test_of_sets_that_explain_what_was_fitted_the_one_that_predicts_better_is_ta
         discrepancy_fit=lambda term_set: None,
     )
     d = SimpleNamespace(selection=selection, learned=None, unexplained=True, held=(), settings=DEFAULT)
-    scatter = np.exp(0.05 * rng.standard_normal((len(factors), PARTS)))
+    scatter = np.exp(scattered * rng.standard_normal((len(factors), PARTS)))
     told = {k: factors[k] * row for k, row in zip(factors, scatter, strict=True)}
     monkeypatch.setattr(confirming, "cut_heldout", lambda observations, held: ())
     monkeypatch.setattr(confirming, "compute_run_errors", lambda fit, pieces, horizon: told[fit.key])
     monkeypatch.setattr(confirming, "score_heldout", lambda fit, pieces: {"a": 9.0, "": 3.0}[fit.key])
     outcome = SimpleNamespace(diagnosis=d, horizon=None)
-    fit, gains = confirming.find_better_set(outcome, ())
-    assert fit.key == "a"
-    assert gains == {frozenset("a"): 3.0}, "the difference in log score, divided by the inflation"
+    found = confirming.find_better_set(outcome, ())
+    assert (found and found[0].key) == taken
+    assert not found or found[1] == {frozenset("a"): 3.0}, "the difference in log score, divided by the inflation"
     fits["a"].theta = np.ones(1)
     assert confirming.find_better_set(outcome, ()) is None, "it leaves more of a random force than the nominal model"
     fits["a"].theta, fitted_sets[frozenset("a")] = np.zeros(1), TermSet(frozenset("a"), fits["a"], 20.0)

@@ -14,7 +14,7 @@ from lostmotion.diagnosis.search import _check_moving
 from lostmotion.errors import DataError
 from lostmotion.inference.setup import count_lasting_samples
 from lostmotion.likelihood.observation import Observation, Sensor
-from lostmotion.results import Interval
+from lostmotion.results import Interval, attach_unit
 from lostmotion.results.diagnosis import Mechanism
 from lostmotion.results.mismatch import UnexplainedForce
 from lostmotion.settings import DEFAULT
@@ -128,3 +128,9 @@ def test_known_values_of_terms_are_not_passed_over_in_silence():
     assert "sensor_delay@load encoder.delay" in note
     assert "not used" in note
     assert note_unused(["m", "k"]) == []
+
+
+def test_pure_numbers_have_no_unit():
+    """A report said `a further mass of 0.112 1 of the moving one` where intervals are withheld."""
+    assert attach_unit("0.112", "1") == "0.112"
+    assert attach_unit("3.1", "N") == "3.1 N"

@@ -66,8 +66,9 @@ def find_better_set(
     """Return the fit of another set that predicts held-out data better than the chosen one, with its held-out gain.
 
     Where the model is wrong in other ways too, several sets may explain the fitted data equally well; their predictions
-    then decide. The best sets of each size, of no more terms, are compared by paired t tests (Bonferroni). None means
-    that there is no such set. The gain is over the nominal model, alone or with a smooth force.
+    then decide. The best sets of each size, of no more terms, are compared by paired t tests (Bonferroni), and the
+    error must be smaller by more than `HeldOutSettings.rise`. None means that there is no such set. The gain is over
+    the nominal model, alone or with a smooth force.
     """
     d, selection = outcome.diagnosis, outcome.diagnosis.selection
     here = selection.fitted_sets.get(selection.chosen.problem.active)
@@ -76,7 +77,9 @@ def find_better_set(
     pieces, others = cut_heldout(observations, d.held), _list_alternatives(d, here)
     errors = compute_run_errors(here.fit, pieces, outcome.horizon)
     rivals = [(term_set, compute_run_errors(term_set.fit, pieces, outcome.horizon)) for term_set in others]
-    better = [(v, e) for v, e in rivals if is_better(e, errors, d.settings.heldout.chance / len(rivals))]
+    limits = d.settings.heldout
+    rivals_ahead = [(v, e) for v, e in rivals if (1.0 + limits.rise) * _compute_rms(e) < _compute_rms(errors)]
+    better = [(v, e) for v, e in rivals_ahead if is_better(e, errors, limits.chance / len(rivals))]
     if not better:
         return None
     best, nothing = min(better, key=lambda rival: _compute_rms(rival[1]))[0], selection.fitted_sets[frozenset()]

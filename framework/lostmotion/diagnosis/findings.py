@@ -20,7 +20,7 @@ from lostmotion.inference.natural import find_term
 from lostmotion.inference.profile import stretch_draws
 from lostmotion.likelihood.predict import Horizon
 from lostmotion.quantities import unit_of
-from lostmotion.results import Interval, percent, rounded
+from lostmotion.results import Interval, attach_unit, percent, rounded
 from lostmotion.results.diagnosis import Mechanism
 
 DRAWS = 2000
@@ -123,7 +123,7 @@ def _make_entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> Me
     own = {s.param.name: after.get(s.key) or _make_interval(np.full(1, held[s.key]), s.unit) for s in slots}
     why = explain_withheld(outcome)
     shown_own = {name: i.with_angles_in(outcome.angle) for name, i in own.items()}
-    numbers = {name: f"{rounded(i.median, 3)} {i.unit}" if why else str(i) for name, i in shown_own.items()}
+    numbers = {name: attach_unit(rounded(i.median, 3), i.unit) if why else str(i) for name, i in shown_own.items()}
     numbers |= {q.name: q.words[q.choices.index(own[q.name].median)] for q in term.params if q.words}
     sentence = term.physics.format(**numbers) + _name_sensor(d, term)
     if term.at in list_other_places(system.model):
@@ -161,7 +161,7 @@ def _make_quantised_entry(d: SearchResult, key: str) -> Mechanism:
     unit = unit_of(channel, d.after.problem.system.model.motion)
     own = {s.param.name: Interval(v, v - 1.96 * sd, v + 1.96 * sd, unit) for s, v, sd in rows}
     sentence = term.physics.format(
-        **{name: f"{rounded(i.median, 3)} {i.unit}" for name, i in own.items()}
+        **{name: attach_unit(rounded(i.median, 3), i.unit) for name, i in own.items()}
     ) + _name_sensor(d, term)
     return Mechanism(
         mechanism=term.name,

@@ -17,7 +17,7 @@ from lostmotion.inference.penalties import are_related
 from lostmotion.inference.term_sets import SimplestTerms
 from lostmotion.quantities import TIME
 from lostmotion.report.words import to_words
-from lostmotion.results import percent, rounded
+from lostmotion.results import attach_unit, percent, rounded
 from lostmotion.results.diagnosis import Mechanism, OpenTerm
 from lostmotion.settings import DEFAULT, NameSettings
 
@@ -116,10 +116,9 @@ def _warn_of_heldout_decision(d: SearchResult, key: str) -> Iterator[str]:
             f" for the term, by {rounded(gains[chosen])} in log score."
         )
     elif not replace(d.selection, heldout_gains={}).inclusion(key) > d.settings.name.sure:
-        yield (
-            "The fitted data alone do not decide for this term; predictions of held-out data do, by"
-            f" {rounded(gains[chosen])} in log score."
-        )
+        gain = gains[chosen]
+        by = f", and their log score is higher by {rounded(gain)}" if gain > 0.0 else ""
+        yield f"The fitted data alone do not decide for this term; free runs over held-out data do{by}."
 
 
 def _warn_of_rest(d: SearchResult, key: str) -> Iterator[str]:
@@ -171,9 +170,10 @@ def warn_of_moved_amplitudes(d: SearchResult, key: str) -> Iterator[str]:
             continue
         old, new = without.fit.values[f.key], chosen.values[f.key]
         if abs(new - old) > max(limits.moved * sds[f.key], limits.moved_share * abs(old)):
+            first, then = (attach_unit(rounded(value, 3), f.unit) for value in (old, new))
             yield (
-                f"The {name} of {to_words(owner.partition('@')[0])} is {rounded(old, 3)} {f.unit} without"
-                f" {to_words(key.partition('@')[0])} and {rounded(new, 3)} {f.unit} with it: either"
+                f"The {name} of {to_words(owner.partition('@')[0])} is {first} without"
+                f" {to_words(key.partition('@')[0])} and {then} with it: either"
                 " it was not identified, or"
                 " the further term is wrong."
             )

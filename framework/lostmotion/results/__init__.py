@@ -33,6 +33,11 @@ def percent(share: float, digits: int = 2) -> str:
     return f"{rounded(100.0 * share, digits)} %" if abs(share) < 1.0 else f"{100.0 * share:.0f} %"
 
 
+def attach_unit(number: str, unit: str) -> str:
+    """Return a number with its unit; a pure number, whose unit is 1, has none."""
+    return number if unit == "1" else f"{number} {unit}"
+
+
 def decimals_of(median: float, low: float, high: float, least: int) -> int:
     """Return the decimals that show `least` figures of a median and two of the width of its interval."""
     sizes = [abs(median) / 10.0 ** (least - 1)] if median and math.isfinite(median) else []
@@ -66,12 +71,11 @@ class Interval:
         return replace(self, median=median, low=low, high=high, unit=DEGREES[self.unit])
 
     def __str__(self) -> str:
-        unit = "" if self.unit == "1" else f" {self.unit}"
         if not SMALL <= abs(self.median) < LARGE:
-            return f"{self.median:.4g}{unit} [{self.low:.4g}, {self.high:.4g}]"
+            return f"{attach_unit(f'{self.median:.4g}', self.unit)} [{self.low:.4g}, {self.high:.4g}]"
         decimals = decimals_of(self.median, self.low, self.high, 4)
         median, low, high = (f"{value:.{decimals}f}" for value in (self.median, self.low, self.high))
-        return f"{median}{unit} [{low}, {high}]"
+        return f"{attach_unit(median, self.unit)} [{low}, {high}]"
 
 
 STATUSES: Mapping[str, str] = {
