@@ -37,6 +37,7 @@ Values = tuple[float, ...]
 Drive = tuple[float, float, float]
 """A harmonic drive: amplitude (SI), angular frequency omega (rad/s) and phase (rad)."""
 Motion = Literal["translation", "rotation"]
+_NOWHERE = Interface("", -1, "", lambda y, u: (0.0, 0.0))
 
 
 class Model(ABC):
@@ -108,9 +109,10 @@ class Term(ABC):
     `params`, then of `needs`: parameters that the interface `holds`, or names in `PSEUDO_NEEDS`. Each of `states`
     starts at zero, except the first ones, for which `begins` gives a dimension: any value of natural size. `further`
     declares the results of `derived`. `resembles` names terms that explain recordings almost as well; `equals` those
-    that no recording of a machine with constant parameters can tell from this one. A term whose effect is the same
-    `anywhere` is tried only at the ground. `unlikely` is subtracted from the log odds of a rare cause. `usual` errors
-    of a channel belong to the discrepancy. `force` and `rate` are static, or methods that read numeric fields.
+    that no recording of a machine with constant parameters can tell from this one; `extends` simpler laws that it
+    contains. A term whose effect is the same `anywhere` is tried only at the ground. `unlikely` is subtracted from the
+    log odds of a rare cause. `usual` errors of a channel belong to the discrepancy. `force` and `rate` are static, or
+    methods that read numeric fields.
     """
 
     at: str
@@ -127,6 +129,7 @@ class Term(ABC):
     further: ClassVar[tuple[Param, ...]] = ()
     resembles: ClassVar[tuple[str, ...]] = ()
     equals: ClassVar[tuple[str, ...]] = ()
+    extends: ClassVar[tuple[str, ...]] = ()
     anywhere: ClassVar[bool] = False
     unlikely: ClassVar[float] = 0.0
     usual: ClassVar[bool] = False
@@ -291,9 +294,6 @@ def place_of(model: Model, term: Term) -> Interface:
     if model.motion not in term.motions:
         raise ContractError(f"{term.name} is a law of {' or '.join(term.motions)}; {model.name} is {model.motion}")
     return place
-
-
-_NOWHERE = Interface("", -1, "", lambda y, u: (0.0, 0.0))
 
 
 class Embedder(ABC):

@@ -11,7 +11,7 @@ import numpy as np
 from lostmotion.contracts import Array, Model, SensorTerm, Term
 from lostmotion.diagnosis.compare import Prediction
 from lostmotion.diagnosis.search import SearchResult, list_physical_keys
-from lostmotion.diagnosis.states import LIKELY, NAMED, is_valid, list_warnings
+from lostmotion.diagnosis.states import LIKELY, NAMED, compute_probability, is_valid, list_warnings
 from lostmotion.diagnosis.unknowns import make_learned_entry, make_unnamed_entry
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.late import estimate_onset
@@ -137,7 +137,7 @@ def _make_entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> Me
     return Mechanism(
         mechanism=term.name,
         at=term.at,
-        probability=d.selection.inclusion(key),
+        probability=compute_probability(d, key),
         state=LIKELY if doubts else NAMED,
         doubts=tuple(doubts),
         parameters=own | _compute_derived(outcome, term, held),

@@ -13,7 +13,6 @@ from lostmotion.diagnosis.compare import Prediction
 from lostmotion.diagnosis.search import SearchResult
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.natural import find_term
-from lostmotion.inference.penalties import are_related
 from lostmotion.inference.term_sets import SimplestTerms
 from lostmotion.quantities import TIME
 from lostmotion.report.words import to_words
@@ -30,14 +29,27 @@ def is_valid(after: Prediction, floor: float, limits: NameSettings = DEFAULT.nam
 
 
 def compute_probability(d: SearchResult, key: str) -> float:
-    """Return the posterior probability of a term, or of one that this kind of recording cannot distinguish from it."""
+    """Return the posterior probability of a term, with that of laws at the same place that contain it.
+
+    Where friction drifts, there is friction.
+    """
     term, _ = find_term(d.after.problem, key)
-    kin = [
-        k
-        for k, t in zip(d.before.problem.system.keys, d.before.problem.system.terms, strict=True)
-        if _are_indistinguishable(term, t)
-    ]
-    return min(sum(d.selection.inclusion(k) for k in {key, *kin}), 1.0)
+    system = d.before.problem.system
+    kin = [k for k, t in zip(system.keys, system.terms, strict=True) if _contains(t, term)]
+    return min(sum(d.selection.inclusion(k) for k in (key, *kin)), 1.0)
+
+
+def _compute_equal_probability(d: SearchResult, key: str) -> float:
+    """Return the posterior probability of a term, with that of terms that a recording cannot distinguish from it."""
+    term, _ = find_term(d.after.problem, key)
+    system = d.before.problem.system
+    kin = [k for k, t in zip(system.keys, system.terms, strict=True) if _are_indistinguishable(term, t) and k != key]
+    return min(compute_probability(d, key) + sum(d.selection.inclusion(k) for k in kin), 1.0)
+
+
+def _contains(law: Term, simpler: Term) -> bool:
+    """Return whether a law at the same place has a simpler one as a special case."""
+    return law.at == simpler.at and simpler.name in law.extends
 
 
 def _are_indistinguishable(term: Term, other: Term) -> bool:
@@ -59,7 +71,7 @@ def list_warnings(d: SearchResult, key: str) -> list[str]:
 
 
 def _warn_of_probability(d: SearchResult, key: str) -> Iterator[str]:
-    p = compute_probability(d, key)
+    p = _compute_equal_probability(d, key)
     if d.selection.simplest:
         others = _list_simplest_alternatives(d, d.selection.simplest, key)
         yield (
@@ -79,11 +91,11 @@ def _warn_of_equal_terms(d: SearchResult, key: str) -> Iterator[str]:
     """Yield a warning if other terms explain the fitted data as well without this one.
 
     Such a set is less probable because of its prior penalties or the comparison with a smooth force, not because of
-    the data. A related law with more parameters contains this one and is no alternative.
+    the data. A law that contains this one is no alternative.
     """
     chosen, problem = d.selection.chosen, d.before.problem
     terms = chosen.problem.active
-    if compute_probability(d, key) <= d.settings.name.sure:
+    if _compute_equal_probability(d, key) <= d.settings.name.sure:
         return
     barred, own = terms | d.selection.declined | d.selection.withdrawn, find_term(problem, key)[0]
     for others, term_set in d.selection.fitted_sets.items():
@@ -92,8 +104,7 @@ def _warn_of_equal_terms(d: SearchResult, key: str) -> Iterator[str]:
             continue
         near = chosen.log_evidence - term_set.fit.log_evidence < d.settings.name.related
         if near and not any(
-            _are_indistinguishable(own, t) or (are_related(own, t) and len(t.params) > len(own.params))
-            for t in (find_term(problem, k)[0] for k in fresh)
+            _are_indistinguishable(own, t) or _contains(t, own) for t in (find_term(problem, k)[0] for k in fresh)
         ):
             names = " and ".join(
                 [_name_term(d, fresh[0]), *(to_words(find_term(problem, k)[0].name) for k in fresh[1:])]

@@ -42,6 +42,7 @@ class StribeckFriction(Term):
 
     at: str = "ground"
     name: ClassVar[str] = "stribeck_friction"
+    extends: ClassVar[tuple[str, ...]] = ("coulomb_friction",)
     physics: ClassVar[str] = (
         "Dry friction of {force}, rising by {excess} towards rest below {velocity}, opposes the motion"
     )

@@ -24,6 +24,7 @@ class DirectionalFriction(Term):
 
     at: str = "ground"
     name: ClassVar[str] = "directional_friction"
+    extends: ClassVar[tuple[str, ...]] = ("coulomb_friction",)
     physics: ClassVar[str] = (
         "Dry friction opposes the motion: {forward} in positive direction, {backward} in negative direction"
     )
@@ -87,6 +88,7 @@ class FrictionDrift(Term):
 
     at: str = "ground"
     name: ClassVar[str] = "friction_drift"
+    extends: ClassVar[tuple[str, ...]] = ("coulomb_friction",)
     physics: ClassVar[str] = (
         "Dry friction opposes the motion: {force} at the start, and {change} more in the long run, with a time constant"
         " of {time}"

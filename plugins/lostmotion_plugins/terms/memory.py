@@ -26,6 +26,7 @@ class DahlFriction(Term):
 
     at: str = "ground"
     name: ClassVar[str] = "dahl_friction"
+    extends: ClassVar[tuple[str, ...]] = ("coulomb_friction",)
     physics: ClassVar[str] = (
         "Dry friction of {force}, with {deflection} of elastic travel before it slides, opposes the motion"
     )
@@ -59,6 +60,7 @@ class LuGreFriction(Term):
 
     at: str = "ground"
     name: ClassVar[str] = "lugre_friction"
+    extends: ClassVar[tuple[str, ...]] = ("coulomb_friction", "dahl_friction")
     physics: ClassVar[str] = (
         "Dry friction of {force}, rising by {excess} towards rest below {velocity}, with {deflection} of elastic travel"
         " before it slides, opposes the motion"
@@ -96,6 +98,7 @@ class BoucWenHysteresis(Term):
 
     at: str = "ground"
     name: ClassVar[str] = "bouc_wen_hysteresis"
+    extends: ClassVar[tuple[str, ...]] = ("coulomb_friction",)
     physics: ClassVar[str] = "A hysteretic force that yields at {force} after {travel} of travel acts"
     formula: ClassVar[str] = "-f,  f' = (force * v - (|v| f |f| + v f^2) / (2 force)) / travel"
     paper: ClassVar[str] = "Wen, J. Engineering Mechanics Division ASCE 102 (1976) 249-263; Bouc (1967)"

@@ -55,6 +55,7 @@ class PositionDependentFriction(Term):
 
     at: str = "ground"
     name: ClassVar[str] = "position_dependent_friction"
+    extends: ClassVar[tuple[str, ...]] = ("coulomb_friction",)
     physics: ClassVar[str] = (
         "Dry friction of {force} on average, which varies periodically with every {pitch} by {cosine} as a cosine and"
         " {sine} as a sine, opposes the motion"
