@@ -12,7 +12,8 @@ from truths import case_of, fit_oscillator
 
 from lostmotion.contracts import Param, Term
 from lostmotion.diagnosis.search import diagnose
-from lostmotion.inference import shape_scan
+from lostmotion.inference import rounding
+from lostmotion.inference.candidates import compute_slopes, fit_term, run_score_test
 from lostmotion.inference.shape_scan import scan_shapes
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
@@ -109,5 +110,10 @@ def test_the_rounding_of_stored_values_is_no_wave_of_the_sensor(monkeypatch):
     """Its errors have the pitch of the step; a wave of that pitch was named beside the quantisation."""
     fit = clipped(9.0, "position_ripple", step=1e-3)
     assert scan_shapes(fit) == {}
-    monkeypatch.setattr(shape_scan, "ROUNDED", 0.0)
+    slopes, third = compute_slopes(fit), {"position_ripple.pitch": 1e-3 / 3.0}
+    hint = run_score_test(fit, slopes, "position_ripple", [third])
+    assert hint.start["position_ripple.pitch"] > 1e-3
+    assert fit_term(fit, hint).values["position_ripple.pitch"] >= 1.5e-3 * (1.0 - 1e-9)
+    monkeypatch.setattr(rounding, "ROUNDED", 0.0)
     assert scan_shapes(fit)["position_ripple"][0]["position_ripple.pitch"] == pytest.approx(1e-3, rel=0.01)
+    assert run_score_test(fit, slopes, "position_ripple", [third]).gain > hint.gain + 10.0

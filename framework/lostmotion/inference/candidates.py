@@ -38,6 +38,7 @@ from lostmotion.inference.natural import (
     make_free_parameters,
     sort_slots,
 )
+from lostmotion.inference.rounding import drop_rounding, find_shortest_wave
 from lostmotion.likelihood.problem import LATEST, NOISE, RANDOM, FreeParameter, Problem
 from lostmotion.likelihood.system import ALWAYS, Slot, onset_key
 from lostmotion.quantities import FORCE, TIME
@@ -102,7 +103,10 @@ def run_score_tests(
     amplitudes, shapes = sort_slots(problem, key)
     grids = [list_tried_values(s.param, problem.scales) for s in shapes]
     usual = [dict(zip((s.key for s in shapes), values, strict=True)) for values in list_star_points(grids)]
-    hints = _test_shapes(fit, slopes, key, (*usual, *more))
+    tried = drop_rounding(problem, key, (*usual, *more)) if shapes else usual
+    if not tried:
+        return [ScoreTest(key, 0.0, usual[0], 0.0)]
+    hints = _test_shapes(fit, slopes, key, tried)
     bounded = find_term(problem, key)[0].acts == "sensor" and len(problem.observations[0].sensors) > 1
     late = bounded and amplitudes[0].param.dimension == TIME
     if len(amplitudes) == 1 and not problem.active and not late and (far := try_far_values(fit, amplitudes[0], key)):
@@ -188,8 +192,14 @@ def join_term(problem: Problem, key: str, start: Mapping[str, float]) -> Problem
 def make_term_parameters(
     problem: Problem, key: str, slots: list[Slot], start: Mapping[str, float]
 ) -> tuple[FreeParameter, ...]:
-    """Return the free parameters of a term of a problem; the delay of one of several sensors is bounded."""
+    """Return the free parameters of a term of a problem; the delay of one of several sensors is bounded.
+
+    A wave of a sensor is longer than its rounding.
+    """
     frees, (term, _) = make_free_parameters(slots, problem.scales, start), find_term(problem, key)
+    if (least := find_shortest_wave(problem, key)) > 0.0:
+        low = math.log(least)
+        frees = tuple(replace(f, low=max(f.low, low), start=max(f.start, low)) if f.log else f for f in frees)
     if term.acts != "sensor" or len(problem.observations[0].sensors) == 1:
         return frees
     most = LATEST * problem.scales.time

@@ -20,6 +20,7 @@ from lostmotion.inference.candidates import compute_slopes, run_score_test
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.natural import compute_size, find_term, list_tried_values, sort_slots
 from lostmotion.inference.resonance_scan import scan_resonances
+from lostmotion.inference.rounding import drop_rounding
 from lostmotion.inference.setup import choose_steps
 from lostmotion.likelihood.latent import smooth_expected_force
 from lostmotion.likelihood.motion import compute_derivatives
@@ -34,8 +35,6 @@ APART, FEWEST = 0.033, 30
 TURN, MOST_SHAPES = 0.25, 300
 """Neighbouring lengths differ by this share of a period over the travel, so that no pitch between them is missed,
 and their largest number."""
-ROUNDED = 1.5
-"""Waves of a sensor that are no longer than so many steps of its stored values are not tried."""
 MOST_SAMPLES = 3000
 BLOCKS = 40
 """Parts of a recording over which the correlation of a law with the gradient is averaged for its standard error."""
@@ -114,15 +113,11 @@ class SmoothedMotion:
 
 @dataclass(frozen=True)
 class SensorErrors:
-    """The readings of a sensor: predictions (samples,), and errors over their variances (samples,).
-
-    `step` is that of the stored values, 0 where none is visible.
-    """
+    """The readings of a sensor: predictions (samples,), and errors over their variances (samples,)."""
 
     problem: Problem
     foretold: Array
     gradient: Array
-    step: float
 
     @property
     def travel(self) -> float:
@@ -148,16 +143,7 @@ def _make_sensor_errors(problem: Problem, theta: Array, key: str) -> SensorError
     errors, variances = (row.reshape(-1, width)[:, sensor] for row in (seen.errors, seen.variances))
     readings = observation.readings[:, sensor]
     kept = np.isfinite(readings)
-    step = _measure_step(problem, observation.sensors[sensor].place, readings)
-    return SensorErrors(problem, (readings - errors)[kept], (errors / variances)[kept], step)
-
-
-def _measure_step(problem: Problem, place: str, readings: Array) -> float:
-    """Return the step of the stored values of a sensor, by the scatter of its rounding; 0 where none is visible."""
-    beside = problem.system.channel_terms.values()
-    marked = [t for t in beside if isinstance(t, SensorTerm) and t.marked and t.at == place]
-    seen = [(term, term.quantisation(readings)[0]) for term in marked]
-    return max((math.sqrt(12.0) * term.scatter(p) for term, p in seen if p), default=0.0)
+    return SensorErrors(problem, (readings - errors)[kept], (errors / variances)[kept])
 
 
 def _combine_steadiness(laws: Array, gradient: Array) -> float:
@@ -223,8 +209,8 @@ def _select_best_shape(motion: SmoothedMotion | SensorErrors, key: str) -> dict[
 
     travel = 0.0 if find_term(problem, key)[0].acts == "drive" else motion.travel
     shapes = list_shapes(problem, key, travel)
-    if isinstance(motion, SensorErrors):  # a wave of the length of a step is the rounding itself
-        shapes = [shape for shape in shapes if min(shape.values()) > ROUNDED * motion.step]
+    if isinstance(motion, SensorErrors):
+        shapes = drop_rounding(problem, key, shapes)
     if not shapes:
         return None
     top, best = steadiest(shapes)
