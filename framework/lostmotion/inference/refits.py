@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from lostmotion.inference.fit import Fit, maximise, raise_random_force, use_one_core
 from lostmotion.inference.random_force import has_usual_random_force
 from lostmotion.inference.term_sets import CLOSE, Selection, TermSet
-from lostmotion.inference.unseen import lacks_position, refit_start
+from lostmotion.inference.unseen import lacks_position, refit_start_in_play
 from lostmotion.likelihood.space import LEVELS
 
 FAR = 300.0
@@ -56,7 +56,7 @@ class Refits:
         if not term_set.terms or term_set.terms in self.own or not lacks_position(term_set.fit.problem):
             return None
         self.own.add(term_set.terms)
-        return refit_start(term_set.fit)
+        return refit_start_in_play(term_set.fit)
 
 
 def refit_with_terms(fit: Fit) -> Fit:
@@ -67,7 +67,7 @@ def refit_with_terms(fit: Fit) -> Fit:
     fit = use_one_core(fit)
     if not has_usual_random_force(fit):
         fit = maximise(fit.problem, raise_random_force(fit.problem, fit.theta, 6.0))
-    return refit_start(fit)
+    return refit_start_in_play(fit)
 
 
 def refit_from(fit: Fit, other: Fit) -> Fit:

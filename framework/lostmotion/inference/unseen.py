@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -22,6 +24,11 @@ MOVED = 1.0
 COOLER = (0.0, 2.0, 4.0, 6.0)
 """Random forces, in log intensity above the usual, from which a fit is started again."""
 GAINED = 1.0
+OPENING = 150
+"""Samples from the first by which initial states are compared."""
+PLACES, SPEEDS, NARROW = np.linspace(-1.5, 1.5, 25), np.linspace(-1.5, 1.5, 7), 0.1
+"""Initial positions and velocities that are tried for a machine with play, and the standard deviation of each, in
+natural lengths and velocities."""
 
 
 @dataclass(frozen=True)
@@ -84,7 +91,7 @@ def refit_without_position(fit: Fit) -> Fit:
     """
     if not lacks_position(fit.problem) or fit.status == "diverged":
         return fit
-    return reduce_random_force(refit_start(reduce_random_force(refit_start(fit))))
+    return reduce_random_force(refit_start(reduce_random_force(refit_start_in_play(fit))))
 
 
 def refit_start(fit: Fit) -> Fit:
@@ -111,6 +118,56 @@ def refit_start(fit: Fit) -> Fit:
         if far < MOVED:
             break
     return fit
+
+
+def refit_start_in_play(fit: Fit) -> Fit:
+    """Return the fit of a machine with play where no sensor shows the position, with the best of many initial states.
+
+    An iterated smoother does not find the side of a gap on which a motion begins: from the wrong side it converges to a
+    local maximum. Other fits are only smoothed back (`refit_start`).
+    """
+    near = refit_start(fit)
+    if near.status == "diverged" or not lacks_position(fit.problem):
+        return near
+    if not any(place.play for place in fit.problem.system.model.interfaces):
+        return near
+    found = _find_start_in_play(near)
+    if found is None:
+        return near
+    far = refit_start(maximise(found, near.theta))
+    gained = far.status != "diverged" and far.local.log_posterior > near.local.log_posterior + GAINED
+    return far if gained else near
+
+
+def _find_start_in_play(fit: Fit) -> Problem | None:
+    """Return the problem with other initial states that explain the first samples better; None if there are none."""
+    problem, n = fit.problem, len(fit.problem.system.model.states)
+    openings = [o.part(0, min(OPENING, o.samples)) for o in problem.observations]
+    whole, unit = list(problem.observations), (problem.scales.length, problem.scales.velocity)
+    for i, observation in enumerate(problem.observations):
+        if shows_place(observation):
+            continue
+        now = problem.points(fit.theta[None], i)
+        mean, covariance = now.mean[0, :n], now.covariance[0, :n, :n].copy()
+        covariance[:2], covariance[:, :2] = 0.0, 0.0
+        covariance[0, 0], covariance[1, 1] = ((NARROW * size) ** 2 for size in unit)
+        seen = any(sensor.channel == "velocity" for sensor in observation.sensors)
+        speeds = [mean[1]] if seen else unit[1] * SPEEDS
+        trials = [openings[i]]
+        for place, speed in itertools.product(unit[0] * PLACES, speeds):
+            trials.append(replace(openings[i], begun=(np.array([place, speed, *mean[2:]]), covariance)))
+        scores = [_score_openings(fit, [*openings[:i], trial, *openings[i + 1 :]]) for trial in trials]
+        best = int(np.argmax(scores))
+        if scores[best] > scores[0] + GAINED:
+            openings[i], whole[i] = trials[best], replace(observation, begun=trials[best].begun)
+    changed = any(a is not b for a, b in zip(whole, problem.observations, strict=True))
+    return problem.on(tuple(whole)) if changed else None
+
+
+def _score_openings(fit: Fit, openings: Sequence[Observation]) -> float:
+    """Return the log-likelihood of the first samples of all recordings; minus infinity where it diverges."""
+    score = float(fit.problem.on(tuple(openings)).log_likelihoods(fit.theta[None])[0])
+    return score if math.isfinite(score) else -math.inf
 
 
 def _smooth_start(fit: Fit, observation: Observation, index: int) -> tuple[Observation, float]:
