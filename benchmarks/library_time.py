@@ -1,7 +1,8 @@
 """How much longer a diagnosis takes with the whole library: `python benchmarks/library_time.py [--machines 12]`.
 
-Each machine of `benchmarks/library.py`, with nothing hidden or with one of six terms of the first library, is diagnosed
-on one core with all terms, and with the 22 terms of that library. Prints the processor seconds of both and their ratio.
+Each machine of `benchmarks/library.py`, with nothing hidden or with one of four terms of the first library, is
+diagnosed on one core with all terms, and with the 22 terms of that library. Prints the processor seconds of both and
+their ratio.
 """
 
 from __future__ import annotations

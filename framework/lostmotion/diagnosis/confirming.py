@@ -28,6 +28,7 @@ from lostmotion.inference.term_sets import Selection, SimplestTerms, TermSet
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import RANDOM
 from lostmotion.results import percent, rounded
+from lostmotion.settings import HeldOutSettings
 
 MOST_COMPARED = 3
 """The number of sets, of each size, whose predictions are compared."""
@@ -77,9 +78,7 @@ def find_better_set(
     pieces, others = cut_heldout(observations, d.held), _list_alternatives(d, here)
     errors = compute_run_errors(here.fit, pieces, outcome.horizon)
     rivals = [(term_set, compute_run_errors(term_set.fit, pieces, outcome.horizon)) for term_set in others]
-    limits = d.settings.heldout
-    rivals_ahead = [(v, e) for v, e in rivals if (1.0 + limits.rise) * _compute_rms(e) < _compute_rms(errors)]
-    better = [(v, e) for v, e in rivals_ahead if is_better(e, errors, limits.chance / len(rivals))]
+    better = [(v, e) for v, e in rivals if _is_clearly_better(e, errors, d.settings.heldout, len(rivals))]
     if not better:
         return None
     best, nothing = min(better, key=lambda rival: _compute_rms(rival[1]))[0], selection.fitted_sets[frozenset()]
@@ -175,7 +174,7 @@ def _select_predicting(
     Its log score may be lower than that of the best smooth force by `slack`; its free runs must not be worse than those
     of the present model, significantly and by more than `HeldOutSettings.rise`.
     """
-    d, selection, limits = outcome.diagnosis, outcome.diagnosis.selection, outcome.diagnosis.settings.heldout
+    d, selection = outcome.diagnosis, outcome.diagnosis.selection
     here = selection.fitted_sets[selection.chosen.problem.active]
     rival, own = selection.discrepancy_fit(here), score_heldout(here.fit, pieces)
     others = [*([rival.fit] if rival else ()), *([d.learned.fit] if d.learned else ())]
@@ -183,8 +182,7 @@ def _select_predicting(
     errors = compute_run_errors(d.after, pieces, outcome.horizon)
     for term_set in sets:
         score, its = score_heldout(term_set.fit, pieces), compute_run_errors(term_set.fit, pieces, outcome.horizon)
-        worse = _compute_rms(its) > (1.0 + limits.rise) * _compute_rms(errors)
-        if own < score > bar and not (worse and is_better(errors, its, limits.chance)):
+        if own < score > bar and not _is_clearly_better(errors, its, d.settings.heldout):
             return term_set
     return None
 
@@ -274,6 +272,12 @@ def describe_usual_delay(d: SearchResult, key: str) -> str:
         f"A delay of {rounded(samples)} samples is usual in acquisition systems, and the model is"
         " wrong in other ways too."
     )
+
+
+def _is_clearly_better(errors: Array, without: Array, limits: HeldOutSettings, many: int = 1) -> bool:
+    """Return whether errors (PARTS,) are smaller, significantly and by more than `rise`; one of `many` comparisons."""
+    smaller = (1.0 + limits.rise) * _compute_rms(errors) < _compute_rms(without)
+    return smaller and is_better(errors, without, limits.chance / many)
 
 
 def _compute_rms(errors: Array) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -33,18 +33,20 @@ def compute_probability(d: SearchResult, key: str) -> float:
 
     Where friction drifts, there is friction.
     """
-    term, _ = find_term(d.after.problem, key)
-    system = d.before.problem.system
-    kin = [k for k, t in zip(system.keys, system.terms, strict=True) if _contains(t, term)]
-    return min(sum(d.selection.inclusion(k) for k in (key, *kin)), 1.0)
+    return _sum_probabilities(d, key, lambda term, other: _contains(other, term))
 
 
 def _compute_equal_probability(d: SearchResult, key: str) -> float:
-    """Return the posterior probability of a term, with that of terms that a recording cannot distinguish from it."""
+    """Return that probability, with that of terms that this kind of recording cannot distinguish from the term."""
+    return _sum_probabilities(d, key, lambda term, other: _contains(other, term) or _are_indistinguishable(term, other))
+
+
+def _sum_probabilities(d: SearchResult, key: str, is_kin: Callable[[Term, Term], bool]) -> float:
+    """Return the posterior probability of a term together with that of its kin, at most 1."""
     term, _ = find_term(d.after.problem, key)
     system = d.before.problem.system
-    kin = [k for k, t in zip(system.keys, system.terms, strict=True) if _are_indistinguishable(term, t) and k != key]
-    return min(compute_probability(d, key) + sum(d.selection.inclusion(k) for k in kin), 1.0)
+    kin = {k for k, other in zip(system.keys, system.terms, strict=True) if is_kin(term, other)}
+    return min(sum(d.selection.inclusion(k) for k in sorted({key} | kin)), 1.0)
 
 
 def _contains(law: Term, simpler: Term) -> bool:

@@ -197,7 +197,7 @@ def make_term_parameters(
     A wave of a sensor is longer than its rounding.
     """
     frees, (term, _) = make_free_parameters(slots, problem.scales, start), find_term(problem, key)
-    if (least := find_shortest_wave(problem, key)) > 0.0:
+    if any(f.log for f in frees) and (least := find_shortest_wave(problem, key)) > 0.0:
         low = math.log(least)
         frees = tuple(replace(f, low=max(f.low, low), start=max(f.start, low)) if f.log else f for f in frees)
     if term.acts != "sensor" or len(problem.observations[0].sensors) == 1:

@@ -111,7 +111,7 @@ def refine_change(fit: Fit, key: str) -> Fit:
     for _ in range(2):
         thetas = np.repeat(best[None], len(grid), axis=0)
         thetas[:, at] = np.log(grid)
-        thetas = np.array([fit.problem.clip(theta) for theta in thetas])
+        thetas = fit.problem.clip(thetas)
         best = thetas[int(np.nanargmax(fit.problem.log_posteriors(thetas)))]
         grid = math.exp(best[at]) + np.linspace(-1.0, 1.0, TIMES + 1) * (grid[1] - grid[0])
         grid = grid[grid > 0.0]
