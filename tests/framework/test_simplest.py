@@ -8,9 +8,7 @@ import pytest
 from lostmotion.diagnosis import confirming
 from lostmotion.diagnosis import search as searching
 from lostmotion.diagnosis.compare import PARTS
-from lostmotion.inference import selection as selecting
 from lostmotion.inference.term_sets import Selection, TermSet
-from lostmotion.likelihood.problem import RANDOM
 from lostmotion.settings import DEFAULT
 
 NOTHING = SimpleNamespace(active=frozenset())
@@ -125,19 +123,6 @@ def test_a_gain_that_no_fit_confirms_does_not_make_a_set_probable(monkeypatch, a
     chances = selection.probabilities()
     assert np.log(chances[other.terms] / chances[chosen.terms]) == pytest.approx(largest)
     assert np.log(chances[more.terms] / chances[chosen.terms]) == pytest.approx(-14.0)
-
-
-@pytest.mark.parametrize(
-    ("deviations", "ratio", "robust"), [(2.3, 1.0, True), (2.3, 1.5, False), (3.5, 1.5, True), (3.5, 2.5, False)]
-)
-def test_a_vague_amplitude_counts_where_samples_are_independent(monkeypatch, deviations, ratio, robust):
-    """The share of a drive that saturates is vague only because its limit goes with it."""
-    monkeypatch.setattr(selecting, "measure_significance", lambda fit: (deviations, ratio))
-    force = SimpleNamespace(active=frozenset("a"), settings=DEFAULT, keys=(RANDOM,))
-    fit = SimpleNamespace(problem=force, theta=np.zeros(1))
-    term_set = TermSet(frozenset("a"), fit, 10.0)
-    selector = SimpleNamespace(selection=None, limits=DEFAULT.select, _significances={})
-    assert selecting.Selector._is_robust(selector, term_set, term_set) == robust
 
 
 def test_a_set_as_good_as_the_chosen_one_is_compared_before_probabilities_are_stated(monkeypatch):

@@ -22,6 +22,7 @@ from lostmotion.diagnosis.states import (
     sort_findings,
     warn_of_moved_amplitudes,
 )
+from lostmotion.inference.robustness import RobustChecks
 from lostmotion.inference.term_sets import SimplestTerms, TermSet
 from lostmotion.likelihood.problem import RANDOM
 from lostmotion.results import Interval
@@ -210,8 +211,8 @@ def test_intervals_are_withheld_with_the_reason():
     assert kept == {"median": 1.0, "low": None, "high": None, "unit": "N s/m", "withheld": "because"}
 
 
-def prediction(nrmse, scores):
-    return SimpleNamespace(nrmse=nrmse, scores=np.asarray(scores, dtype=float))
+def prediction(nrmse, scores, errors=()):
+    return SimpleNamespace(nrmse=nrmse, scores=np.asarray(scores, dtype=float), errors=np.asarray(errors, dtype=float))
 
 
 def test_held_out_data_speak_against_what_predicts_worse():
@@ -221,6 +222,25 @@ def test_held_out_data_speak_against_what_predicts_worse():
     assert is_worse(prediction(0.30, flat), prediction(0.2, flat - 0.11 + 0.01 * rng.standard_normal(20)))
     assert not is_worse(prediction(0.30, flat), prediction(0.2, flat + 0.1))
     assert is_worse(prediction(0.30, flat), prediction(float("nan"), flat))
+
+
+@pytest.mark.parametrize(("scatter", "gain", "worse"), [(0.3, 0.1, False), (0.01, 0.1, True), (0.3, 0.0, True)])
+def test_a_larger_error_that_is_not_significant_needs_better_one_step_predictions(scatter, gain, worse):
+    """Ten parts, seeded: errors that rise by 5 % with this scatter, and scores that rise or not."""
+    rng = np.random.default_rng(4)
+    errors = 0.3 * np.exp(scatter * rng.standard_normal(PARTS))
+    scores = gain + 0.05 * rng.standard_normal(20)
+    after = prediction(0.315, scores, errors * 1.05 * np.exp(scatter * rng.standard_normal(PARTS)))
+    assert is_worse(prediction(0.30, np.zeros(20), errors), after) is worse
+
+
+def test_a_score_falls_by_chance_in_one_of_twenty_models_that_predict_as_well():
+    """2,000 pairs of models, blocks of normal scores: 5 % fall significantly, standard error 0.5 %. Seeded."""
+    rng = np.random.default_rng(5)
+    falls = [
+        is_worse(prediction(0.3, np.zeros(20)), prediction(0.3, 0.001 * rng.standard_normal(20))) for _ in range(2000)
+    ]
+    assert 0.035 < np.mean(falls) < 0.065
 
 
 def test_a_score_that_falls_within_a_wide_scatter_speaks_against_a_model_that_predicts_hardly_better():
@@ -303,6 +323,7 @@ def test_of_sets_that_explain_what_was_fitted_the_one_that_predicts_better_is_ta
     """
     rng = np.random.default_rng(3)
     factors = {"ab": 1.0, "a": less, "b": 1.1, "c": 1.0}
+    monkeypatch.setattr(RobustChecks, "list_vague", lambda self, term_set: [])
     problem = SimpleNamespace(keys=(RANDOM,))
     fits = {k: SimpleNamespace(status="converged", key=k, problem=problem, theta=np.zeros(1)) for k in ("", *factors)}
     fitted_sets = {frozenset(k): TermSet(frozenset(k), fit, 50.0 if k else 0.0) for k, fit in fits.items()}

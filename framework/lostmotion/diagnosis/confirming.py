@@ -7,6 +7,7 @@ systems.
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -24,6 +25,7 @@ from lostmotion.inference.fit import Fit
 from lostmotion.inference.learned import OverTime
 from lostmotion.inference.natural import find_term
 from lostmotion.inference.random_force import compute_random_force_gain
+from lostmotion.inference.robustness import RobustChecks
 from lostmotion.inference.term_sets import Selection, SimplestTerms, TermSet
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import RANDOM
@@ -236,17 +238,19 @@ def _score_corrected(right: CorrectedFit, pieces: Sequence[HeldOutStretch]) -> f
 def _list_alternatives(d: SearchResult, here: TermSet) -> list[TermSet]:
     """Return the most probable other sets of each size up to that of the chosen one.
 
-    A set is left out if its gain on the fitted data is a small share of that of the chosen set, or if its random force
-    is larger than that of the nominal model.
+    A set is left out if its gain on the fitted data is a small share of that of the chosen set, if its random force is
+    larger than that of the nominal model, or if one of its terms is not significant.
     """
     selection, found = d.selection, list[TermSet]()
+    checks = RobustChecks(d.settings.select)
     nothing = selection.fitted_sets[frozenset()].weight
     least = nothing + d.settings.heldout.explains * max(here.weight - nothing, 0.0)
     for size in range(1, len(here.terms) + 1):
         same = [v for v in selection.fitted_sets.values() if len(v.terms) == size and v.terms != here.terms]
         same = [v for v in same if v.fit.status != "diverged" and not v.terms & selection.declined]
         same = [v for v in same if v.weight > least and _log_intensity(v.fit) <= _log_intensity(selection.nominal)]
-        found += sorted(same, key=lambda v: -v.weight)[:MOST_COMPARED]
+        same = sorted(same, key=lambda v: -v.weight)
+        found += list(itertools.islice((v for v in same if not checks.list_vague(v)), MOST_COMPARED))
     return found
 
 

@@ -11,8 +11,12 @@ import numpy as np
 from lostmotion.contracts import Array
 from lostmotion.diagnosis.findings import draw_parameters
 from lostmotion.diagnosis.search import SearchResult, list_physical_keys
+from lostmotion.inference.fit import Fit
+from lostmotion.inference.other_shapes import find_modes
 from lostmotion.inference.setup import polish_fit
 
+REACH = 4.0
+"""Maxima of the posterior with a log evidence lower than that of the best by no more than this are in the mixture."""
 MOST = 3
 """The largest number of alternative explanations in the mixture."""
 
@@ -21,13 +25,14 @@ def draw_mixture(diagnosis: SearchResult, rng: np.random.Generator, stretches: A
     """Return draws (draws, keys) of the parameters of the model after the diagnosis.
 
     Those of the machine are a mixture over the chosen set and its rivals, weighted by posterior probability (Hoeting et
-    al., Statistical Science 14 (1999) 382-417); those of the terms are from the chosen set.
+    al., Statistical Science 14 (1999) 382-417); those of the terms are from the maxima of the chosen set.
     Deviations of the chosen set are multiplied by `stretches`, as `measure_stretches` returns them.
     """
     chosen = diagnosis.after
     made = draw_parameters(chosen, rng, stretches)
     if diagnosis.learned:
         return made
+    made = _mix_modes(chosen, made, rng)
     rivals = _list_rivals(diagnosis)
     keys = list_physical_keys(chosen)
     order, begin = rng.permutation(len(made)), 0
@@ -40,6 +45,18 @@ def draw_mixture(diagnosis: SearchResult, rng: np.random.Generator, stretches: A
             if key in columns and "." not in key:
                 made[rows, i] = other[rows, columns[key]]
         begin += count
+    return made
+
+
+def _mix_modes(chosen: Fit, made: Array, rng: np.random.Generator) -> Array:
+    """Return draws from the maxima of a posterior, each with the share of its evidence; `made` are those of the fit."""
+    modes = [mode for mode in find_modes(chosen, reach=REACH) if mode is not chosen]
+    weights = np.exp([mode.log_evidence - chosen.log_evidence for mode in modes])
+    order, begin = rng.permutation(len(made)), 0
+    for mode, weight in zip(modes, weights, strict=True):
+        rows = order[begin : begin + round(float(weight / (1.0 + weights.sum())) * len(made))]
+        made[rows] = draw_parameters(mode, rng)[: len(rows)]
+        begin += len(rows)
     return made
 
 

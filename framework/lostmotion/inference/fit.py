@@ -8,6 +8,7 @@ a kink, unlike a finite-difference Hessian.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -342,17 +343,28 @@ def begin_at(problem: Problem, theta: Array) -> Problem:
     return replace(problem, free=tuple(replace(f, start=float(c)) for f, c in frees))
 
 
-def compute_robust_covariance(fit: Fit) -> Array:
+def compute_covariance(fit: Fit, held: Sequence[int] = ()) -> Array:
+    """Return the covariance of the estimate while some coordinates are `held`, of which it is zero."""
+    if not held:
+        return fit.local.covariance
+    kept = np.delete(np.arange(len(fit.theta)), held)
+    found = np.zeros_like(fit.local.information)
+    found[np.ix_(kept, kept)] = solve_scaled(fit.local.information[np.ix_(kept, kept)], np.eye(len(kept)))
+    return found
+
+
+def compute_robust_covariance(fit: Fit, held: Sequence[int] = ()) -> Array:
     """Return the covariance of the estimate that is valid where the model leaves correlated residuals.
 
     The sandwich of Huber (1967) and White, Econometrica 50 (1982) 1-25, with scores summed over contiguous blocks, so
-    that correlated residuals reduce the information. Never smaller than the usual covariance.
+    that correlated residuals reduce the information. Never smaller than the usual covariance. It is zero for
+    coordinates that are `held`.
     """
     scores = compute_sensitivity(fit.problem, fit.theta, fit.local.steps).scores()
     edges = np.linspace(0, scores.shape[1], BLOCKS + 1).astype(int)[:-1]
     sums = np.add.reduceat(scores, edges, axis=1)
     sums -= sums.mean(axis=1, keepdims=True)
-    usual = fit.local.covariance
+    usual = compute_covariance(fit, held)
     sandwich = usual @ (sums @ sums.T * BLOCKS / (BLOCKS - 1.0)) @ usual
     factor = np.sqrt(np.maximum(np.diag(sandwich) / np.maximum(np.diag(usual), 1e-300), 1.0))
     return np.asarray(usual * np.outer(factor, factor))

@@ -128,7 +128,7 @@ def drop_weak_onsets(fit: Fit) -> Fit:
     for key in sorted(fit.problem.active):
         if find_onset(fit.problem, key) > ALWAYS and fit.status != "diverged":
             ever = maximise(restart(fit).hold_values({onset_key(key): ALWAYS}), fit.theta)
-            needed = (PRICE + fit.problem.settings.select.onset) * measure_significance(fit)[1] ** 2
+            needed = (PRICE + fit.problem.settings.select.onset) * measure_significance(fit).ratio ** 2
             if ever.status != "diverged" and not fit.log_evidence - ever.log_evidence > needed:
                 fit = ever
     return fit

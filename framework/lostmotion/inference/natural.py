@@ -17,6 +17,9 @@ SCANNED = 8
 """The number of values of a parameter with a scan that score tests try, evenly over the logarithm of its range."""
 REACH = 4.0
 """The bounds of a shape without a scan, as a logarithm from its typical value."""
+BEYOND = math.log(1.5)
+"""A fit may leave the scanned range of a length by this much, as a logarithm: the nominal model, from which the scale
+is known, may have another amplitude than the machine."""
 SHAPES = (0.3, 1.0, 3.0)
 """The values of a shape parameter that are tried, in units of its typical value."""
 
@@ -38,6 +41,8 @@ def _make_free(slot: Slot, size: float, start: float | None) -> FreeParameter:
         middle = math.log(size)
         low, high = (math.log(end) for end in slot.param.scan or (math.exp(-REACH), math.exp(REACH)))
         begin = middle if start is None else min(max(math.log(start), middle + low), middle + high)
+        if slot.param.scan and slot.param.dimension == LENGTH:
+            low, high = low - BEYOND, high + BEYOND
         return FreeParameter(slot.key, slot.unit, begin, middle + low, middle + high, log=True, mean=middle, sd=1.5)
     low = max(slot.param.low, -30.0 * size)
     return FreeParameter(slot.key, slot.unit, start or 0.0, low, min(slot.param.high, 30.0 * size), mean=0.0, sd=size)

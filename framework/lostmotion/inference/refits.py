@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from lostmotion.inference.fit import Fit, maximise, raise_random_force, use_one_core
+from lostmotion.inference.other_shapes import has_other_shapes
 from lostmotion.inference.random_force import has_usual_random_force
 from lostmotion.inference.term_sets import CLOSE, Selection, TermSet
 from lostmotion.inference.unseen import lacks_position, refit_start_in_play
@@ -18,10 +19,11 @@ MOST_SHARED = 3
 
 @dataclass
 class Refits:
-    """The sets that were refitted: from their own fit, and from that of another set."""
+    """The sets that were refitted: from their own fit, from that of another set, and from other shapes."""
 
     own: set[frozenset[str]] = field(default_factory=set)
     shared: set[tuple[frozenset[str], frozenset[str]]] = field(default_factory=set)
+    shaped: set[frozenset[str]] = field(default_factory=set)
 
     def take_close(self, selection: Selection) -> list[TermSet]:
         """Return the sets close to the best one that were not refitted yet, and count them as refitted.
@@ -47,6 +49,13 @@ class Refits:
         far = sorted(far, key=lambda v: -v.weight)[:MOST_SHARED]
         self.shared.update((v.terms, best.terms) for v in far)
         return far
+
+    def take_shaped(self, best: TermSet) -> bool:
+        """Return whether the best set has shapes from which it was not refitted yet, and count it as refitted."""
+        if best.terms in self.shaped or not has_other_shapes(best.fit.problem):
+            return False
+        self.shaped.add(best.terms)
+        return True
 
     def refit_subset(self, term_set: TermSet) -> Fit | None:
         """Return the fit of a set with initial states that are smoothed with its terms; None if it has been refitted.

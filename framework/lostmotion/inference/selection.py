@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import partial
@@ -24,13 +23,13 @@ from lostmotion.inference.commoner import rewrite_in_commoner_terms
 from lostmotion.inference.fit import Fit, maximise, restart, use_cores, use_one_core
 from lostmotion.inference.late import compute_onset_price, drop_weak_onsets
 from lostmotion.inference.natural import find_term
+from lostmotion.inference.other_shapes import find_modes, refit_choices
 from lostmotion.inference.penalties import are_related, compute_penalty
 from lostmotion.inference.random_force import has_usual_random_force
 from lostmotion.inference.refits import Refits, refit_from, refit_with_terms
-from lostmotion.inference.significance import measure_significance
+from lostmotion.inference.robustness import RobustChecks
 from lostmotion.inference.term_sets import Selection, TermSet
 from lostmotion.kernels.threads import each
-from lostmotion.likelihood.problem import RANDOM
 
 MOST_FITTED, MOST_LATE = 6, 2
 """The numbers of terms without and with an onset that are fitted in a round. If the motion changes, many terms with an
@@ -75,7 +74,7 @@ class Selector:
         self._refits = Refits()
         self._built_on: set[frozenset[str]] = set()
         self._rewritten: set[frozenset[str]] = set()
-        self._significances: dict[frozenset[str], tuple[float, float]] = {}
+        self._checks = RobustChecks(self.limits)
         self._add_set(nominal)
 
     def run(self) -> Selection:
@@ -222,13 +221,33 @@ class Selector:
             if not log_odds[term_set.terms] > needs[term_set.terms]:
                 self.selection.tied |= term_set.terms - here.terms if term_set.terms > here.terms else frozenset()
                 continue
-            if self._is_robust(term_set, here):
-                self.selection.chosen = term_set.fit
+            robust = term_set if self._checks.is_robust(term_set, here) else self._drop_vague_term(term_set, here)
+            if robust is not None:
+                self.selection.chosen = robust.fit
                 self.selection.declined.clear()
                 self.selection.tied = set()
                 return True
             self.selection.declined.update(term_set.terms - here.terms)
         return False
+
+    def _drop_vague_term(self, term_set: TermSet, here: TermSet) -> TermSet | None:
+        """Return a set without the chosen term that its further terms make most vague; None if that is no better.
+
+        The further terms may be what the chosen one only imitated: a damping that differs by direction looks like a
+        constant force.
+        """
+        vague = [key for key in self._checks.list_vague(term_set) if key in here.terms]
+        if not vague or term_set.terms - {vague[0]} in self._built_on:
+            return None
+        less = self._get_without(term_set.fit, vague[0])
+        self.selection.settle_comparison(less, here, 0.0)
+        better = less.weight > here.weight and self.selection.compute_log_odds(less, here) > 0.0
+        return less if better and self._checks.is_robust(less, here) else None
+
+    def _get_without(self, fit: Fit, key: str) -> TermSet:
+        """Return the set of a fit without a term, fitted if it was not yet."""
+        known = self.selection.fitted_sets.get(fit.problem.active - {key})
+        return known or self._add_set(maximise(fit.problem.remove_term(key, fit.values)))
 
     def _is_decisive(self, term_set: TermSet, here: TermSet) -> bool:
         """Return whether a set has decisively more weight than the chosen one, without the discrepancy."""
@@ -243,21 +262,10 @@ class Selector:
         if far := self._refits.take_far(self.selection, best):
             self.say(f"refits with the noise of {' and '.join(sorted(best.terms)) or 'no term'}")
             self._add_sets(each(lambda v: refit_from(v.fit, best.fit), far, self.jobs))
-
-    def _is_robust(self, term_set: TermSet, here: TermSet) -> bool:
-        """Return whether a better set is robust against autocorrelated residuals.
-
-        With autocorrelated residuals samples are not independent, and a term that resembles them always gains. Each
-        amplitude must therefore be significant by its robust standard deviation. If this exceeds the usual one by a
-        factor, the set must also reduce the random force by a share. Where it does not exceed the usual one, samples
-        are independent, and the evidence decides: an amplitude may be vague only because a shape goes with it.
-        """
-        if term_set.terms not in self._significances:
-            self._significances[term_set.terms] = measure_significance(term_set.fit)
-        least, memory = self._significances[term_set.terms]
-        levels = [v.fit.theta[v.fit.problem.keys.index(RANDOM)] for v in (term_set, here)]
-        calm = memory < self.limits.memory or levels[0] < levels[1] + math.log(1.0 - self.limits.share)
-        return memory < self.limits.independent or (least > self.limits.certain and calm)
+        best = max(self.selection.fitted_sets.values(), key=lambda v: v.weight)
+        if self._refits.take_shaped(best):
+            self.say(f"refits with other shapes of {' and '.join(sorted(best.terms))}")
+            self._add_sets([*find_modes(best.fit), *refit_choices(best.fit)])
 
     def _run_score_tests(self, fit: Fit) -> list[ScoreTest]:
         """Return the score tests of all terms at a fit; terms with many parameters only if a related one is promising.
@@ -340,8 +348,7 @@ class Selector:
     def _fit_swaps(self, fit: Fit) -> None:
         """Fit each related term in place of an active one (swap), because a term may only imitate a related one."""
         for key in sorted(fit.problem.active):
-            known = self.selection.fitted_sets.get(fit.problem.active - {key})
-            without = known.fit if known else self._add_set(maximise(fit.problem.remove_term(key, fit.values))).fit
+            without = self._get_without(fit, key).fit
             slopes = compute_slopes(without)
             for other in self.candidates:
                 terms = without.problem.active | {other}
@@ -366,11 +373,8 @@ class Selector:
         chosen = self.selection.chosen
         here = self.selection.fitted_sets[chosen.problem.active]
         for key in sorted(chosen.problem.active):
-            terms = chosen.problem.active - {key}
             self.say(f"without {key}")
-            term_set = self.selection.fitted_sets.get(terms) or self._add_set(
-                maximise(chosen.problem.remove_term(key, chosen.values))
-            )
+            term_set = self._get_without(chosen, key)
             if (refitted := self._refits.refit_subset(term_set)) is not None:
                 term_set = self._add_set(refitted)
             self.selection.fit_discrepancy(term_set)
@@ -378,6 +382,10 @@ class Selector:
             decisive = here.weight > term_set.weight + self.limits.decisive
             if not decisive or not self.selection.compute_log_odds(here, term_set) > self.limits.decisive:
                 self.selection.tied |= {key} if decisive else set()
+                self.selection.chosen = term_set.fit
+                return True
+            if not self._checks.is_robust(here, term_set, [key]):
+                self.selection.declined.add(key)
                 self.selection.chosen = term_set.fit
                 return True
         return False

@@ -1,0 +1,90 @@
+"""Several maxima of one posterior: a wave over position, a stop or a resonance often fits at several shapes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from lostmotion.contracts import Array
+from lostmotion.inference.fit import Fit, maximise, raise_random_force, use_one_core
+from lostmotion.inference.natural import sort_slots
+from lostmotion.kernels.threads import each
+from lostmotion.likelihood.problem import Problem
+
+FACTORS = (0.7, 0.85, 0.93, 1.08, 1.2, 1.4)
+"""Shapes that are tried, over the fitted one: a wave that has one period more or less within the travel fits next."""
+RAISES = (0.0, 3.0)
+"""Each shape is tried with the random force of the fit, and with a larger one, which makes maxima wider."""
+HOPELESS = 30.0
+"""A fit that will not come closer to the best one than this in log posterior is abandoned."""
+NEAR = 0.03
+"""Maxima with shapes that differ by less, as a logarithm, are the same one."""
+
+
+def has_other_shapes(problem: Problem) -> bool:
+    """Return whether an active term has a shape with a range to be scanned, or with choices."""
+    slots = [slot for key in problem.active for slot in sort_slots(problem, key)[1]]
+    return any(s.param.choices or s.param.scan for s in slots)
+
+
+def list_scanned_shapes(problem: Problem) -> list[int]:
+    """Return the indices among the free parameters of the shapes of active terms that have a range to be scanned."""
+    slots = [slot for key in sorted(problem.active) for slot in sort_slots(problem, key)[1]]
+    keys = {s.key for s in slots if s.param.scan and s.param.scale == "log" and not s.param.choices}
+    return [i for i, key in enumerate(problem.keys) if key in keys]
+
+
+def find_modes(fit: Fit, *, reach: float = math.inf) -> list[Fit]:
+    """Return the maxima that are found from other shapes, best first, including the fit itself.
+
+    Those whose log evidence is below the best by more than `reach` are left out. A fit without a scanned shape is
+    returned alone.
+    """
+    at = list_scanned_shapes(fit.problem)
+    if not at or fit.status == "diverged":
+        return [fit]
+    single = use_one_core(fit)
+    starts = [_scale_shape(single, i, factor, up) for i in at for factor in FACTORS for up in RAISES]
+    kept = [fit]
+    for other in _maximise_each([single.problem] * len(starts), starts, fit):
+        if all(_are_apart(other, one, at) for one in kept):
+            kept.append(other)
+    best = max(one.log_evidence for one in kept)
+    return sorted((one for one in kept if one.log_evidence > best - reach), key=lambda one: -one.log_evidence)
+
+
+def refit_choices(fit: Fit) -> list[Fit]:
+    """Return the fits with another choice of one shape of an active term, best first.
+
+    The score test at the nominal model may choose the wrong side of a stop, or the wrong harmonic.
+    """
+    single = use_one_core(fit)
+    slots = [slot for key in sorted(fit.problem.active) for slot in sort_slots(fit.problem, key)[1]]
+    values = {s.key: float(fit.problem.full(fit.theta)[fit.problem.system.index[s.key]]) for s in slots}
+    problems = [
+        single.problem.hold_values({s.key: choice})
+        for s in slots
+        for choice in s.param.choices or ()
+        if choice != values[s.key]
+    ]
+    return _maximise_each(problems, [raise_random_force(p, fit.theta, max(RAISES)) for p in problems], fit)
+
+
+def _maximise_each(problems: Sequence[Problem], starts: Sequence[Array], fit: Fit) -> list[Fit]:
+    """Return the converged fits, best first; those far below a fit are abandoned."""
+    hopeless = fit.local.log_posterior - HOPELESS
+    pairs = list(zip(problems, starts, strict=True))
+    found = each(lambda pair: maximise(pair[0], pair[1], hopeless=hopeless), pairs, fit.problem.jobs)
+    return sorted((f for f in found if f.status == "converged"), key=lambda f: -f.local.log_posterior)
+
+
+def _scale_shape(fit: Fit, at: int, factor: float, more: float) -> Array:
+    """Return the coordinates of a fit with one shape multiplied by a factor, and with a larger random force."""
+    theta = raise_random_force(fit.problem, fit.theta, more) if more else fit.theta.copy()
+    theta[at] += math.log(factor)
+    return fit.problem.clip(theta)
+
+
+def _are_apart(one: Fit, other: Fit, at: list[int]) -> bool:
+    """Return whether two fits are different maxima, by their shapes."""
+    return any(abs(one.theta[i] - other.theta[i]) > NEAR for i in at)
