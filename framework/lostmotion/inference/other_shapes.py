@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit, maximise, raise_random_force, use_one_core
@@ -53,21 +53,23 @@ def find_modes(fit: Fit, *, reach: float = math.inf) -> list[Fit]:
     return sorted((one for one in kept if one.log_evidence > best - reach), key=lambda one: -one.log_evidence)
 
 
-def refit_choices(fit: Fit) -> list[Fit]:
-    """Return the fits with another choice of one shape of an active term, best first.
+def refit_shapes(fit: Fit) -> Fit:
+    """Return the best fit of a set of terms from other shapes, and with other choices of them."""
+    return refit_choices(find_modes(fit)[0], fit.problem.active)
+
+
+def refit_choices(fit: Fit, keys: Iterable[str]) -> Fit:
+    """Return the best fit of a set of terms with each choice of the shapes of some of them.
 
     The score test at the nominal model may choose the wrong side of a stop, or the wrong harmonic.
     """
-    single = use_one_core(fit)
-    slots = [slot for key in sorted(fit.problem.active) for slot in sort_slots(fit.problem, key)[1]]
-    values = {s.key: float(fit.problem.full(fit.theta)[fit.problem.system.index[s.key]]) for s in slots}
-    problems = [
-        single.problem.hold_values({s.key: choice})
-        for s in slots
-        for choice in s.param.choices or ()
-        if choice != values[s.key]
-    ]
-    return _maximise_each(problems, [raise_random_force(p, fit.theta, max(RAISES)) for p in problems], fit)
+    single, problem = use_one_core(fit), fit.problem
+    problems = []
+    for s in (slot for key in sorted(keys) for slot in sort_slots(problem, key)[1]):
+        now = float(problem.full(fit.theta)[problem.system.index[s.key]])
+        problems += [single.problem.hold_values({s.key: v}) for v in s.param.choices or () if v != now]
+    starts = [raise_random_force(one, fit.theta, max(RAISES)) for one in problems]
+    return max([fit, *_maximise_each(problems, starts, fit)], key=lambda found: found.log_evidence)
 
 
 def _maximise_each(problems: Sequence[Problem], starts: Sequence[Array], fit: Fit) -> list[Fit]:

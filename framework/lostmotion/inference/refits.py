@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from lostmotion.inference.fit import Fit, maximise, raise_random_force, use_one_core
-from lostmotion.inference.other_shapes import has_other_shapes
+from lostmotion.inference.other_shapes import has_other_shapes, refit_choices
 from lostmotion.inference.random_force import has_usual_random_force
 from lostmotion.inference.term_sets import CLOSE, Selection, TermSet
 from lostmotion.inference.unseen import lacks_position, refit_start_in_play
@@ -87,6 +87,12 @@ def refit_from(fit: Fit, other: Fit) -> Fit:
             theta[i] = other.theta[keys.index(key)]
     problem = use_one_core(fit).problem.on(other.problem.observations)
     return maximise(problem, problem.clip(theta))
+
+
+def refit_without(fit: Fit, key: str) -> Fit:
+    """Return the fit without one term, with the best choices of the shapes of the others."""
+    less = maximise(fit.problem.remove_term(key, fit.values))
+    return refit_choices(less, less.problem.active)
 
 
 def _have_other_noise(one: Fit, other: Fit) -> bool:

@@ -23,10 +23,10 @@ from lostmotion.inference.commoner import rewrite_in_commoner_terms
 from lostmotion.inference.fit import Fit, maximise, restart, use_cores, use_one_core
 from lostmotion.inference.late import compute_onset_price, drop_weak_onsets
 from lostmotion.inference.natural import find_term
-from lostmotion.inference.other_shapes import find_modes, refit_choices
+from lostmotion.inference.other_shapes import refit_choices, refit_shapes
 from lostmotion.inference.penalties import are_related, compute_penalty
 from lostmotion.inference.random_force import has_usual_random_force
-from lostmotion.inference.refits import Refits, refit_from, refit_with_terms
+from lostmotion.inference.refits import Refits, refit_from, refit_with_terms, refit_without
 from lostmotion.inference.robustness import RobustChecks
 from lostmotion.inference.term_sets import Selection, TermSet
 from lostmotion.kernels.threads import each
@@ -247,7 +247,7 @@ class Selector:
     def _get_without(self, fit: Fit, key: str) -> TermSet:
         """Return the set of a fit without a term, fitted if it was not yet."""
         known = self.selection.fitted_sets.get(fit.problem.active - {key})
-        return known or self._add_set(maximise(fit.problem.remove_term(key, fit.values)))
+        return known or self._add_set(refit_without(fit, key))
 
     def _is_decisive(self, term_set: TermSet, here: TermSet) -> bool:
         """Return whether a set has decisively more weight than the chosen one, without the discrepancy."""
@@ -265,7 +265,7 @@ class Selector:
         best = max(self.selection.fitted_sets.values(), key=lambda v: v.weight)
         if self._refits.take_shaped(best):
             self.say(f"refits with other shapes of {' and '.join(sorted(best.terms))}")
-            self._add_sets([*find_modes(best.fit), *refit_choices(best.fit)])
+            self._add_set(use_cores(refit_shapes(best.fit), self.jobs))
 
     def _run_score_tests(self, fit: Fit) -> list[ScoreTest]:
         """Return the score tests of all terms at a fit; terms with many parameters only if a related one is promising.
@@ -339,7 +339,7 @@ class Selector:
             term_set = self.selection.fitted_sets.get(fit.problem.active | {key})
             if term_set and self._are_related(term_set.fit, key, hint.key):
                 return replace_term(use_one_core(term_set.fit), key, hint, hopeless=hopeless)
-        return fit_term(fit, hint, hopeless=hopeless)
+        return refit_choices(fit_term(fit, hint, hopeless=hopeless), {hint.key})
 
     def _compute_hopeless(self) -> float:
         """Return the log posterior below which a fit is abandoned."""
