@@ -32,7 +32,7 @@ def draw_mixture(diagnosis: SearchResult, rng: np.random.Generator, stretches: A
     made = draw_parameters(chosen, rng, stretches)
     if diagnosis.learned:
         return made
-    made = _mix_modes(chosen, made, rng)
+    made = mix_modes(chosen, made, rng)
     rivals = _list_rivals(diagnosis)
     keys = list_physical_keys(chosen)
     order, begin = rng.permutation(len(made)), 0
@@ -48,7 +48,7 @@ def draw_mixture(diagnosis: SearchResult, rng: np.random.Generator, stretches: A
     return made
 
 
-def _mix_modes(chosen: Fit, made: Array, rng: np.random.Generator) -> Array:
+def mix_modes(chosen: Fit, made: Array, rng: np.random.Generator) -> Array:
     """Return draws from the maxima of a posterior, each with the share of its evidence; `made` are those of the fit."""
     modes = [mode for mode in find_modes(chosen, reach=REACH) if mode is not chosen]
     weights = np.exp([mode.log_evidence - chosen.log_evidence for mode in modes])

@@ -15,6 +15,8 @@ FACTORS = (0.7, 0.85, 0.93, 1.08, 1.2, 1.4)
 """Shapes that are tried, over the fitted one: a wave that has one period more or less within the travel fits next."""
 RAISES = (0.0, 3.0)
 """Each shape is tried with the random force of the fit, and with a larger one, which makes maxima wider."""
+AGAIN = 3
+"""The search from other shapes is repeated at most so often, each time from the best maximum."""
 HOPELESS = 30.0
 """A fit that will not come closer to the best one than this in log posterior is abandoned."""
 NEAR = 0.03
@@ -55,7 +57,12 @@ def find_modes(fit: Fit, *, reach: float = math.inf) -> list[Fit]:
 
 def refit_shapes(fit: Fit) -> Fit:
     """Return the best fit of a set of terms from other shapes, and with other choices of them."""
-    return refit_choices(find_modes(fit)[0], fit.problem.active)
+    for _ in range(AGAIN):
+        best = find_modes(fit)[0]
+        if best is fit:
+            break
+        fit = best
+    return refit_choices(fit, fit.problem.active)
 
 
 def refit_choices(fit: Fit, keys: Iterable[str]) -> Fit:

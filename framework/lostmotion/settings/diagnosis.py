@@ -253,7 +253,7 @@ class HeldOutSettings:
     less: float = threshold(0.5, "The error of free runs is much smaller when it falls below this share.", most=1.0)
     chance: float = threshold(
         0.05,
-        "The significance level for calling a model better: Student's paired test over ten parts of held-out data.",
+        "The significance level for calling a model better or worse: Student's test over parts of held-out data.",
         most=1.0,
     )
     explains: float = threshold(

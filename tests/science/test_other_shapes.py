@@ -1,0 +1,106 @@
+"""Other maxima of a posterior: a wave over position fits at several pitches, a stop at one end or at both."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from truths import fit_oscillator
+
+from lostmotion.diagnosis.findings import draw_parameters
+from lostmotion.diagnosis.mixed import mix_modes
+from lostmotion.inference.candidates import join_term
+from lostmotion.inference.fit import maximise, restart
+from lostmotion.inference.other_shapes import find_modes, has_other_shapes, list_scanned_shapes, refit_shapes
+from lostmotion.likelihood.observation import Observation
+
+REACH = 0.0135
+"""The amplitude (m) of the oscillator under a harmonic force, without the hidden force."""
+
+
+def driven(force, term, noise=0.01):
+    """Return the fit of a linear oscillator (m = 1, c = 2, k = 400) whose position shows a hidden `force(x)`.
+
+    The drive is a harmonic force of 4 N at 12 rad/s; leapfrog with 40 steps between samples, 900 samples, seeded.
+    """
+    rng, dt, fine, samples = np.random.default_rng(3), 0.02, 40, 900
+    x, v, seen, step = 0.0, 0.0, np.zeros(samples), dt / fine
+    for i in range(samples * fine):
+        if i % fine == 0:
+            seen[i // fine] = x
+        v += step * (4.0 * math.cos(12.0 * step * (i + 0.5)) - 2.0 * v - 400.0 * x + force(x))
+        x += step * v
+    drive = 4.0 * np.cos(12.0 * dt * np.arange(samples))[:, None]
+    shown = seen + noise * seen.std() * rng.standard_normal(samples)
+    return fit_oscillator(Observation.of("seen", shown, drive, dt, "position"), rng, terms=(term,))
+
+
+def with_term(fit, key, start):
+    """Return the fit with one more term that starts at some values."""
+    problem = join_term(restart(fit), key, {f"{key}.{name}": value for name, value in start.items()})
+    return maximise(problem)
+
+
+@pytest.fixture(scope="module")
+def stopped():
+    """An oscillator with a spring of 600 N/m beyond +8 mm."""
+    return driven(lambda x: -600.0 * max(x - 0.008, 0.0), "end_stop")
+
+
+@pytest.fixture(scope="module")
+def waved():
+    """An oscillator with a force of 0.3 N that repeats with every 9 mm, three times over the travel."""
+    return driven(lambda x: -0.3 * math.sin(2.0 * math.pi * x / 0.009), "cogging")
+
+
+def test_a_stop_at_the_wrong_end_is_found_at_the_right_one(stopped):
+    wrong = with_term(stopped, "end_stop", {"stiffness": 300.0, "travel": 0.008, "side": 0.0})
+    best = refit_shapes(wrong)
+    side = best.problem.full(best.theta)[best.problem.system.index["end_stop.side"]]
+    assert side == 1.0
+    assert best.log_evidence > wrong.log_evidence + 10.0
+    assert best.values["end_stop.travel"] == pytest.approx(0.008, rel=0.05)
+
+
+def test_a_wave_at_a_wrong_pitch_is_found_at_the_right_one(waved):
+    wrong = with_term(waved, "cogging", {"cosine": 0.05, "sine": -0.15, "pitch": 0.006})
+    assert abs(math.log(wrong.values["cogging.pitch"] / 0.009)) > 0.1
+    modes = find_modes(wrong)
+    assert modes[0].values["cogging.pitch"] == pytest.approx(0.009, rel=0.03)
+    assert [m.log_evidence for m in modes] == sorted((m.log_evidence for m in modes), reverse=True)
+    assert find_modes(wrong, reach=4.0)[0].log_evidence == pytest.approx(modes[0].log_evidence, abs=0.1)
+
+
+def test_the_search_goes_on_from_a_better_maximum(waved):
+    """From 4.5 mm the next maxima are at 6.9 and then at 9 mm."""
+    far = with_term(waved, "cogging", {"cosine": 0.0, "sine": -0.15, "pitch": 0.0045})
+    assert find_modes(far)[0].values["cogging.pitch"] < 0.008
+    assert refit_shapes(far).values["cogging.pitch"] == pytest.approx(0.009, rel=0.03)
+
+
+def test_maxima_far_below_the_best_are_left_out(waved):
+    best = refit_shapes(with_term(waved, "cogging", {"cosine": 0.0, "sine": -0.3, "pitch": 0.009}))
+    near = find_modes(best, reach=4.0)
+    assert all(mode.log_evidence > near[0].log_evidence - 4.0 for mode in near)
+    assert best in near
+
+
+def test_a_fit_without_shapes_is_returned_alone(waved):
+    assert not has_other_shapes(waved.problem)
+    assert list_scanned_shapes(waved.problem) == []
+    assert find_modes(waved) == [waved]
+
+
+def test_draws_come_from_all_maxima_in_proportion_to_their_evidence(waved, monkeypatch):
+    """Two maxima with evidences in the ratio of 3 to 1; 25 % of the draws are from the second. Seeded."""
+    best = with_term(waved, "cogging", {"cosine": 0.0, "sine": -0.3, "pitch": 0.009})
+    wrong = with_term(waved, "cogging", {"cosine": 0.05, "sine": -0.15, "pitch": 0.006})
+    monkeypatch.setattr(type(best), "log_evidence", property(lambda fit: 0.0 if fit is best else -math.log(3.0)))
+    monkeypatch.setattr("lostmotion.diagnosis.mixed.find_modes", lambda fit, reach: [best, wrong])
+    rng = np.random.default_rng(2)
+    made = mix_modes(best, draw_parameters(best, rng), rng)
+    keys = [k for k in best.problem.keys if not k.startswith("log_")]
+    pitches = made[:, keys.index("cogging.pitch")]
+    far = np.abs(np.log(pitches / wrong.values["cogging.pitch"])) < 0.05
+    assert np.mean(far) == pytest.approx(0.25, abs=0.01)
