@@ -15,6 +15,7 @@ import math
 import os
 import tempfile
 import time
+from collections import Counter
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
@@ -28,6 +29,7 @@ from lostmotion.codec import to_plain
 from lostmotion.errors import LostMotionError
 from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import default
+from lostmotion.report.words import to_words
 from lostmotion.results import Interval
 from lostmotion.storage import save_table
 from lostmotion_trials.blind.bound import are_equivalent, complete_parameters, compute_bound, is_covered
@@ -306,6 +308,17 @@ def check_coverage(row):
     ]
 
 
+def explain_miss(row):
+    """Return why a hidden term was not named: a simpler law, or an alternative that is stated; empty for neither."""
+    law, found = default().load("term", row["name"]), [f for f in row["found"] if f["mechanism"] != "unknown"]
+    if any(f["mechanism"] in law.extends for f in found):
+        return "a simpler law that the hidden one contains"
+    words = to_words(row["name"]).lower()
+    if any(words in doubt.lower() for f in found for doubt in f.get("doubts", ())):
+        return "the hidden one is stated as an alternative"
+    return ""
+
+
 LEAST, MOST = 50.0, 750.0
 """The gains in log-likelihood of the machines that count: 50 to 500 wanted, reached within `TOLERANCE`."""
 BINS = (0.0, 20.0, 50.0, 150.0, MOST, math.inf)
@@ -342,9 +355,13 @@ def print_summary(rows):
     clean = [r for r in rows if r.get("status") == 0 and r["name"] == "clean"]
     if clean:
         print(f"\nOf {len(clean)} machines that hide nothing {sum(bool(list_names(r)[0]) for r in clean)} had a name.")
-    for r in (r for r in shown if not list_names(r)[1]):
+    missed = [(r, explain_miss(r)) for r in shown if not list_names(r)[1]]
+    causes = Counter(why or "neither" for _, why in missed)
+    print(f"\nNot named: {len(missed)}; " + "; ".join(f"{why}: {count}" for why, count in causes.most_common()))
+    for r, why in missed:
         found = ", ".join(f["mechanism"] for f in r["found"]) or "nothing"
-        print(f"- {r['name']}, {r['sensor']}, {r['drive']}, {r['model']}, gain {r['reached']:.0f}: {found}")
+        place = f"{r['name']}, {r['sensor']}, {r['drive']}, {r['model']}, gain {r['reached']:.0f}"
+        print(f"- {place}: {found}" + (f" ({why})" if why else ""))
 
 
 def main():
