@@ -107,7 +107,7 @@ class Term(ABC):
     `at` names the interface, `physics` is a sentence with the parameters in braces, `formula` the law. A parameter with
     a `null` is an amplitude: where all of these are at their null, the force is exactly zero. `p` holds the values of
     `params`, then of `needs`: parameters that the interface `holds`, or names in `PSEUDO_NEEDS`. Each of `states`
-    starts at zero, except the first ones, for which `begins` gives a dimension: any value of natural size. `further`
+    starts at zero, except the first ones, for which `begins` gives their size: a dimension or a parameter. `further`
     declares the results of `derived`. `resembles` names terms that explain recordings almost as well; `equals` those
     that no recording of a machine with constant parameters can tell from this one; `extends` simpler laws that it
     contains. A term whose effect is the same `anywhere` is tried only at the ground. `unlikely` is subtracted from the
@@ -123,7 +123,7 @@ class Term(ABC):
     paper: ClassVar[str]
     params: ClassVar[tuple[Param, ...]]
     states: ClassVar[tuple[str, ...]] = ()
-    begins: ClassVar[tuple[Dimension, ...]] = ()
+    begins: ClassVar[tuple[Dimension | str, ...]] = ()
     needs: ClassVar[tuple[str, ...]] = ()
     motions: ClassVar[tuple[str, ...]] = ("translation", "rotation")
     further: ClassVar[tuple[Param, ...]] = ()

@@ -8,7 +8,7 @@ import pytest
 
 from lostmotion import testing
 from lostmotion.contracts import DriveTerm, Interface, Model, Motion, Param, SensorTerm, Term
-from lostmotion.quantities import DAMPING, INERTIA, NUMBER, TIME
+from lostmotion.quantities import DAMPING, INERTIA, LENGTH, NUMBER, TIME
 
 DRAG = Param("coefficient", "drag", DAMPING, low=0.0, null=0.0)
 MASS = Param("m", "mass", INERTIA, low=0.0, scale="log")
@@ -325,6 +325,8 @@ BAD = [
     ("formula_is_written", Drag, {"formula": " "}, set()),
     ("needs_are_names_of_others", Drag, {"needs": ("coefficient",)}, set()),
     ("motions_are_known", Drag, {"motions": ("sideways",)}, set()),
+    ("begins_are_sizes", Drag, {"begins": (LENGTH,)}, set()),
+    ("begins_are_sizes", Memory, {"begins": ("nothing",)}, set()),
     ("resembles_names_others", Drag, {"resembles": ("drag",)}, set()),
     ("states_and_rate_go_together", Drag, {"states": ("held",)}, set()),
     ("states_and_rate_go_together", Memory, {"states": ()}, set()),

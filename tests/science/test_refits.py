@@ -99,6 +99,7 @@ def test_a_fit_at_a_wrong_division_of_scatter_begins_again_at_the_noise_of_the_b
         (("drive_saturation", "acceleration", "multisine"), 8, "nothing"),
         (("cubic_stiffness", "acceleration", "multisine"), 8, "unknown"),
         (("quadratic_stiffness", "acceleration", "sweep"), 8, "nothing"),
+        (("bouc_wen_hysteresis", "velocity", "multisine"), 8, "hidden_mode"),
     ],
 )
 def test_machines_of_the_table_that_were_named_wrongly(machine, seed, wrong):
@@ -106,9 +107,9 @@ def test_machines_of_the_table_that_were_named_wrongly(machine, seed, wrong):
 
     The initial states were those of the nominal model (the first two), the noise was divided wrongly (the third), a
     resonance and a travel were outside what was tried, 0.8 % more error counted as worse, a motion began on the wrong
-    side of its gap, and a time of change stopped at a wrong maximum. In the last five, a stop was fitted at the wrong
+    side of its gap, and a time of change stopped at a wrong maximum. In the next five, a stop was fitted at the wrong
     end, the share of a saturated drive was vague while its limit was free, and held-out data refuted the term by an
-    error or a log score that was worse by no more than chance.
+    error or a log score that was worse by no more than chance. In the last one, a hysteresis began at zero force.
     """
     gain = table.choose_gain(type("Options", (), {"gain": 0.0}), *machine, seed)
     row = table.run_task((*machine, seed, gain, 1500))

@@ -23,14 +23,14 @@ def compute_initial(problem: Problem, fulls: Array, gain: Array, offset: Array, 
     """
     observation, scales, model = problem.observations[index], problem.scales, problem.system.model
     n = problem.dynamics.states
-    mean, cov = np.zeros((len(fulls), n)), np.zeros((n, n))
+    mean, cov = np.zeros((len(fulls), n)), np.zeros((len(fulls), n, n))
     for i, name in enumerate(model.states):
-        cov[i, i] = (scales.velocity if i == 1 or "velocity" in name else scales.length) ** 2
-    _begin_terms(problem, (mean, cov), gain, offset, index)
+        cov[:, i, i] = (scales.velocity if i == 1 or "velocity" in name else scales.length) ** 2
+    _begin_terms(problem, fulls, (mean, cov), gain, offset, index)
     if observation.begun is not None:
         known = slice(0, len(model.states))
-        mean[:, known], cov[known, known] = observation.begun
-        return mean, np.tile(cov, (len(fulls), 1, 1))
+        mean[:, known], cov[:, known, known] = observation.begun
+        return mean, cov
     if all(sensor.channel.endswith("force") for sensor in observation.sensors):
         return _begin_by_force(problem, fulls, offset[:, 0], (mean, cov), index)
     for number, sensor in enumerate(observation.sensors):
@@ -39,24 +39,33 @@ def compute_initial(problem: Problem, fulls: Array, gain: Array, offset: Array, 
             _begin_at_reading(
                 observation, number, (state, scales.length), (mean, cov), gain[:, number], offset[:, number]
             )
-    return mean, np.tile(cov, (len(fulls), 1, 1))
+    return mean, cov
 
 
-def _begin_terms(problem: Problem, begun: tuple[Array, Array], gain: Array, offset: Array, index: int) -> None:
-    """Initialise the states of terms: a free one with its natural size, that of a sensor at its first reading."""
+def _begin_terms(
+    problem: Problem, fulls: Array, begun: tuple[Array, Array], gain: Array, offset: Array, index: int
+) -> None:
+    """Initialise the states of terms: a free one with its natural size, that of a sensor at its first reading.
+
+    A recording begins within the motion, where the force of a hysteresis is anything up to its yield force.
+    """
     (mean, cov), scales, system = begun, problem.scales, problem.system
     observation = problem.observations[index]
     places = {sensor.place: i for i, sensor in enumerate(observation.sensors)}
     for (key, term), first in zip(system.forces, system.wiring(problem.active)[1], strict=True):
         if key not in problem.active:
             continue
-        for i, dimension in enumerate(term.begins):
-            cov[first + i, first + i] = dimension.scale(scales.force, scales.length, scales.time) ** 2
+        for i, size in enumerate(term.begins):
+            cov[:, first + i, first + i] = (
+                fulls[:, system.index[f"{key}.{size}"]]
+                if isinstance(size, str)
+                else size.scale(scales.force, scales.length, scales.time)
+            ) ** 2
         if isinstance(term, SensorTerm) and (number := places.get(term.at)) is not None:
             seen = observation.first[number][0]
-            size = observation.amplitude_of(observation.sensors[number].label)
+            amplitude = observation.amplitude_of(observation.sensors[number].label)
             mean[:, first] = 0.0 if np.isnan(seen) else (seen - offset[:, number]) / gain[:, number]
-            cov[first, first] = (10.0 * observation.noises[number]) ** 2 + (1e-2 * size) ** 2
+            cov[:, first, first] = (10.0 * observation.noises[number]) ** 2 + (1e-2 * amplitude) ** 2
 
 
 def shows_place(observation: Observation) -> bool:
@@ -76,10 +85,10 @@ def _begin_at_reading(
     (mean, cov), (at, length) = begun, state
     place, speed = observation.first[number]
     mean[:, at] = (place - offset) / gain
-    cov[at, at] = min((10.0 * observation.noises[number]) ** 2 + (1e-3 * length) ** 2, length**2)
-    if at + 1 < cov.shape[0]:
+    cov[:, at, at] = min((10.0 * observation.noises[number]) ** 2 + (1e-3 * length) ** 2, length**2)
+    if at + 1 < cov.shape[1]:
         mean[:, at + 1] = speed / gain
-        cov[at + 1, at + 1] *= 0.25
+        cov[:, at + 1, at + 1] *= 0.25
 
 
 def _begin_by_force(
@@ -89,10 +98,9 @@ def _begin_by_force(
     observation, model = problem.observations[index], problem.system.model
     mean, cov = begun
     mean[:, :2] = observation.inputs[0, :2]
-    cov[1, 1] *= 0.25
-    covariance = np.tile(cov, (len(fulls), 1, 1))
+    cov[:, 1, 1] *= 0.25
     for point, full in enumerate(fulls):
         shown = replace(observation, readings=observation.readings - offset[point])
         mean[point, 0], spread = find_static_equilibrium(shown, model, full[: len(model.params)])
-        covariance[point, 0, 0] = spread**2 + (1e-3 * problem.scales.length) ** 2
-    return mean, covariance
+        cov[point, 0, 0] = spread**2 + (1e-3 * problem.scales.length) ** 2
+    return mean, cov

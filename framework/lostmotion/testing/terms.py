@@ -14,6 +14,7 @@ import numpy as np
 
 from lostmotion.contracts import Array, DriveTerm, SensorTerm, Term
 from lostmotion.likelihood.plan import make_law, prepare_values
+from lostmotion.quantities import Dimension
 from lostmotion.testing.probes import STEP, Point, compile_function, points_of_term, relative_difference
 from lostmotion.testing.rules import SNAKE, join_words, rule
 from lostmotion.testing.shared import find_repeated
@@ -92,6 +93,16 @@ def motions_are_known(term: Term) -> str:
     """List in `motions` one or both of "translation" and "rotation"."""
     good = term.motions and set(term.motions) <= {"translation", "rotation"}
     return "" if good else f"the motions are {term.motions!r}"
+
+
+@rule("term", declaration=True)
+def begins_are_sizes(term: Term) -> str:
+    """Give in `begins` a dimension or the name of an own parameter, at most one for each of `states`."""
+    own = {q.name for q in term.params}
+    bad = [size for size in term.begins if not isinstance(size, Dimension) and size not in own]
+    if bad:
+        return f"{bad[0]!r} is neither a dimension nor one of its parameters"
+    return "" if len(term.begins) <= len(term.states) else f"{len(term.begins)} sizes for {len(term.states)} states"
 
 
 @rule("term", declaration=True, courtesy=True)

@@ -37,6 +37,7 @@ class DahlFriction(Term):
         Param("deflection", "elastic travel before sliding", LENGTH, low=0.0, scale="log", typical=0.05),
     )
     states = ("bristle_force",)
+    begins = ("force",)
     needs = ("step",)
     resembles = _list_others("dahl_friction")
 
@@ -76,6 +77,7 @@ class LuGreFriction(Term):
         Param("deflection", "elastic travel before sliding", LENGTH, low=0.0, scale="log", typical=0.05),
     )
     states = ("bristle_force",)
+    begins = ("force",)
     needs = ("step",)
     resembles = _list_others("lugre_friction")
 
@@ -107,6 +109,7 @@ class BoucWenHysteresis(Term):
         Param("travel", "yield force over the initial stiffness", LENGTH, low=0.0, scale="log", typical=0.3),
     )
     states = ("hysteretic_force",)
+    begins = ("force",)
     needs = ("step",)
     resembles = _list_others("bouc_wen_hysteresis")
 
