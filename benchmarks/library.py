@@ -56,6 +56,8 @@ UNITS = {"position": "m", "velocity": "m/s", "acceleration": "m/s^2"}
 ANGULAR = {"position": "rad", "velocity": "rad/s", "acceleration": "rad/s^2"}
 STEPS, SIZES, TOLERANCE = 2, 3.0, 0.4
 """Steps of the size towards the wanted gain, the largest factor of each, and the error of its logarithm at the end."""
+LEAST_ERROR = -0.9
+"""The least relative error of a gain, as in the library."""
 LATE = {"excitation_delay", "sensor_delay", "actuator_lag", "sensor_lag"}
 ESTIMATED = {"linear_oscillator": ("c", "k"), "rigid_drive": ("m", "c")}
 
@@ -136,10 +138,12 @@ def draft_machine(task):
 def simulate(draft, channel, factor):
     """Return the effects, their parts of the simulator, and the true signal of a sensor (samples,).
 
-    A motion that the hidden effect carries far from that of the pilot run raises ValueError.
+    A motion that the hidden effect carries far from that of the pilot run, or a reversed channel, raises ValueError.
     """
     rig, pilot = draft.rig, draft.pilot
     effects = (draft.effect(factor),) if draft.effect else ()
+    if any(effect.parameters.get("error", 0.0) < LEAST_ERROR for effect in effects):
+        raise ValueError("the drive or the sensor would be reversed, or nearly without effect")
     hidden = convert_effects(rig, effects)
     truth = simulate_machine(BlindMachine(**{**vars(rig), "channel": channel}), *hidden, make_rng(draft))
     own = simulate_machine(rig, *hidden, make_rng(draft))
