@@ -160,5 +160,6 @@ def estimate_onset(fit: Fit, key: str) -> Interval | None:
 
 
 def compute_onset_price(problem: Problem) -> float:
-    """Return the log prior penalty of the onsets of the active terms."""
-    return PRICE * sum(find_onset(problem, key) > ALWAYS for key in problem.active)
+    """Return the log prior penalty of the onsets of the active terms: of their times, and of a change at all."""
+    late = sum(find_onset(problem, key) > ALWAYS for key in problem.active)
+    return (PRICE + problem.settings.select.onset) * late

@@ -47,7 +47,7 @@ class DirectionalDamping(Term):
 
     at: str = "ground"
     name: ClassVar[str] = "directional_damping"
-    physics: ClassVar[str] = "The damping is larger by {difference} in positive direction than in negative direction"
+    physics: ClassVar[str] = "The damping in positive direction less that in negative direction is {difference}"
     formula: ClassVar[str] = "-difference/2 * |v|"
     paper: ClassVar[str] = "Surace, Worden, Tomlinson, Proc. IMechE D 206 (1992) 157-167"
     params = (Param("difference", "damping for v > 0 less that for v < 0", DAMPING, null=0.0),)
