@@ -15,6 +15,7 @@ from lostmotion.diagnosis.states import (
     LIKELY,
     NAMED,
     OPEN,
+    choose_state,
     is_valid,
     limit_confidence,
     list_open_terms,
@@ -120,6 +121,20 @@ def test_a_name_that_leaves_most_of_the_force_missing_is_likely(left, sure):
     assert doubts == [] if sure else ["60 % of the missing force is still" in doubt for doubt in doubts] == [True]
 
 
+@pytest.mark.parametrize(
+    ("left", "valid", "doubts", "state"),
+    [
+        (0.6, False, ["why"], "open"),
+        (0.4, False, ["why"], "likely"),
+        (0.6, True, ["why"], "likely"),
+        (0.4, True, [], "named"),
+    ],
+)
+def test_a_term_that_leaves_most_of_the_force_missing_in_a_model_that_is_not_valid_is_open(left, valid, doubts, state):
+    after = fit_of({f"{FRICTION}.force": 1.0}, [FRICTION])
+    assert choose_state(diagnosis(after, {(FRICTION,): 1.0}, left=missing(left)), doubts, valid=valid) == state
+
+
 def test_a_sure_term_is_named_and_one_with_rivals_is_not():
     after = fit_of({f"{FRICTION}.force": 1.0}, [FRICTION])
     assert list_warnings(diagnosis(after, {(FRICTION,): 0.99, (): 0.01}), FRICTION) == []
@@ -129,12 +144,19 @@ def test_a_sure_term_is_named_and_one_with_rivals_is_not():
     assert doubt.endswith("the alternative is a generic smooth force.")
 
 
-def test_a_term_for_which_held_out_data_decide_is_told_so():
+@pytest.mark.parametrize(
+    ("gain", "told"),
+    [
+        (12.34, "held-out data decide for the term, by 12 in log score."),
+        (0.0, "free runs over held-out data decide for the term."),
+    ],
+)
+def test_a_term_for_which_held_out_data_decide_is_told_so(gain, told):
     after, sets = fit_of({f"{FRICTION}.force": 1.0}, [FRICTION]), {(FRICTION,): 0.99, (): 0.01}
     (doubt,) = list_warnings(
-        diagnosis(after, sets, tied={FRICTION}, heldout_gains={frozenset({FRICTION}): 12.34}), FRICTION
+        diagnosis(after, sets, tied={FRICTION}, heldout_gains={frozenset({FRICTION}): gain}), FRICTION
     )
-    assert doubt.endswith("held-out data decide for the term, by 12 in log score.")
+    assert doubt.endswith(told)
 
 
 @pytest.mark.parametrize(("behind", "sure"), [(2.0, False), (4.0, True)])

@@ -10,6 +10,7 @@ from truths import fit_oscillator
 
 from lostmotion.inference.candidates import join_term
 from lostmotion.inference.fit import maximise, restart
+from lostmotion.inference.late import compute_onset_price
 from lostmotion.likelihood.observation import Observation
 from lostmotion_plugins.terms.memory import BoucWenHysteresis
 
@@ -63,3 +64,11 @@ def test_its_variance_at_the_first_sample_is_the_square_of_the_yield_force():
     points = joined.points(np.stack([joined.start, twice]), 0)
     assert np.allclose(points.covariance[:, 2, 2], [YIELD**2, 4.0 * YIELD**2])
     assert math.isclose(points.mean[0, 2], 0.0)
+
+
+@pytest.mark.parametrize(("since", "price"), [(None, 0.0), (3.0, math.log(24.0) + math.log(100.0))])
+def test_an_onset_costs_its_time_and_the_odds_of_a_change(since, price):
+    problem = hysteretic().problem
+    start = {"bouc_wen_hysteresis.force": YIELD, "bouc_wen_hysteresis.travel": TRAVEL}
+    late = {"bouc_wen_hysteresis.since": since} if since else {}
+    assert compute_onset_price(join_term(problem, "bouc_wen_hysteresis", {**start, **late})) == pytest.approx(price)

@@ -71,7 +71,7 @@ def find_better_set(
     Where the model is wrong in other ways too, several sets may explain the fitted data equally well; their predictions
     then decide. The best sets of each size, of no more terms, are compared by paired t tests (Bonferroni), and the
     error must be smaller by more than `HeldOutSettings.rise`. None means that there is no such set. The gain is over
-    the nominal model, alone or with a smooth force.
+    the nominal model, alone or with a smooth force; a negative one counts as zero, because free runs decide here.
     """
     d, selection = outcome.diagnosis, outcome.diagnosis.selection
     here = selection.fitted_sets.get(selection.chosen.problem.active)
@@ -84,7 +84,8 @@ def find_better_set(
     if not better:
         return None
     best, nothing = min(better, key=lambda rival: _compute_rms(rival[1]))[0], selection.fitted_sets[frozenset()]
-    return best.fit, _measure_heldout_gains(d, [best], nothing, pieces)
+    gains = _measure_heldout_gains(d, [best], nothing, pieces)
+    return best.fit, {terms: max(gain, 0.0) for terms, gain in gains.items()}
 
 
 def _measure_heldout_gains(

@@ -11,7 +11,14 @@ import numpy as np
 from lostmotion.contracts import Array, Model, SensorTerm, Term
 from lostmotion.diagnosis.compare import Prediction
 from lostmotion.diagnosis.search import SearchResult, list_physical_keys
-from lostmotion.diagnosis.states import LIKELY, NAMED, compute_probability, is_valid, list_warnings
+from lostmotion.diagnosis.states import (
+    NAMED,
+    OPEN,
+    choose_state,
+    compute_probability,
+    is_valid,
+    list_warnings,
+)
 from lostmotion.diagnosis.unknowns import make_learned_entry, make_unnamed_entry
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.late import estimate_onset
@@ -134,11 +141,12 @@ def _make_entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> Me
     share = float(np.max(np.abs(d.laws[key]))) / d.after.problem.scales.force
     doubts = list_warnings(d, key) + [doubt for doubt in (outcome.unconfirmed.get(key), why) if doubt]
     size = "" if isinstance(term, SensorTerm) else f", up to {percent(share)} of {d.yardstick}"
+    state, p = choose_state(d, doubts, valid=not why), compute_probability(d, key)
     return Mechanism(
         mechanism=term.name,
         at=term.at,
-        probability=compute_probability(d, key),
-        state=LIKELY if doubts else NAMED,
+        probability=min(p, d.settings.name.simplest) if state == OPEN else p,
+        state=state,
         doubts=tuple(doubts),
         parameters=own | _compute_derived(outcome, term, held),
         share_of_drive=share,

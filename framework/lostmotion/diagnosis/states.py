@@ -72,6 +72,20 @@ def list_warnings(d: SearchResult, key: str) -> list[str]:
     return [*weak, *steady, *_warn_of_long_delay(d, key), *_warn_of_short_delay(d, key), *_warn_of_early_change(d, key)]
 
 
+def measure_remains(d: SearchResult) -> float:
+    """Return the share of the missing force that is still missing with all findings; 0 without a random force."""
+    if not (d.unexplained and d.left):
+        return 0.0
+    return float(np.std(d.left.missing.force) / np.std(d.located.missing.force))
+
+
+def choose_state(d: SearchResult, doubts: Sequence[str], *, valid: bool) -> str:
+    """Return the state of a found term: named without doubts, open in a model that is not valid and explains little."""
+    if not doubts:
+        return NAMED
+    return LIKELY if valid or measure_remains(d) <= d.settings.name.remains else OPEN
+
+
 def _warn_of_probability(d: SearchResult, key: str) -> Iterator[str]:
     p = _compute_equal_probability(d, key)
     if d.selection.simplest:
@@ -124,10 +138,10 @@ def _warn_of_heldout_decision(d: SearchResult, key: str) -> Iterator[str]:
     if chosen not in gains:
         return
     if key in d.selection.tied:
-        yield (
-            "On the fitted data a small generic smooth force explains about as much as this term; held-out data decide"
-            f" for the term, by {rounded(gains[chosen])} in log score."
-        )
+        decide = f"held-out data decide for the term, by {rounded(gains[chosen])} in log score."
+        if not gains[chosen] > 0.0:
+            decide = "free runs over held-out data decide for the term."
+        yield f"On the fitted data a small generic smooth force explains about as much as this term; {decide}"
     elif not replace(d.selection, heldout_gains={}).inclusion(key) > d.settings.name.sure:
         gain = gains[chosen]
         by = f", and their log score is higher by {rounded(gain)}" if gain > 0.0 else ""
@@ -142,10 +156,8 @@ def _warn_of_rest(d: SearchResult, key: str) -> Iterator[str]:
             f"It adds {rounded(compute_gain(d, key), 3)} in log evidence, and the unexplained force beside it adds"
             f" {rounded(d.learned.gain, 3)}: the term may be a part of that force."
         )
-    elif d.unexplained and d.left:
-        share = float(np.std(d.left.missing.force) / np.std(d.located.missing.force))
-        if share > limits.remains:
-            yield f"With it, {percent(share)} of the missing force is still missing."
+    elif (share := measure_remains(d)) > limits.remains:
+        yield f"With it, {percent(share)} of the missing force is still missing."
 
 
 def _list_simplest_alternatives(d: SearchResult, simplest: SimplestTerms, key: str) -> list[str]:
@@ -253,6 +265,11 @@ def limit_confidence(entry: Mechanism, sure: float = DEFAULT.name.sure) -> Mecha
     if not entry.doubts or entry.state not in (NAMED, LIKELY):
         return entry
     return replace(entry, state=LIKELY, probability=min(entry.probability, sure))
+
+
+def is_uncertain(entry: Mechanism) -> bool:
+    """Return whether an entry is a term of the library with doubts, and not an unknown force."""
+    return entry.state != NAMED and bool(entry.doubts)
 
 
 def sort_findings(found: Sequence[Mechanism]) -> tuple[Mechanism, ...]:

@@ -19,7 +19,7 @@ from lostmotion.diagnosis.findings import (
 )
 from lostmotion.diagnosis.notes import note_large_noise
 from lostmotion.diagnosis.search import SearchResult, list_fitted_keys
-from lostmotion.diagnosis.states import LIKELY
+from lostmotion.diagnosis.states import LIKELY, OPEN, is_uncertain
 from lostmotion.diagnosis.unknowns import compute_unknown_odds
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.natural import find_term
@@ -271,15 +271,16 @@ def measure_unexplained(d: SearchResult, *, after: bool) -> UnexplainedForce:
 
 
 def _list_finding_sentences(found: Sequence[Mechanism]) -> Iterator[str]:
-    """Yield the sentences on the found terms; one that is only likely has its warnings, each of them once."""
+    """Yield the sentences on the found terms; one that is likely or open has its warnings, each of them once."""
     given: set[str] = set()
     for entry in found:
-        if entry.state != LIKELY:
+        if not is_uncertain(entry):
             yield entry.says
             continue
         doubts = [doubt for doubt in entry.doubts if doubt not in given]
         given.update(doubts)
-        yield " ".join([f"Likely, not certain: {entry.says}", *doubts])
+        opening = "Likely, not certain" if entry.state == LIKELY else "Open"
+        yield " ".join([f"{opening}: {entry.says}", *doubts])
 
 
 def summarise(outcome: Outcome, found: Sequence[Mechanism], rest: Sequence[OpenTerm] = ()) -> tuple[str, ...]:
@@ -298,9 +299,9 @@ def summarise(outcome: Outcome, found: Sequence[Mechanism], rest: Sequence[OpenT
     if not d.found:
         return (*(entry.says for entry in found), *left)
     opening = list(_list_finding_sentences(found))
-    if len(found) == 1 and found[0].state != LIKELY:
+    if len(found) == 1 and not is_uncertain(found[0]):
         opening[0] = f"{opening[0][:-1]}, and the model leaves it out."
-    elif len(found) > 1:
+    elif len(found) > 1 and not any(entry.state == OPEN and is_uncertain(entry) for entry in found):
         opening.append(f"The model leaves out {'both' if len(found) == 2 else f'all {len(found)} of them'}.")
     opening.append(_describe_improvement(outcome, len(found), time, floor))
     opening += note_large_noise(outcome)

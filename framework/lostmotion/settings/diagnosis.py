@@ -313,7 +313,10 @@ class NameSettings:
     )
     remains: float = threshold(
         0.5,
-        "A finding is at most likely where the remaining random force exceeds this share of the missing force.",
+        (
+            "A finding is at most likely where the remaining random force exceeds this share of the missing force, and"
+            " open where the model does not predict held-out data either."
+        ),
         most=1.0,
     )
     late: float = threshold(
