@@ -71,7 +71,8 @@ def find_better_set(
     Where the model is wrong in other ways too, several sets may explain the fitted data equally well; their predictions
     then decide. The best sets of each size, of no more terms, are compared by paired t tests (Bonferroni), and the
     error must be smaller by more than `HeldOutSettings.rise`. None means that there is no such set. The gain is over
-    the nominal model, alone or with a smooth force; a negative one counts as zero, because free runs decide here.
+    the nominal model, alone or with a smooth force; a negative one counts as zero, because free runs decide here, and
+    sets that free runs refute have an infinite loss.
     """
     d, selection = outcome.diagnosis, outcome.diagnosis.selection
     here = selection.fitted_sets.get(selection.chosen.problem.active)
@@ -83,9 +84,13 @@ def find_better_set(
     better = [(v, e) for v, e in rivals if _is_clearly_better(e, errors, d.settings.heldout, len(rivals))]
     if not better:
         return None
-    best, nothing = min(better, key=lambda rival: _compute_rms(rival[1]))[0], selection.fitted_sets[frozenset()]
+    (best, least), nothing = min(better, key=lambda rival: _compute_rms(rival[1])), selection.fitted_sets[frozenset()]
     gains = _measure_heldout_gains(d, [best], nothing, pieces)
-    return best.fit, {terms: max(gain, 0.0) for terms, gain in gains.items()}
+    beaten = [v for v, e in rivals if _is_clearly_better(least, e, d.settings.heldout, len(rivals))]
+    return best.fit, {
+        **dict.fromkeys((v.terms for v in beaten), -math.inf),
+        **{terms: max(gain, 0.0) for terms, gain in gains.items()},
+    }
 
 
 def _measure_heldout_gains(
@@ -237,20 +242,21 @@ def _score_corrected(right: CorrectedFit, pieces: Sequence[HeldOutStretch]) -> f
 
 
 def _list_alternatives(d: SearchResult, here: TermSet) -> list[TermSet]:
-    """Return the most probable other sets of each size up to that of the chosen one.
+    """Return the other sets of largest weight of each size up to that of the chosen one, and the most probable ones.
 
     A set is left out if its gain on the fitted data is a small share of that of the chosen set, if its random force is
     larger than that of the nominal model, or if one of its terms is not significant.
     """
     selection, found = d.selection, list[TermSet]()
     checks = RobustChecks(d.settings.select)
+    probable = {terms: p for terms, p in selection.probabilities().items() if p > d.settings.name.rival}
     nothing = selection.fitted_sets[frozenset()].weight
     least = nothing + d.settings.heldout.explains * max(here.weight - nothing, 0.0)
     for size in range(1, len(here.terms) + 1):
         same = [v for v in selection.fitted_sets.values() if len(v.terms) == size and v.terms != here.terms]
         same = [v for v in same if v.fit.status != "diverged" and not v.terms & selection.declined]
         same = [v for v in same if v.weight > least and _log_intensity(v.fit) <= _log_intensity(selection.nominal)]
-        same = sorted(same, key=lambda v: -v.weight)
+        same = sorted(same, key=lambda v: (-probable.get(v.terms, 0.0), -v.weight))
         found += list(itertools.islice((v for v in same if not checks.list_vague(v)), MOST_COMPARED))
     return found
 

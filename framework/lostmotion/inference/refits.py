@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from lostmotion.inference.candidates import refit_with_noise
 from lostmotion.inference.fit import Fit, maximise, raise_random_force, use_one_core
 from lostmotion.inference.other_shapes import has_other_shapes, refit_choices
 from lostmotion.inference.random_force import has_usual_random_force
@@ -69,13 +70,15 @@ class Refits:
 
 
 def refit_with_terms(fit: Fit) -> Fit:
-    """Return the fit on one core from a larger random force, and with initial states that are smoothed with its terms.
+    """Return the fit on one core from two other noise levels, and with initial states that are smoothed with its terms.
 
-    A fit without a random force beyond the usual begins where it is.
+    It begins at a larger random force, and with the residuals as measurement noise and no random force. A fit without
+    a random force beyond the usual begins where it is.
     """
     fit = use_one_core(fit)
     if not has_usual_random_force(fit):
-        fit = maximise(fit.problem, raise_random_force(fit.problem, fit.theta, 6.0))
+        warm = maximise(fit.problem, raise_random_force(fit.problem, fit.theta, 6.0))
+        fit = max(warm, refit_with_noise(fit), key=lambda found: found.local.log_posterior)
     return refit_start_in_play(fit)
 
 
