@@ -13,6 +13,8 @@ from lostmotion.diagnosis.mixed import mix_modes
 from lostmotion.inference.candidates import join_term
 from lostmotion.inference.fit import maximise, restart
 from lostmotion.inference.other_shapes import find_modes, has_other_shapes, list_scanned_shapes, refit_shapes
+from lostmotion.inference.refits import Refits
+from lostmotion.inference.term_sets import Selection, TermSet
 from lostmotion.likelihood.observation import Observation
 
 REACH = 0.0135
@@ -104,3 +106,13 @@ def test_draws_come_from_all_maxima_in_proportion_to_their_evidence(waved, monke
     pitches = made[:, keys.index("cogging.pitch")]
     far = np.abs(np.log(pitches / wrong.values["cogging.pitch"])) < 0.05
     assert np.mean(far) == pytest.approx(0.25, abs=0.01)
+
+
+def test_sets_near_the_best_are_refitted_once_with_other_shapes(waved):
+    """A wave 20 behind the best set is refitted, one 50 behind is not, and a set without shapes has nothing to try."""
+    wave = with_term(waved, "cogging", {"cosine": 0.0, "sine": -0.3, "pitch": 0.009})
+    weights = {"plain": (waved, 0.0), "near": (wave, -20.0), "far": (wave, -50.0)}
+    sets = {frozenset({name}): TermSet(frozenset({name}), fit, weight) for name, (fit, weight) in weights.items()}
+    selection, refits = Selection(waved, waved, sets), Refits()
+    assert [set(v.terms) for v in refits.take_shaped(selection)] == [{"near"}]
+    assert refits.take_shaped(selection) == []

@@ -71,8 +71,8 @@ def find_better_set(
     Where the model is wrong in other ways too, several sets may explain the fitted data equally well; their predictions
     then decide. The best sets of each size, of no more terms, are compared by paired t tests (Bonferroni), and the
     error must be smaller by more than `HeldOutSettings.rise`. None means that there is no such set. The gain is over
-    the nominal model, alone or with a smooth force; a negative one counts as zero, because free runs decide here, and
-    sets that free runs refute have an infinite loss.
+    the nominal model, alone or with a smooth force; a negative one counts as zero, because free runs decide here.
+    Sets that free runs refute, and those that were not compared, have an infinite loss.
     """
     d, selection = outcome.diagnosis, outcome.diagnosis.selection
     here = selection.fitted_sets.get(selection.chosen.problem.active)
@@ -86,9 +86,10 @@ def find_better_set(
         return None
     (best, least), nothing = min(better, key=lambda rival: _compute_rms(rival[1])), selection.fitted_sets[frozenset()]
     gains = _measure_heldout_gains(d, [best], nothing, pieces)
-    beaten = [v for v, e in rivals if _is_clearly_better(least, e, d.settings.heldout, len(rivals))]
+    equal = {v.terms for v, e in rivals if not _is_clearly_better(least, e, d.settings.heldout, len(rivals))}
+    refuted = set(selection.fitted_sets) - equal - {nothing.terms, here.terms}
     return best.fit, {
-        **dict.fromkeys((v.terms for v in beaten), -math.inf),
+        **dict.fromkeys(refuted, -math.inf),
         **{terms: max(gain, 0.0) for terms, gain in gains.items()},
     }
 

@@ -17,6 +17,9 @@ FAR = 300.0
 MOST_SHARED = 3
 """The number of sets that are refitted from the best one in each round."""
 
+WAVED, MOST_SHAPED = 30.0, 2
+"""Sets within this distance of the best in log weight are refitted with other shapes, so many in each round."""
+
 
 @dataclass
 class Refits:
@@ -51,12 +54,16 @@ class Refits:
         self.shared.update((v.terms, best.terms) for v in far)
         return far
 
-    def take_shaped(self, best: TermSet) -> bool:
-        """Return whether the best set has shapes from which it was not refitted yet, and count it as refitted."""
-        if best.terms in self.shaped or not has_other_shapes(best.fit.problem):
-            return False
-        self.shaped.add(best.terms)
-        return True
+    def take_shaped(self, selection: Selection) -> list[TermSet]:
+        """Return the best sets with shapes from which they were not refitted yet, and count them as refitted.
+
+        A wave at a wrong pitch is far behind, so sets count that are further from the best one than close ones.
+        """
+        sets = sorted(selection.fitted_sets.values(), key=lambda v: -v.weight)
+        near = [v for v in sets if v.weight > sets[0].weight - WAVED and v.terms not in self.shaped]
+        taken = [v for v in near if v.fit.status == "converged" and has_other_shapes(v.fit.problem)][:MOST_SHAPED]
+        self.shaped.update(v.terms for v in taken)
+        return taken
 
     def refit_subset(self, term_set: TermSet) -> Fit | None:
         """Return the fit of a set with initial states that are smoothed with its terms; None if it has been refitted.

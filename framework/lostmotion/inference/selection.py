@@ -262,10 +262,9 @@ class Selector:
         if far := self._refits.take_far(self.selection, best):
             self.say(f"refits with the noise of {' and '.join(sorted(best.terms)) or 'no term'}")
             self._add_sets(each(lambda v: refit_from(v.fit, best.fit), far, self.jobs))
-        best = max(self.selection.fitted_sets.values(), key=lambda v: v.weight)
-        if self._refits.take_shaped(best):
-            self.say(f"refits with other shapes of {' and '.join(sorted(best.terms))}")
-            self._add_set(use_cores(refit_shapes(best.fit), self.jobs))
+        for term_set in self._refits.take_shaped(self.selection):
+            self.say(f"refits with other shapes of {' and '.join(sorted(term_set.terms))}")
+            self._add_set(use_cores(refit_shapes(term_set.fit), self.jobs))
 
     def _run_score_tests(self, fit: Fit) -> list[ScoreTest]:
         """Return the score tests of all terms at a fit; terms with many parameters only if a related one is promising.
