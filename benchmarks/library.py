@@ -361,7 +361,10 @@ def print_summary(rows):
         print(f"\nOf {len(clean)} machines that hide nothing {sum(bool(list_names(r)[0]) for r in clean)} had a name.")
     missed = [(r, explain_miss(r)) for r in shown if not list_names(r)[1]]
     causes = Counter(why or "neither" for _, why in missed)
-    print(f"\nNot named: {len(missed)}; " + "; ".join(f"{why}: {count}" for why, count in causes.most_common()))
+    print(
+        f"\nNot named: {len(missed)} of {len(shown)}. "
+        + "; ".join(f"{why}: {count}" for why, count in causes.most_common())
+    )
     for r, why in missed:
         found = ", ".join(f["mechanism"] for f in r["found"]) or "nothing"
         place = f"{r['name']}, {r['sensor']}, {r['drive']}, {r['model']}, gain {r['reached']:.0f}"
