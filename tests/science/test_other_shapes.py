@@ -109,10 +109,13 @@ def test_draws_come_from_all_maxima_in_proportion_to_their_evidence(waved, monke
 
 
 def test_sets_near_the_best_are_refitted_once_with_other_shapes(waved):
-    """A wave 20 behind the best set is refitted, one 50 behind is not, and a set without shapes has nothing to try."""
+    """A wave 20 behind the best set is refitted.
+
+    One 50 behind is not, nor is one beside a term that is better alone; a set without shapes has nothing to try.
+    """
     wave = with_term(waved, "cogging", {"cosine": 0.0, "sine": -0.3, "pitch": 0.009})
-    weights = {"plain": (waved, 0.0), "near": (wave, -20.0), "far": (wave, -50.0)}
-    sets = {frozenset({name}): TermSet(frozenset({name}), fit, weight) for name, (fit, weight) in weights.items()}
+    weights = {"plain": (waved, 0.0), "near": (wave, -20.0), "far": (wave, -50.0), "plain more": (wave, -5.0)}
+    sets = {frozenset(k.split()): TermSet(frozenset(k.split()), fit, weight) for k, (fit, weight) in weights.items()}
     selection, refits = Selection(waved, waved, sets), Refits()
     assert [set(v.terms) for v in refits.take_shaped(selection)] == [{"near"}]
     assert refits.take_shaped(selection) == []

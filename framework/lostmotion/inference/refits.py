@@ -57,10 +57,12 @@ class Refits:
     def take_shaped(self, selection: Selection) -> list[TermSet]:
         """Return the best sets with shapes from which they were not refitted yet, and count them as refitted.
 
-        A wave at a wrong pitch is far behind, so sets count that are further from the best one than close ones.
+        A wave at a wrong pitch is far behind, so sets count that are further from the best one than close ones. Those
+        that are no better than one of their subsets do not.
         """
         sets = sorted(selection.fitted_sets.values(), key=lambda v: -v.weight)
         near = [v for v in sets if v.weight > sets[0].weight - WAVED and v.terms not in self.shaped]
+        near = [v for v in near if not any(w.terms < v.terms and w.weight > v.weight for w in sets)]
         taken = [v for v in near if v.fit.status == "converged" and has_other_shapes(v.fit.problem)][:MOST_SHAPED]
         self.shaped.update(v.terms for v in taken)
         return taken
