@@ -52,7 +52,9 @@ def test_a_law_better_than_any_curve_is_the_simplest_explanation(monkeypatch, we
     d = SimpleNamespace(
         selection=selection, learned=learned, unexplained=False, held=(), settings=DEFAULT, after=fits["smooth"]
     )
-    found = confirming.find_simplest(SimpleNamespace(diagnosis=d, horizon=None), ())
+    found = confirming.find_simplest(
+        SimpleNamespace(diagnosis=d, horizon=None, after=SimpleNamespace(errors=np.ones(PARTS))), ()
+    )
     assert (found and found[0].key) == chosen
     if found and [*weights] == ["a"]:
         assert found[1].probabilities["a"] == pytest.approx(DEFAULT.name.simplest / (1.0 + np.exp(-10.0)))

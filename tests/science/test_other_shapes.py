@@ -17,9 +17,6 @@ from lostmotion.inference.refits import Refits
 from lostmotion.inference.term_sets import Selection, TermSet
 from lostmotion.likelihood.observation import Observation
 
-REACH = 0.0135
-"""The amplitude (m) of the oscillator under a harmonic force, without the hidden force."""
-
 
 def driven(force, term, noise=0.01):
     """Return the fit of a linear oscillator (m = 1, c = 2, k = 400) whose position shows a hidden `force(x)`.

@@ -84,9 +84,10 @@ def find_better_set(
     better = [(v, e) for v, e in rivals if _is_clearly_better(e, errors, d.settings.heldout, len(rivals))]
     if not better:
         return None
-    (best, least), nothing = min(better, key=lambda rival: _compute_rms(rival[1])), selection.fitted_sets[frozenset()]
+    best, lowest = min(better, key=lambda rival: _compute_rms(rival[1]))
+    nothing = selection.fitted_sets[frozenset()]
     gains = _measure_heldout_gains(d, [best], nothing, pieces)
-    equal = {v.terms for v, e in rivals if not _is_clearly_better(least, e, d.settings.heldout, len(rivals))}
+    equal = {v.terms for v, e in rivals if not _is_clearly_better(lowest, e, d.settings.heldout, len(rivals))}
     refuted = set(selection.fitted_sets) - equal - {nothing.terms, here.terms}
     return best.fit, {
         **dict.fromkeys(refuted, -math.inf),
@@ -188,10 +189,9 @@ def _select_predicting(
     rival, own = selection.discrepancy_fit(here), score_heldout(here.fit, pieces)
     others = [*([rival.fit] if rival else ()), *([d.learned.fit] if d.learned else ())]
     bar = max([own, *(score_heldout(fit, pieces) for fit in others)]) - slack
-    errors = compute_run_errors(d.after, pieces, outcome.horizon)
     for term_set in sets:
         score, its = score_heldout(term_set.fit, pieces), compute_run_errors(term_set.fit, pieces, outcome.horizon)
-        if own < score > bar and not _is_clearly_better(errors, its, d.settings.heldout):
+        if own < score > bar and not _is_clearly_better(outcome.after.errors, its, d.settings.heldout):
             return term_set
     return None
 

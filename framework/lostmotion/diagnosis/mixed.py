@@ -6,7 +6,11 @@ to different parameters of the machine: an interval from one of them alone is to
 
 from __future__ import annotations
 
+import itertools
+from collections.abc import Iterable
+
 import numpy as np
+from numpy.typing import NDArray
 
 from lostmotion.contracts import Array
 from lostmotion.diagnosis.findings import draw_parameters
@@ -35,16 +39,14 @@ def draw_mixture(diagnosis: SearchResult, rng: np.random.Generator, stretches: A
     made = mix_modes(chosen, made, rng)
     rivals = _list_rivals(diagnosis)
     keys = list_physical_keys(chosen)
-    order, begin = rng.permutation(len(made)), 0
-    for terms, share in rivals:
+    parts = _divide_rows(len(made), [share for _, share in rivals], rng)
+    for (terms, _), rows in zip(rivals, parts, strict=True):
         fit = polish_fit(diagnosis.selection.fitted_sets[terms].fit)
-        other, count = draw_parameters(fit, rng), round(share * len(made))
+        other = draw_parameters(fit, rng)
         columns = {key: i for i, key in enumerate(list_physical_keys(fit))}
-        rows = order[begin : begin + count]
         for i, key in enumerate(keys):
             if key in columns and "." not in key:
                 made[rows, i] = other[rows, columns[key]]
-        begin += count
     return made
 
 
@@ -52,12 +54,17 @@ def mix_modes(chosen: Fit, made: Array, rng: np.random.Generator) -> Array:
     """Return draws from the maxima of a posterior, each with the share of its evidence; `made` are those of the fit."""
     modes = [mode for mode in find_modes(chosen, reach=REACH) if mode is not chosen]
     weights = np.exp([mode.log_evidence - chosen.log_evidence for mode in modes])
-    order, begin = rng.permutation(len(made)), 0
-    for mode, weight in zip(modes, weights, strict=True):
-        rows = order[begin : begin + round(float(weight / (1.0 + weights.sum())) * len(made))]
+    parts = _divide_rows(len(made), weights / (1.0 + weights.sum()), rng)
+    for mode, rows in zip(modes, parts, strict=True):
         made[rows] = draw_parameters(mode, rng)[: len(rows)]
-        begin += len(rows)
     return made
+
+
+def _divide_rows(count: int, shares: Iterable[float], rng: np.random.Generator) -> list[NDArray[np.intp]]:
+    """Return random rows out of `count` for each share; no row is in two parts."""
+    ends = np.cumsum([0, *(round(float(share) * count) for share in shares)])
+    order = rng.permutation(count)
+    return [order[begin:end] for begin, end in itertools.pairwise(ends)]
 
 
 def _list_rivals(diagnosis: SearchResult) -> list[tuple[frozenset[str], float]]:

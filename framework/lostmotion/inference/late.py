@@ -128,7 +128,7 @@ def drop_weak_onsets(fit: Fit) -> Fit:
     for key in sorted(fit.problem.active):
         if find_onset(fit.problem, key) > ALWAYS and fit.status != "diverged":
             ever = maximise(restart(fit).hold_values({onset_key(key): ALWAYS}), fit.theta)
-            needed = (PRICE + fit.problem.settings.select.onset) * measure_significance(fit).ratio ** 2
+            needed = _compute_price(fit.problem) * measure_significance(fit).ratio ** 2
             if ever.status != "diverged" and not fit.log_evidence - ever.log_evidence > needed:
                 fit = ever
     return fit
@@ -161,5 +161,9 @@ def estimate_onset(fit: Fit, key: str) -> Interval | None:
 
 def compute_onset_price(problem: Problem) -> float:
     """Return the log prior penalty of the onsets of the active terms: of their times, and of a change at all."""
-    late = sum(find_onset(problem, key) > ALWAYS for key in problem.active)
-    return (PRICE + problem.settings.select.onset) * late
+    return _compute_price(problem) * sum(find_onset(problem, key) > ALWAYS for key in problem.active)
+
+
+def _compute_price(problem: Problem) -> float:
+    """Return the log prior penalty of one onset."""
+    return PRICE + problem.settings.select.onset

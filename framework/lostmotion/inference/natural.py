@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -77,6 +77,11 @@ def sort_slots(problem: Problem, key: str) -> tuple[list[Slot], list[Slot]]:
     """Return the slots of the amplitudes of a term, and those of its shapes."""
     _, slots = find_term(problem, key)
     return [s for s in slots if s.param.null is not None], [s for s in slots if s.param.null is None]
+
+
+def collect_shapes(problem: Problem, keys: Iterable[str]) -> list[Slot]:
+    """Return the slots of the shapes of some terms, in alphabetical order of the terms."""
+    return [slot for key in sorted(keys) for slot in sort_slots(problem, key)[1]]
 
 
 def list_star_points(grids: Sequence[Sequence[float]]) -> list[tuple[float, ...]]:

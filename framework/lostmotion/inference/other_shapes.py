@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit, maximise, raise_random_force, use_one_core
-from lostmotion.inference.natural import sort_slots
+from lostmotion.inference.natural import collect_shapes
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.problem import Problem
 
@@ -25,13 +25,12 @@ NEAR = 0.03
 
 def has_other_shapes(problem: Problem) -> bool:
     """Return whether an active term has a shape with a range to be scanned, or with choices."""
-    slots = [slot for key in problem.active for slot in sort_slots(problem, key)[1]]
-    return any(s.param.choices or s.param.scan for s in slots)
+    return any(s.param.choices or s.param.scan for s in collect_shapes(problem, problem.active))
 
 
 def list_scanned_shapes(problem: Problem) -> list[int]:
     """Return the indices among the free parameters of the shapes of active terms that have a range to be scanned."""
-    slots = [slot for key in sorted(problem.active) for slot in sort_slots(problem, key)[1]]
+    slots = collect_shapes(problem, problem.active)
     keys = {s.key for s in slots if s.param.scan and s.param.scale == "log" and not s.param.choices}
     return [i for i, key in enumerate(problem.keys) if key in keys]
 
@@ -72,7 +71,7 @@ def refit_choices(fit: Fit, keys: Iterable[str]) -> Fit:
     """
     single, problem = use_one_core(fit), fit.problem
     problems = []
-    for s in (slot for key in sorted(keys) for slot in sort_slots(problem, key)[1]):
+    for s in collect_shapes(problem, keys):
         now = float(problem.full(fit.theta)[problem.system.index[s.key]])
         problems += [single.problem.hold_values({s.key: v}) for v in s.param.choices or () if v != now]
     starts = [raise_random_force(one, fit.theta, max(RAISES)) for one in problems]
@@ -89,7 +88,7 @@ def _maximise_each(problems: Sequence[Problem], starts: Sequence[Array], fit: Fi
 
 def _scale_shape(fit: Fit, at: int, factor: float, more: float) -> Array:
     """Return the coordinates of a fit with one shape multiplied by a factor, and with a larger random force."""
-    theta = raise_random_force(fit.problem, fit.theta, more) if more else fit.theta.copy()
+    theta = raise_random_force(fit.problem, fit.theta, more)
     theta[at] += math.log(factor)
     return fit.problem.clip(theta)
 

@@ -22,6 +22,12 @@ def _compute_excess(problem: Problem) -> float:
     return 2.0 * math.log(problem.settings.locate.quiet)
 
 
+def reduces_random_force(fit: Fit, over: Fit, share: float) -> bool:
+    """Return whether the random force of a fit is lower than that of another one by more than a share."""
+    mine, other = (v.theta[v.problem.keys.index(RANDOM)] for v in (fit, over))
+    return bool(mine < other + math.log(1.0 - share))
+
+
 def compute_random_force_gain(fit: Fit) -> float:
     """Return the log-likelihood that a random force beyond three times the usual noise of the drive adds.
 

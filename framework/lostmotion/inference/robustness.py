@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from lostmotion.inference.fit import Fit
+from lostmotion.inference.random_force import reduces_random_force
 from lostmotion.inference.significance import Significance, measure_significance
 from lostmotion.inference.term_sets import TermSet
-from lostmotion.likelihood.problem import RANDOM
 from lostmotion.settings import SelectSettings
 
 
@@ -31,7 +30,7 @@ class RobustChecks:
         the random force must also be lower by a share than that of the other set.
         """
         found = self._measure(term_set)
-        calm = found.ratio < self.limits.memory or self._reduces_random_force(term_set.fit, over.fit)
+        calm = found.ratio < self.limits.memory or reduces_random_force(term_set.fit, over.fit, self.limits.share)
         return calm and not set(found.list_vague(self.limits)).intersection(keys or term_set.terms)
 
     def _measure(self, term_set: TermSet) -> Significance:
@@ -39,7 +38,3 @@ class RobustChecks:
         if known is None or known[0] is not term_set.fit:
             known = self.known[term_set.terms] = (term_set.fit, measure_significance(term_set.fit))
         return known[1]
-
-    def _reduces_random_force(self, fit: Fit, over: Fit) -> bool:
-        mine, other = (v.theta[v.problem.keys.index(RANDOM)] for v in (fit, over))
-        return bool(mine < other + math.log(1.0 - self.limits.share))

@@ -11,7 +11,7 @@ from scipy.special import chdtri, ndtr
 
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit, compute_covariance, compute_robust_covariance
-from lostmotion.inference.natural import sort_slots
+from lostmotion.inference.natural import collect_shapes, sort_slots
 from lostmotion.likelihood.problem import Problem
 from lostmotion.settings import SelectSettings
 
@@ -34,8 +34,7 @@ class Significance:
         """Return the terms whose amplitudes are not significant, most vague first.
 
         With autocorrelated residuals samples are not independent, and a term that resembles them always gains. Where
-        robust standard deviations do not exceed the usual ones, samples are independent, and the evidence decides: an
-        amplitude may be vague only because a shape goes with it.
+        robust standard deviations do not exceed the usual ones, samples are independent, and the evidence decides.
         """
         if self.ratio < limits.independent:
             return []
@@ -64,7 +63,7 @@ def measure_significance(fit: Fit) -> Significance:
 
 def _list_shapes(problem: Problem) -> list[int]:
     """Return the indices of the shapes of all terms among the free parameters."""
-    keys = {s.key for term in problem.active for s in sort_slots(problem, term)[1]}
+    keys = {s.key for s in collect_shapes(problem, problem.active)}
     return [i for i, key in enumerate(problem.keys) if key in keys]
 
 

@@ -16,7 +16,7 @@ from lostmotion.inference.fit import Fit, maximise
 from lostmotion.inference.learned import LearnedTerm
 from lostmotion.inference.natural import find_term
 from lostmotion.inference.penalties import compute_penalty
-from lostmotion.inference.random_force import compute_random_force_gain
+from lostmotion.inference.random_force import compute_random_force_gain, reduces_random_force
 from lostmotion.inference.surfaces import RICHER
 from lostmotion.likelihood.problem import RANDOM, Problem
 
@@ -244,7 +244,6 @@ def _changes_named_law(fit: Fit, without: Fit) -> bool:
 
 def _reduces_random_force(fit: Fit, without: Fit) -> bool:
     """Return whether curves reduce a random force that was above the usual by enough."""
-    at, then = (f.theta[f.problem.keys.index(RANDOM)] for f in (fit, without))
-    limits = fit.problem.settings
-    cap = without.problem.free[without.problem.keys.index(RANDOM)].mean + 2.0 * math.log(limits.unknown.usual)
-    return bool(then <= cap or at < then + math.log(1.0 - limits.select.share))
+    limits, at = fit.problem.settings, without.problem.keys.index(RANDOM)
+    usual = without.theta[at] <= without.problem.free[at].mean + 2.0 * math.log(limits.unknown.usual)
+    return bool(usual) or reduces_random_force(fit, without, limits.select.share)
