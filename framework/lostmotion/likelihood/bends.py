@@ -1,18 +1,24 @@
 """Readings of nonlinear sensors, and of sensors that change at a time, corrected before the filter sees them.
 
 The density of the readings changes by the slope of the correction, so that likelihoods stay comparable.
+
+A nonlinear sensor adds its error to the true value, and the noise comes on top. At a noisy reading the error is
+therefore computed at a wrong value: a wave over position comes out too small. Readings are filtered twice: first
+corrected by the error at the reading itself, then by the error at the value that the first pass predicts from the
+readings before.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from lostmotion.contracts import Array, SensorTerm, Values
-from lostmotion.likelihood.engine import Innovations
+from lostmotion.likelihood.batches import join_innovations
+from lostmotion.likelihood.engine import Innovations, Points
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.sensors import FLATTEST, Sensor, SensorChange
 
@@ -53,10 +59,51 @@ def list_corrections(system: System, active: frozenset[str], full: Array, sensor
     return Corrections(bends, changes if any(changes) else ())
 
 
-def correct_readings(seen: Observation, corrections: Corrections) -> tuple[Observation, Array | None]:
-    """Return an observation with its readings corrected, and the slopes (samples, sensors) of that; None without."""
+Filter = Callable[[Observation, Points], Innovations]
+
+
+def filter_corrected(
+    filter_readings: Filter, seen: Observation, corrections: Corrections, points: Points
+) -> Innovations:
+    """Return the innovations of corrected readings, in the scale of the readings themselves.
+
+    All points have the same corrections. The second pass filters each point alone, since its predictions are its own.
+    """
     if not any(corrections):
-        return seen, None
+        return filter_readings(seen, points)
+    if not corrections.bends or corrections.changes:
+        right, slopes = correct_readings(seen, corrections)
+        return rescale_innovations(filter_readings(right, points), slopes)
+    parts = []
+    for row in range(len(points)):
+        single = points.select([row])
+        right, slopes = correct_twice(filter_readings, seen, corrections, single)
+        parts.append(rescale_innovations(filter_readings(right, single), slopes))
+    return join_innovations(parts)
+
+
+def correct_twice(
+    filter_readings: Filter, seen: Observation, corrections: Corrections, single: Points
+) -> tuple[Observation, Array]:
+    """Return an observation corrected by the errors of its sensors at predicted values, and slopes as below.
+
+    The predictions are those of a first pass at the point `single`. Where a prediction is less certain than a reading,
+    as at the beginning, and for a sensor that changes at a time, the reading is corrected by the error at itself.
+    """
+    right, slopes = correct_readings(seen, corrections)
+    if not corrections.bends or corrections.changes:
+        return right, slopes
+    found = filter_readings(right, single)
+    predicted = right.readings - found.errors[0]
+    shown, known = predicted.copy(), found.variances[0] < 2.0 * (single.white[0] + single.ar1[0])
+    for sensor, term, p in reversed(corrections.bends):
+        shown[:, sensor] = term.bent(shown[:, sensor], p)
+    readings = np.where(known, seen.readings - (shown - predicted), right.readings)
+    return replace(seen, readings=readings), np.where(known, 1.0, slopes)
+
+
+def correct_readings(seen: Observation, corrections: Corrections) -> tuple[Observation, Array]:
+    """Return an observation with its readings corrected, and the slopes (samples, sensors) of that."""
     seen, slopes = correct_bends(seen, corrections.bends)
     readings, time = seen.readings.copy(), seen.time
     for sensor, changes in enumerate(corrections.changes):

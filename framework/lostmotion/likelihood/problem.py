@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from lostmotion.contracts import Array, Engine
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.batches import find_distinct, group_rows, join_innovations, realign
-from lostmotion.likelihood.bends import Corrections, correct_readings, list_corrections, rescale_innovations
+from lostmotion.likelihood.bends import Corrections, correct_twice, filter_corrected, list_corrections
 from lostmotion.likelihood.drive import Drive, pad_inputs
 from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Random, Smoothed
 from lostmotion.likelihood.initial import compute_initial
@@ -232,12 +232,10 @@ class Problem:
         def work(task: tuple[int, NDArray[np.intp]]) -> Innovations:
             index, rows = task
             late = self.count_delays(thetas[rows[:1]], index)[0]
-            seen, slopes = correct_readings(
-                self._make_view(index, late), self._list_corrections(thetas[rows[0]], index)
-            )
+            corrections = self._list_corrections(thetas[rows[0]], index)
             awake = self._drop_idle_lags(thetas[rows[0]], index)
-            found = self.engine.filter(awake.dynamics, seen, awake.points(thetas[rows], index))
-            found = found if slopes is None else rescale_innovations(found, slopes)
+            run = partial(self.engine.filter, awake.dynamics)
+            found = filter_corrected(run, self._make_view(index, late), corrections, awake.points(thetas[rows], index))
             return realign(found, late) if any(late) else found
 
         return each(work, tasks, self.jobs)
@@ -368,10 +366,11 @@ class Problem:
 
     def smooth(self, theta: Array, index: int = 0) -> Smoothed:
         """Return the filtered and the smoothed states of a recording at the coordinates `theta`."""
-        seen, _ = correct_readings(
-            self._make_view(index, self.count_delays(theta[None], index)[0]), self._list_corrections(theta, index)
-        )
-        return self.engine.smooth(self.dynamics, seen, self.points(theta[None], index))
+        view = self._make_view(index, self.count_delays(theta[None], index)[0])
+        points = self.points(theta[None], index)
+        run = partial(self.engine.filter, self.dynamics)
+        seen, _ = correct_twice(run, view, self._list_corrections(theta, index), points)
+        return self.engine.smooth(self.dynamics, seen, points)
 
     def extend(self, more: Iterable[FreeParameter], active: Iterable[str]) -> Problem:
         """Return the problem with further free parameters and terms."""
