@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy import stats
 from scipy.linalg import expm
 
 from lostmotion.case import CaseFile, Prior, SensorSpec
@@ -24,7 +25,7 @@ from lostmotion.likelihood.levels import LEAST, make_own_levels
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import observe_states, predict_freely
 from lostmotion.likelihood.problem import NOISE, OFFSET, RANDOM, Problem, Scales
-from lostmotion.likelihood.space import FreeParameter, RecordingCoordinates, list_keys, split_key
+from lostmotion.likelihood.space import FreeParameter, ParameterSpace, RecordingCoordinates, list_keys, split_key
 from lostmotion.likelihood.system import Slot, System
 from lostmotion.quantities import DAMPING
 from lostmotion.registry import default
@@ -248,6 +249,24 @@ def test_the_prior_of_a_coordinate_is_a_density_and_its_quantile_inverts_it(prio
     assert free.low >= 0.0 or free.log
     assert free.value(free.high) <= 90.0 * (1.0 + 1e-12)
     assert free.low <= free.start <= free.high
+
+
+@pytest.mark.parametrize("ends", [(-3.0, 3.0), (0.0, 1.0), (-np.inf, np.inf)])
+def test_a_prior_with_a_tail_is_student_s_t(ends: tuple[float, float]) -> None:
+    """Between its bounds; as `scipy.stats.t` has it. The pull of a fit is the slope of the log density."""
+    law, (low, high) = stats.t(4.0, loc=0.2, scale=0.7), ends
+    free = FreeParameter("c", "1", 0.5, low, high, mean=0.2, sd=0.7, tail=4.0)
+    whole = law.cdf(high) - law.cdf(low)
+    for x in (0.0, 0.3, 0.99):
+        assert free.log_prior(x) == pytest.approx(law.logpdf(x) - np.log(whole), abs=1e-12)
+        slope = (free.log_prior(x + 1e-6) - free.log_prior(x - 1e-6)) / 2e-6 if x else 0.0
+        assert not x or -free.prior_information(x) * (x - 0.2) == pytest.approx(slope, rel=1e-6)
+    for share in (0.01, 0.5, 0.9):
+        assert free.quantile(share) == pytest.approx(law.ppf(law.cdf(low) + share * whole), rel=1e-9)
+    both = (free, FreeParameter("d", "1", 0.5, -2.0, 2.0, mean=0.1, sd=1.0))
+    points = np.array([[0.3, 0.4], [0.9, -1.0]])
+    alone = [sum(f.log_prior(x) for f, x in zip(both, row, strict=True)) for row in points]
+    assert ParameterSpace(both).log_prior(points) == pytest.approx(alone, abs=1e-12)
 
 
 def test_the_coordinate_of_a_log_normal_prior_is_the_logarithm() -> None:

@@ -283,7 +283,7 @@ def _solve_from_gradient(
         return ScoreTest(key, 0.0, dict(shape), 0.0)
     k = len(amplitudes)
     base, cross, own = information[:-k, :-k], information[:-k, -k:], information[-k:, -k:]
-    base = base + np.diag([f.prior_information for f in fit.problem.free])
+    base = base + np.diag(list(map(FreeParameter.prior_information, fit.problem.free, fit.theta)))
     pulled = solve_scaled(base, np.column_stack([cross, gradient[:-k]]))
     schur = own - cross.T @ pulled[:, :k]
     force = gradient[-k:] - cross.T @ pulled[:, k]

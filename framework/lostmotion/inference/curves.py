@@ -210,7 +210,7 @@ def project_from(fit: Fit, joint: Sensitivity, k: int) -> tuple[Array, Array, Ar
     """
     problem = fit.problem
     gradient, information = joint.gradient(), joint.information()
-    pull = np.array([f.prior_information for f in problem.free])
+    pull = np.array(list(map(FreeParameter.prior_information, problem.free, joint.theta)))
     gradient[:k] -= pull * (joint.theta[:k] - np.array([f.mean for f in problem.free]))
     pulled = solve_scaled(information[:k, :k] + np.diag(pull), information[:k, k:])
     own = information[k:, k:]

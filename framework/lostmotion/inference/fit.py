@@ -183,8 +183,8 @@ def _expand_from(problem: Problem, slopes: Sensitivity) -> Expansion:
     with np.errstate(over="ignore", divide="ignore", invalid="ignore"):  # where the filter does not get through
         gradient, information = slopes.gradient(), slopes.information()
     for i, f in enumerate(problem.free):
-        gradient[i] -= f.prior_information * (theta[i] - f.mean)
-        information[i, i] += f.evidence_information
+        gradient[i] -= f.prior_information(theta[i]) * (theta[i] - f.mean)
+        information[i, i] += f.evidence_information(theta[i])
     log_likelihood = slopes.here.log_likelihood
     return Expansion(
         theta, log_likelihood, log_likelihood + problem.log_prior(theta), gradient, information, slopes.steps

@@ -20,6 +20,9 @@ REACH = 4.0
 BEYOND = math.log(1.5)
 """A fit may leave the scanned range of a length by this much, as a logarithm: the nominal model, from which the scale
 is known, may have another amplitude than the machine."""
+TAIL = 4.0
+"""The degrees of freedom of the prior of an amplitude, Student's t: natural scales are right within a factor of ten,
+and a normal prior would make large effects smaller."""
 SHAPES = (0.3, 1.0, 3.0)
 """The values of a shape parameter that are tried, in units of its typical value."""
 
@@ -31,7 +34,7 @@ def compute_size(param: Param, scales: Scales) -> float:
 
 
 def make_free_parameters(slots: list[Slot], scales: Scales, start: Mapping[str, float]) -> tuple[FreeParameter, ...]:
-    """Return the free parameters of a term: amplitudes normal about zero (half-normal if bounded), shapes lognormal."""
+    """Return the free parameters of a term: amplitudes by Student's t about zero, shapes lognormal."""
     open_ = [slot for slot in slots if not slot.param.choices]
     return tuple(_make_free(slot, compute_size(slot.param, scales), start.get(slot.key)) for slot in open_)
 
@@ -45,7 +48,8 @@ def _make_free(slot: Slot, size: float, start: float | None) -> FreeParameter:
             low, high = low - BEYOND, high + BEYOND
         return FreeParameter(slot.key, slot.unit, begin, middle + low, middle + high, log=True, mean=middle, sd=1.5)
     low = max(slot.param.low, -30.0 * size)
-    return FreeParameter(slot.key, slot.unit, start or 0.0, low, min(slot.param.high, 30.0 * size), mean=0.0, sd=size)
+    high = min(slot.param.high, 30.0 * size)
+    return FreeParameter(slot.key, slot.unit, start or 0.0, low, high, mean=0.0, sd=size, tail=TAIL)
 
 
 def find_term(problem: Problem, key: str) -> tuple[Term, list[Slot]]:

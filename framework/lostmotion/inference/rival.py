@@ -233,7 +233,8 @@ def expand_fit(fit: Fit) -> DiscrepancyExpansion:
     gradient, information = joint.gradient(), joint.information()
     gradient[own + len(frees) :] += [g.log_jacobian for g in channel_errors]
     gradient[:own] = 0.0  # zero at a maximum; the rest is noise of the differences, large for undetermined levels
-    information[np.arange(own), np.arange(own)] += [f.evidence_information for f in fit.problem.free]
+    pulls = map(FreeParameter.evidence_information, fit.problem.free, slopes.theta)
+    information[np.arange(own), np.arange(own)] += list(pulls)
     exact = [problem.settings.rival.known] * len(known)
     widths = np.array([*exact, *[0.0] * (len(frees) - len(known)), *(g.width for g in channel_errors)])
     return DiscrepancyExpansion(

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import betaln, stdtr, stdtrit
 
 from lostmotion.contracts import Array
 
@@ -42,12 +43,21 @@ def list_keys(parameter: str, recordings: Sequence[str]) -> tuple[str, ...]:
     return tuple(f"{parameter}[{name}]" for name in recordings) if len(recordings) > 1 else (parameter,)
 
 
+def _compute_fall(away: Any, tail: Any) -> Any:
+    """Return the fall of a log density from its mean: `away` in units of its scale, `tail` degrees of freedom."""
+    square = np.square(away)
+    thick = np.isfinite(tail)
+    degrees = np.where(thick, tail, 1.0)
+    return np.where(thick, 0.5 * (degrees + 1.0) * np.log1p(square / degrees), 0.5 * square)
+
+
 @dataclass(frozen=True)
 class FreeParameter:
     """A parameter to be estimated, in the coordinate in which its prior is simple.
 
     `log` says that the coordinate is the logarithm. The prior is uniform between `low` and `high` (coordinate), or
-    normal with `mean` and `sd` and truncated there. `linear` says that the innovations are almost linear in it.
+    normal with `mean` and `sd` and truncated there. With a finite `tail` it is Student's t with so many degrees of
+    freedom and the scale `sd`. `linear` says that the innovations are almost linear in it.
     """
 
     key: str
@@ -59,20 +69,24 @@ class FreeParameter:
     mean: float = 0.0
     sd: float = math.inf
     linear: bool = False
+    tail: float = math.inf
 
-    @property
-    def prior_information(self) -> float:
-        """The information that the prior adds about the coordinate: zero if it is uniform."""
-        return 1.0 / self.sd**2 if math.isfinite(self.sd) else 0.0
+    def prior_information(self, coordinate: float) -> float:
+        """Return the information that the prior adds about the coordinate: zero if it is uniform.
 
-    @property
-    def evidence_information(self) -> float:
-        """The information of the prior in the evidence: that of a uniform one is one over its variance."""
-        return (
-            self.prior_information
-            if math.isfinite(self.sd) or not self.high > self.low
-            else 12.0 / (self.high - self.low) ** 2
-        )
+        It is the slope of the log density over the distance from the mean, which is positive for Student's t, too.
+        """
+        if math.isinf(self.sd):
+            return 0.0
+        if math.isinf(self.tail):
+            return 1.0 / self.sd**2
+        return (self.tail + 1.0) / (self.tail * self.sd**2 + (coordinate - self.mean) ** 2)
+
+    def evidence_information(self, coordinate: float) -> float:
+        """Return the information of the prior in the evidence: that of a uniform one is one over its variance."""
+        if math.isfinite(self.sd) or not self.high > self.low:
+            return self.prior_information(coordinate)
+        return 12.0 / (self.high - self.low) ** 2
 
     @property
     def parameter(self) -> str:
@@ -111,14 +125,18 @@ class FreeParameter:
         if math.isinf(self.sd):
             return -math.log(self.high - self.low)
         first, last = self._below
-        return -math.log(self.sd * math.sqrt(2.0 * math.pi) * max(abs(last - first), 1e-300))
+        top = 0.5 * math.log(2.0 * math.pi)
+        if math.isfinite(self.tail):
+            top = 0.5 * math.log(self.tail) + float(betaln(0.5, 0.5 * self.tail))
+        return -top - math.log(self.sd * max(abs(last - first), 1e-300))
 
     def log_prior(self, coordinate: float) -> float:
         """Return the normalised log prior density of the coordinate."""
         if not self.low <= coordinate <= self.high:
             return -math.inf
-        away = 0.0 if math.isinf(self.sd) else (coordinate - self.mean) / self.sd
-        return self.log_top - 0.5 * away * away
+        if math.isinf(self.sd):
+            return self.log_top
+        return self.log_top - float(_compute_fall((coordinate - self.mean) / self.sd, self.tail))
 
     def quantile(self, share: float) -> float:
         """Return the coordinate below which the given share (0 to 1) of the truncated prior lies."""
@@ -128,7 +146,8 @@ class FreeParameter:
         below = first + share * (last - first)
         if not 0.0 < below < 1.0:
             return self.low if share < 0.5 else self.high
-        return min(max(self.mean + self._side * self.sd * _UNIT.inv_cdf(below), self.low), self.high)
+        away = float(stdtrit(self.tail, below)) if math.isfinite(self.tail) else _UNIT.inv_cdf(below)
+        return min(max(self.mean + self._side * self.sd * away, self.low), self.high)
 
     @property
     def _side(self) -> float:
@@ -137,9 +156,11 @@ class FreeParameter:
 
     @property
     def _below(self) -> tuple[float, float]:
-        """The shares of the whole normal distribution beyond `low` and `high`, counted from `_side`."""
-        first, last = (self._side * (end - self.mean) / self.sd / math.sqrt(2) for end in (self.low, self.high))
-        return 0.5 * math.erfc(-first), 0.5 * math.erfc(-last)
+        """The shares of the whole distribution below `low` and `high`, counted from `_side`."""
+        first, last = (self._side * (end - self.mean) / self.sd for end in (self.low, self.high))
+        if math.isfinite(self.tail):
+            return float(stdtr(self.tail, first)), float(stdtr(self.tail, last))
+        return 0.5 * math.erfc(-first / math.sqrt(2)), 0.5 * math.erfc(-last / math.sqrt(2))
 
 
 @dataclass(frozen=True)
@@ -206,7 +227,7 @@ class ParameterSpace:
         found = np.where(np.all((theta >= self.low) & (theta <= self.high), axis=-1), self._height, -math.inf)
         if len(self._bells):
             away = (theta[..., self._bells] - self._means) / self._sds
-            found = found - 0.5 * np.sum(away * away, axis=-1)
+            found = found - np.sum(_compute_fall(away, self._tails), axis=-1)
         return found if found.ndim else float(found)
 
     @cached_property
@@ -220,6 +241,10 @@ class ParameterSpace:
     @cached_property
     def _sds(self) -> Array:
         return np.array([self.free[i].sd for i in self._bells])
+
+    @cached_property
+    def _tails(self) -> Array:
+        return np.array([self.free[i].tail for i in self._bells])
 
     @cached_property
     def _height(self) -> float:
