@@ -115,7 +115,7 @@ RIPPLE, PITCH = 0.02, 0.3
 
 
 def rippled(seed):
-    """Return a problem with a wave of a sensor as large as its noise; the wave acts on the position before the noise."""
+    """Return a problem with a wave of a sensor as large as its noise, which is added after the wave."""
     rng, (cosine, sine, pitch), t = np.random.default_rng(seed), (0.0, RIPPLE, PITCH), np.arange(SAMPLES) * DT
     readings = PositionRipple.bent(moved(), (cosine, sine, pitch)) + RIPPLE * rng.standard_normal(SAMPLES)
     force = sum(a * np.cos(w * t) for a, w in TONES)
@@ -141,8 +141,7 @@ def test_a_wave_of_a_sensor_is_measured_beside_noise_of_its_own_size():
 def test_the_correction_at_predictions_is_that_of_the_true_error():
     """Where the filter knows the position better than the sensor, readings lose the wave but not their noise."""
     problem = rippled(0)
-    view, theta = problem.observations[0], problem.start.copy()
-    theta[0] = RIPPLE
+    view, theta = problem.observations[0], maximise(problem, problem.start).theta
     corrections = problem._list_corrections(theta, 0)
     points = problem.points(theta[None], 0)
     run = partial(problem.engine.filter, problem.dynamics)
