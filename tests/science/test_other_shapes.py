@@ -18,9 +18,10 @@ from lostmotion.inference.term_sets import Selection, TermSet
 from lostmotion.likelihood.observation import Observation
 
 
-def driven(force, term, noise=0.01):
+def driven(force, term, noise=0.01, lost=lambda u: 0.0):
     """Return the fit of a linear oscillator (m = 1, c = 2, k = 400) whose position shows a hidden `force(x)`.
 
+    The part `lost(u)` of the drive does not arrive.
     The drive is a harmonic force of 4 N at 12 rad/s; leapfrog with 40 steps between samples, 900 samples, seeded.
     """
     rng, dt, fine, samples = np.random.default_rng(3), 0.02, 40, 900
@@ -28,7 +29,8 @@ def driven(force, term, noise=0.01):
     for i in range(samples * fine):
         if i % fine == 0:
             seen[i // fine] = x
-        v += step * (4.0 * math.cos(12.0 * step * (i + 0.5)) - 2.0 * v - 400.0 * x + force(x))
+        u = 4.0 * math.cos(12.0 * step * (i + 0.5))
+        v += step * (u - lost(u) - 2.0 * v - 400.0 * x + force(x))
         x += step * v
     drive = 4.0 * np.cos(12.0 * dt * np.arange(samples))[:, None]
     shown = seen + noise * seen.std() * rng.standard_normal(samples)
@@ -103,6 +105,20 @@ def test_draws_come_from_all_maxima_in_proportion_to_their_evidence(waved, monke
     pitches = made[:, keys.index("cogging.pitch")]
     far = np.abs(np.log(pitches / wrong.values["cogging.pitch"])) < 0.05
     assert np.mean(far) == pytest.approx(0.25, abs=0.01)
+
+
+@pytest.mark.parametrize(("share", "complete"), [(1.0, (0.3, 1.0)), (0.5, (0.0, 0.02))])
+def test_a_drive_that_saturates_completely_is_among_the_draws(share, complete):
+    """The interval contains a share of 1 where the drive passes nothing more, and not where half passes. Seeded."""
+    noise = 0.03 if share == 1.0 else 0.003
+    fit = driven(lambda x: 0.0, "drive_saturation", noise, lambda u: share * (u - min(max(u, -2.5), 2.5)))
+    best = refit_shapes(with_term(fit, "drive_saturation", {"share": 0.7, "limit": 2.0}))
+    rng = np.random.default_rng(4)
+    made = mix_modes(best, draw_parameters(best, rng), rng)
+    shares = made[:, [k for k in best.problem.keys if not k.startswith("log_")].index("drive_saturation.share")]
+    assert complete[0] <= np.mean(shares == 1.0) <= complete[1]
+    low, high = np.quantile(shares, [0.025, 0.975])
+    assert low < share <= high
 
 
 def test_sets_near_the_best_are_refitted_once_with_other_shapes(waved):

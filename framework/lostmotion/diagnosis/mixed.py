@@ -7,7 +7,7 @@ to different parameters of the machine: an interval from one of them alone is to
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,13 +16,15 @@ from lostmotion.contracts import Array
 from lostmotion.diagnosis.findings import draw_parameters
 from lostmotion.diagnosis.search import SearchResult, list_physical_keys
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.other_shapes import find_modes
+from lostmotion.inference.other_shapes import find_modes, refit_complete
 from lostmotion.inference.setup import polish_fit
 
 REACH = 4.0
 """Maxima of the posterior with a log evidence lower than that of the best by no more than this are in the mixture."""
 MOST = 3
 """The largest number of alternative explanations in the mixture."""
+LARGEST = 30.0
+"""Log evidences above that of the fit are cut there: such a mode has all the draws."""
 
 
 def draw_mixture(diagnosis: SearchResult, rng: np.random.Generator, stretches: Array | None = None) -> Array:
@@ -51,13 +53,25 @@ def draw_mixture(diagnosis: SearchResult, rng: np.random.Generator, stretches: A
 
 
 def mix_modes(chosen: Fit, made: Array, rng: np.random.Generator) -> Array:
-    """Return draws from the maxima of a posterior, each with the share of its evidence; `made` are those of the fit."""
-    modes = [mode for mode in find_modes(chosen, reach=REACH) if mode is not chosen]
-    weights = np.exp([mode.log_evidence - chosen.log_evidence for mode in modes])
+    """Return draws from the maxima of a posterior, each with the share of its evidence; `made` are those of the fit.
+
+    Half of the prior of an amplitude with a greatest value is at that value, where the law is complete: a drive that
+    saturates passes nothing more. The evidence decides between it and a value below.
+    """
+    modes = [mode for mode in find_modes(chosen, reach=REACH) if mode is not chosen] + refit_complete(chosen)
+    weights = np.exp([min(mode.log_evidence - chosen.log_evidence, LARGEST) for mode in modes])
     parts = _divide_rows(len(made), weights / (1.0 + weights.sum()), rng)
     for mode, rows in zip(modes, parts, strict=True):
-        made[rows] = draw_parameters(mode, rng)[: len(rows)]
+        made[rows] = _draw_all(mode, list_physical_keys(chosen), rng)[: len(rows)]
     return made
+
+
+def _draw_all(fit: Fit, keys: Sequence[str], rng: np.random.Generator) -> Array:
+    """Return draws (draws, keys) of parameters of a fit; those that it holds have their values."""
+    drawn, own = draw_parameters(fit, rng), list_physical_keys(fit)
+    known, index = fit.problem.known, fit.problem.system.index
+    columns = [drawn[:, own.index(k)] if k in own else np.full(len(drawn), known[index[k]]) for k in keys]
+    return np.stack(columns, axis=1)
 
 
 def _divide_rows(count: int, shares: Iterable[float], rng: np.random.Generator) -> list[NDArray[np.intp]]:

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
+
+import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit, maximise, raise_random_force, use_one_core
-from lostmotion.inference.natural import collect_shapes
+from lostmotion.inference.natural import collect_shapes, find_term
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.problem import Problem
 
@@ -76,6 +79,20 @@ def refit_choices(fit: Fit, keys: Iterable[str]) -> Fit:
         problems += [single.problem.hold_values({s.key: v}) for v in s.param.choices or () if v != now]
     starts = [raise_random_force(one, fit.theta, max(RAISES)) for one in problems]
     return max([fit, *_maximise_each(problems, starts, fit)], key=lambda found: found.log_evidence)
+
+
+def refit_complete(fit: Fit) -> list[Fit]:
+    """Return the fit of each law that is complete: an amplitude of an active term is held at its greatest value."""
+    problem, found = fit.problem, list[Fit]()
+    for key in sorted(problem.active):
+        for slot in find_term(problem, key)[1]:
+            if slot.param.null is None or math.isinf(slot.param.high) or slot.key not in problem.keys:
+                continue
+            at = problem.keys.index(slot.key)
+            held = problem.hold_values({slot.key: slot.param.high})
+            held = replace(held, free=(*held.free[:at], *held.free[at + 1 :]))
+            found.append(maximise(held, held.clip(np.delete(fit.theta, at))))
+    return [one for one in found if one.status == "converged"]
 
 
 def _maximise_each(problems: Sequence[Problem], starts: Sequence[Array], fit: Fit) -> list[Fit]:
