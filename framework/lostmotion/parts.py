@@ -35,8 +35,8 @@ class Param:
     """A number that may be known or estimated. `low` and `high` are physical bounds (SI), not a prior.
 
     With `scale="log"` the number is positive and known by its order of magnitude. `aliases` are further names for it.
-    Of a term: `null` marks an amplitude, and is the value at which the whole term has no effect. With a finite
-    `high` the law is complete there, as a drive that saturates, and half of its prior is at that value. `typical` is the width
+    Of a term: `null` marks an amplitude, and is the value at which the whole term has no effect. With a finite `high`
+    the law is complete there, as a drive that saturates, and half of its prior is at that value. `typical` is the width
     of the prior in natural scales (drive force, rms position and velocity; time of the whole recording if `lasting`).
     `choices` are values that are tried in turn and not fitted, `words` what a sentence says in place of each of them.
     `far` lists multiples of `typical` that are tried as further starts. `scan` is the smallest and largest multiple of
