@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 from sensed import case_of, model_of, moved, multisine, noisy
 
-from lostmotion.inference.candidates import compute_slopes, run_score_test
+from lostmotion.inference.candidates import compute_slopes, make_term_parameters, run_score_test
+from lostmotion.inference.far_values import hold_shape
 from lostmotion.inference.late import (
     TIMES,
     can_have_onset,
@@ -22,6 +23,7 @@ from lostmotion.inference.late import (
     refine_onset,
 )
 from lostmotion.inference.likeness import find_likeness
+from lostmotion.inference.natural import list_star_points, list_tried_values, sort_slots
 from lostmotion.inference.selection import Selector
 from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
 from lostmotion.inference.shape_scan import scan_shapes
@@ -306,3 +308,22 @@ def test_each_is_named_in_a_recording_by_another_integrator(library, tmp_path, n
 
 def test_every_name_of_the_contract_can_be_hidden():
     assert set(NEW) | {"actuator_lag", "sensor_lag", "quadratic_stiffness"} <= set(TABLE)
+
+
+def test_shapes_have_no_effect_at_amplitude_zero(tmp_path):
+    """A score test computes the errors there once for all shapes of a term without states."""
+    registry = Registry.discover()
+    kinds = [registry.load("term", name) for name in ("cogging", "end_stop", "position_ripple", "stribeck_friction")]
+    terms = [kind(at=kind.at) if hasattr(kind, "at") else kind() for kind in kinds]
+    fit = nominal_of(tmp_path, terms)
+    for key in fit.problem.system.keys:
+        amplitudes, shapes = sort_slots(fit.problem, key)
+        frees = [*make_term_parameters(fit.problem, key, amplitudes, {}), *map(hold_shape, shapes)]
+        wider = fit.problem.extend(frees, {key})
+        tried = list_star_points([list_tried_values(s.param, fit.problem.scales) for s in shapes])
+        points = [np.concatenate([fit.theta, np.zeros(len(amplitudes)), values]) for values in tried]
+        found = wider.filter_many(np.array(points))
+        plain = fit.problem.innovations(fit.theta)
+        assert len(points) > 2
+        assert np.allclose(found.errors, plain.errors, rtol=0.0, atol=1e-9 * np.std(plain.errors)), key
+        assert np.allclose(found.variances, plain.variances, rtol=1e-9)

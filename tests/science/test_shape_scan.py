@@ -14,7 +14,9 @@ from lostmotion.contracts import Param, Term
 from lostmotion.diagnosis.search import diagnose
 from lostmotion.inference import rounding
 from lostmotion.inference.candidates import compute_slopes, fit_term, run_score_test
-from lostmotion.inference.shape_scan import scan_shapes
+from lostmotion.inference.natural import compute_size
+from lostmotion.inference.shape_scan import BLOCKS, TOGETHER, SmoothedMotion, scan_shapes
+from lostmotion.likelihood.latent import smooth_expected_force
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.candidates import candidates_of
@@ -60,6 +62,23 @@ def test_a_pitch_far_shorter_than_the_travel_is_scouted():
 
 def test_where_nothing_is_missing_nothing_is_scouted():
     assert scan_shapes(with_ratchet(fitted(CLEAN))) == {}
+
+
+def test_many_shapes_together_give_what_each_gives_alone():
+    """The laws of many pitches in one call, and their correlation with the gradient part by part, in plain loops."""
+    fit = with_ratchet(fitted(RIPPLE))
+    states, gradient = smooth_expected_force(fit.problem, fit.theta)
+    motion = SmoothedMotion(fit.problem, fit.theta, np.ascontiguousarray(states[:, :2]), gradient)
+    shapes = [{"ratchet.pitch": pitch} for pitch in np.geomspace(1e-3, 1e-2, TOGETHER + 3)]
+    steady = motion.measure_steadiness("ratchet", shapes)
+    for shape, found in list(zip(shapes, steady, strict=True))[::17]:
+        size = compute_size(Ratchet.params[0], fit.problem.scales)
+        full = fit.problem.full(fit.theta)
+        mass = full[fit.problem.system.index["m"]]
+        law = np.array([Ratchet.force(0.0, x, 0.0, None, (size, *shape.values()), ()) for x in states[:, 0]]) / mass
+        parts = np.array_split((law - law.mean()) * gradient, np.linspace(0, len(law), BLOCKS + 1).astype(int)[1:-1])
+        sums = [part.sum() for part in parts]
+        assert found == pytest.approx(abs(np.mean(sums)) / (np.std(sums, ddof=1) / math.sqrt(BLOCKS)), rel=1e-6)
 
 
 @pytest.mark.slow

@@ -55,6 +55,8 @@ RAISED = 2.0
 """The increase of the log random force where a fit begins far from its maximum."""
 ROUGHLY = 0.1
 """A fit that is to be compared with others has converged when a step predicts less gain in log posterior than this."""
+REFINED = 12
+"""The number of shapes of a term at which a score test is computed again with larger differences."""
 MUTE = 1e-6
 """An amplitude of typical size with less information than this has no effect while the others are zero."""
 
@@ -224,19 +226,24 @@ def count_steps_for_sticking(problem: Problem, theta: Array, *, creep: float = C
 
 
 def _test_shapes(fit: Fit, slopes: Sensitivity, key: str, shapes: Sequence[Mapping[str, float]]) -> list[ScoreTest]:
-    """Return the score tests of a term at several shapes, all of them computed together."""
+    """Return the score tests of a term at its `REFINED` best shapes, all of them computed together.
+
+    Differences of all shapes are taken over a small amplitude, those of the best over half a standard deviation.
+    """
     amplitudes, fixed = sort_slots(fit.problem, key)
     frees = (*make_term_parameters(fit.problem, key, amplitudes, {}), *(hold_shape(slot) for slot in fixed))
     wider = fit.problem.extend(frees, {key})
     sizes = np.array([compute_size(s.param, fit.problem.scales) for s in amplitudes])
     zeros = [np.concatenate([slopes.theta, np.zeros(len(sizes)), [shape[s.key] for s in fixed]]) for shape in shapes]
-    widths = [1e-3 * sizes for _ in shapes]
-    joints: list[Sensitivity] = []
-    for _ in range(2):
-        joints = _join_sensitivities(slopes, wider, zeros, widths)
-        told = [np.maximum(np.diag(joint.information())[-len(sizes) :], 1e-300) for joint in joints]
-        widths = [np.clip(0.5 / np.sqrt(curvature), 1e-9 * sizes, sizes) for curvature in told]
+    shared = not find_term(fit.problem, key)[0].states
+    joints = _join_sensitivities(slopes, wider, zeros, [0.01 * sizes for _ in shapes], shared=shared)
     hints = [_solve_score_test(fit, key, amplitudes, shape, joint) for shape, joint in zip(shapes, joints, strict=True)]
+    near = sorted(range(len(hints)), key=lambda i: -hints[i].gain)[:REFINED]
+    told = [np.maximum(np.diag(joints[i].information())[-len(sizes) :], 1e-300) for i in near]
+    widths = [np.clip(0.5 / np.sqrt(curvature), 1e-9 * sizes, sizes) for curvature in told]
+    joints = _join_sensitivities(slopes, wider, [zeros[i] for i in near], widths, shared=shared)
+    pairs = zip(near, joints, strict=True)
+    hints = [_solve_score_test(fit, key, amplitudes, shapes[i], joint) for i, joint in pairs]
     if can_have_onset(fit.problem, key):
         best = max(range(len(hints)), key=lambda i: hints[i].gain)
         late = _test_onsets(fit, key, amplitudes, hints[best], joints[best])
@@ -246,24 +253,26 @@ def _test_shapes(fit: Fit, slopes: Sensitivity, key: str, shapes: Sequence[Mappi
 
 
 def _join_sensitivities(
-    slopes: Sensitivity, wider: Problem, zeros: Sequence[Array], widths: Sequence[Array]
+    slopes: Sensitivity, wider: Problem, zeros: Sequence[Array], widths: Sequence[Array], *, shared: bool
 ) -> list[Sensitivity]:
-    """Return the sensitivities of base parameters and amplitudes together, at amplitude zero, for each point."""
+    """Return the sensitivities of base parameters and amplitudes together, at amplitude zero, for each point.
+
+    The points differ in shapes only. Without states of the term these have no effect at amplitude zero, and one run
+    serves all points there (`shared`); with states they change the steps of the filter a little.
+    """
     base, count = len(slopes.theta), len(widths[0])
-    rows = []
-    for zero, width in zip(zeros, widths, strict=True):
-        above = np.zeros((count, len(zero)))
-        above[:, base : base + count] = np.diag(width)
-        rows += [zero[None], zero + above]
-    seen, found = wider.filter_many(np.vstack(rows)), []
+    ups = np.stack([np.tile(zero, (count, 1)) for zero in zeros])
+    ups[:, :, base : base + count] += np.stack([np.diag(width) for width in widths])
+    below = np.array(zeros[:1] if shared else zeros)
+    seen, found = wider.filter_many(np.vstack([below, ups.reshape(-1, ups.shape[2])])), []
     for k, (zero, width) in enumerate(zip(zeros, widths, strict=True)):
-        part = seen[k * (1 + count) : (k + 1) * (1 + count)]
-        de = (part.errors[1:] - part.errors[0]) / width[:, None]
-        dv = (part.variances[1:] - part.variances[0]) / width[:, None]
+        here = seen[0 if shared else k]
+        part = seen[len(below) + k * count : len(below) + (k + 1) * count]
+        de = (part.errors - here.errors) / width[:, None]
+        dv = (part.variances - here.variances) / width[:, None]
         errors, variances = np.vstack([slopes.errors, de]), np.vstack([slopes.variances, dv])
-        found.append(
-            Sensitivity(zero[: base + count], part[0], errors, variances, np.concatenate([slopes.steps, width]))
-        )
+        steps = np.concatenate([slopes.steps, width])
+        found.append(Sensitivity(zero[: base + count], here, errors, variances, steps))
     return found
 
 

@@ -26,6 +26,8 @@ RAISED, RAISED_MOST = 2.0, 6.0
 """The increase of the log random force from the nominal fit, and from the middle of the priors."""
 ROUNDS, MORE_ROUNDS = 3, 12
 """The most steps of a refit from the nominal fit, and from the middle of the priors."""
+HOPELESS = 30.0
+"""A refit from the middle of the priors that would stay below the nominal fit by more in log posterior is abandoned."""
 
 
 @dataclass(frozen=True)
@@ -65,7 +67,8 @@ def try_far_values(fit: Fit, slot: Slot, key: str) -> FarValue | None:
         refits: list[tuple[Fit, Array | None]] = [(maximise(trial, bottom.theta, rounds=ROUNDS, tolerance=1.0), None)]
         if scanned:
             begin = raise_random_force(short, short.start, RAISED_MOST)
-            other = maximise(trial, begin, rounds=MORE_ROUNDS, tolerance=1.0)
+            lost = bottom.local.log_posterior - HOPELESS
+            other = maximise(trial, begin, rounds=MORE_ROUNDS, tolerance=1.0, hopeless=lost)
             refits.append((other, other.theta))
         for found, base in refits:
             gain = found.log_likelihood - bottom.log_likelihood

@@ -77,8 +77,7 @@ def _find_closest(motion: SmoothedMotion, key: str, aim: Array) -> tuple[float, 
     shapes = sort_slots(problem, key)[1]
     usual = {s.key: float(list_tried_values(s.param, problem.scales)[0]) for s in shapes}
     tried = list_shapes(problem, key) or [usual]
-    for shape in tried[:: max(1, len(tried) // MOST_SHAPES)]:
-        law = motion.compute_columns(key, shape)
+    for law in motion.compute_columns(key, tried[:: max(1, len(tried) // MOST_SHAPES)]):
         share = _compute_share(law, aim) if np.all(np.isfinite(law)) else 0.0
         if share > best:
             best, columns = share, law

@@ -22,6 +22,8 @@ AGAIN = 3
 """The search from other shapes is repeated at most so often, each time from the best maximum."""
 HOPELESS = 30.0
 """A fit that will not come closer to the best one than this in log posterior is abandoned."""
+VARIED = 8.0
+"""The widths of two maxima make their log evidences differ from their log posteriors by up to this."""
 NEAR = 0.03
 """Maxima with shapes that differ by less, as a logarithm, are the same one."""
 
@@ -50,7 +52,8 @@ def find_modes(fit: Fit, *, reach: float = math.inf) -> list[Fit]:
     single = use_one_core(fit)
     starts = [_scale_shape(single, i, factor, up) for i in at for factor in FACTORS for up in RAISES]
     kept = [fit]
-    for other in _maximise_each([single.problem] * len(starts), starts, fit):
+    hopeless = fit.local.log_posterior - min(HOPELESS, reach + VARIED)
+    for other in _maximise_each([single.problem] * len(starts), starts, fit, hopeless):
         if all(_are_apart(other, one, at) for one in kept):
             kept.append(other)
     best = max(one.log_evidence for one in kept)
@@ -78,7 +81,8 @@ def refit_choices(fit: Fit, keys: Iterable[str]) -> Fit:
         now = float(problem.full(fit.theta)[problem.system.index[s.key]])
         problems += [single.problem.hold_values({s.key: v}) for v in s.param.choices or () if v != now]
     starts = [raise_random_force(one, fit.theta, max(RAISES)) for one in problems]
-    return max([fit, *_maximise_each(problems, starts, fit)], key=lambda found: found.log_evidence)
+    hopeless = fit.local.log_posterior - HOPELESS
+    return max([fit, *_maximise_each(problems, starts, fit, hopeless)], key=lambda found: found.log_evidence)
 
 
 def refit_complete(fit: Fit) -> list[Fit]:
@@ -95,9 +99,8 @@ def refit_complete(fit: Fit) -> list[Fit]:
     return [one for one in found if one.status == "converged"]
 
 
-def _maximise_each(problems: Sequence[Problem], starts: Sequence[Array], fit: Fit) -> list[Fit]:
-    """Return the converged fits, best first; those far below a fit are abandoned."""
-    hopeless = fit.local.log_posterior - HOPELESS
+def _maximise_each(problems: Sequence[Problem], starts: Sequence[Array], fit: Fit, hopeless: float) -> list[Fit]:
+    """Return the converged fits, best first; those that would stay below a log posterior are abandoned."""
     pairs = list(zip(problems, starts, strict=True))
     found = each(lambda pair: maximise(pair[0], pair[1], hopeless=hopeless), pairs, fit.problem.jobs)
     return sorted((f for f in found if f.status == "converged"), key=lambda f: -f.local.log_posterior)

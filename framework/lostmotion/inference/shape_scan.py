@@ -8,12 +8,11 @@ clear correlation is then tested by the filter like any other.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lostmotion.contracts import Array, SensorTerm, place_of
 from lostmotion.inference.candidates import compute_slopes, run_score_test
@@ -23,7 +22,7 @@ from lostmotion.inference.resonance_scan import scan_resonances
 from lostmotion.inference.rounding import drop_rounding
 from lostmotion.inference.setup import choose_steps
 from lostmotion.likelihood.latent import smooth_expected_force
-from lostmotion.likelihood.motion import compute_derivatives
+from lostmotion.likelihood.motion import compute_each
 from lostmotion.likelihood.problem import Problem
 from lostmotion.likelihood.system import Slot
 from lostmotion.quantities import LENGTH
@@ -35,7 +34,8 @@ APART, FEWEST = 0.033, 30
 TURN, MOST_SHAPES = 0.25, 300
 """Neighbouring lengths differ by this share of a period over the travel, so that no pitch between them is missed,
 and their largest number."""
-MOST_SAMPLES = 3000
+MOST_SAMPLES, TOGETHER = 3000, 100
+"""The samples that are compared, and the number of shapes in one array."""
 BLOCKS = 40
 """Parts of a recording over which the correlation of a law with the gradient is averaged for its standard error."""
 
@@ -57,36 +57,37 @@ class SmoothedMotion:
         """The range of the first position (m or rad)."""
         return float(np.ptp(self.states[:, 0]))
 
-    def compute_law(self, key: str, values: Mapping[str, float]) -> Array:
-        """Return the acceleration (samples,) that a term with these parameters gives the body at its place.
+    def compute_laws(self, key: str, tried: Sequence[Mapping[str, float]]) -> Array:
+        """Return the accelerations (tried, samples) that a term with these parameters gives the body at its place.
 
-        A term of the drive gives it to the first body.
+        A term of the drive gives them to the first body.
         """
         problem, observation = self.problem, self.problem.observations[0]
         system, term = problem.system, find_term(problem, key)[0]
-        full = problem.full(self.theta)
-        full[[system.index[name] for name in values]] = list(values.values())
+        fulls = np.tile(problem.full(self.theta), (len(tried), 1))
+        for full, values in zip(fulls, tried, strict=True):
+            full[[system.index[name] for name in values]] = list(values.values())
         if term.acts == "drive":
-            changed = replace(problem, active=problem.active | {key}).drive_at(full, 0).inputs[: len(self.states)]
-            row = system.model.interfaces[0].row
-            return np.asarray(self._rates(self._packed, frozenset(), changed)[:, row] - self._driven[:, row])
+            row, acting = system.model.interfaces[0].row, replace(problem, active=problem.active | {key})
+            changed = (acting.drive_at(full, 0).inputs[: len(self.states)] for full in fulls)
+            driven = [self._rates(self._packed, frozenset(), inputs)[0, :, row] for inputs in changed]
+            return np.array(driven) - self._driven[0, :, row]
         row = place_of(system.model, term).row
-        packed = system.pack(full[None], observation.dt / problem.nsub, observation.harmonic)
-        return np.asarray(self._rates(packed, frozenset({key}), observation.inputs)[:, row] - self._bare[:, row])
+        packed = system.pack(fulls, observation.dt / problem.nsub, observation.harmonic)
+        forced = self._rates(packed, frozenset({key}), observation.inputs)
+        return np.asarray(forced[:, :, row] - self._bare[0, :, row])
 
-    def compute_columns(self, key: str, shape: Mapping[str, float]) -> Array:
-        """Return the effect of each amplitude of a term alone at its typical size, (samples, amplitudes)."""
+    def compute_columns(self, key: str, shapes: Sequence[Mapping[str, float]]) -> Array:
+        """Return the effect of each amplitude of a term alone at its typical size, (shapes, samples, amplitudes)."""
         amplitudes, _ = sort_slots(self.problem, key)
         still = {s.key: float(s.param.null or 0.0) for s in amplitudes}
-        laws = [
-            self.compute_law(key, {**shape, **still, one.key: compute_size(one.param, self.problem.scales)})
-            for one in amplitudes
-        ]
-        return np.stack(laws, axis=1)
+        alone = [{**still, one.key: compute_size(one.param, self.problem.scales)} for one in amplitudes]
+        laws = self.compute_laws(key, [{**shape, **size} for shape in shapes for size in alone])
+        return np.asarray(laws.reshape(len(shapes), len(alone), -1).transpose(0, 2, 1))
 
     def _rates(self, packed: Array, active: frozenset[str], inputs: Array) -> Array:
         times = self.problem.observations[0].time
-        return compute_derivatives(self.problem.system, active, packed, self.states, inputs, times)[0]
+        return compute_each(self.problem.system, active, packed, self.states, inputs, times)[0]
 
     @cached_property
     def _packed(self) -> Array:
@@ -97,18 +98,19 @@ class SmoothedMotion:
 
     @cached_property
     def _bare(self) -> Array:
-        """The derivatives (samples, n) of the states without any term."""
+        """The derivatives (1, samples, n) of the states without any term."""
         return self._rates(self._packed, frozenset(), self.problem.observations[0].inputs)
 
     @cached_property
     def _driven(self) -> Array:
-        """The derivatives (samples, n) of the states with the input that acts in the fit, and without other terms."""
+        """The derivatives (1, samples, n) of the states with the input that acts in the fit, without other terms."""
         inputs = self.problem.drive(0, self.theta).inputs[: len(self.states)]
         return self._rates(self._packed, frozenset(), inputs)
 
-    def measure_steadiness(self, key: str, shape: Mapping[str, float]) -> float:
-        """Return the correlation of a law with the gradient in standard errors, all amplitudes together."""
-        return _combine_steadiness(self.compute_columns(key, shape), self.gradient)
+    def measure_steadiness(self, key: str, shapes: Sequence[Mapping[str, float]]) -> Array:
+        """Return the correlations (shapes,) of a law with the gradient in standard errors, all amplitudes together."""
+        batches = [shapes[i : i + TOGETHER] for i in range(0, len(shapes), TOGETHER)]
+        return np.concatenate([_combine_steadiness(self.compute_columns(key, b), self.gradient) for b in batches])
 
 
 @dataclass(frozen=True)
@@ -124,15 +126,19 @@ class SensorErrors:
         """The range of the predicted readings."""
         return float(np.ptp(self.foretold))
 
-    def measure_steadiness(self, key: str, shape: Mapping[str, float]) -> float:
-        """Return the correlation of a sensor term with the errors in standard errors, all amplitudes together."""
+    def measure_steadiness(self, key: str, shapes: Sequence[Mapping[str, float]]) -> Array:
+        """Return the correlations (shapes,) of a sensor term with the errors in standard errors, as of a law."""
+        return np.concatenate([_combine_steadiness(self._bend(key, shape)[None], self.gradient) for shape in shapes])
+
+    def _bend(self, key: str, shape: Mapping[str, float]) -> Array:
+        """Return the error of the sensor by each amplitude alone at its typical size, (samples, amplitudes)."""
         term, slots = find_term(self.problem, key)
         bends = []
         for one in (s for s in slots if s.param.null is not None):
             p = tuple(shape.get(s.key, compute_size(s.param, self.problem.scales) * (s is one)) for s in slots)
             assert isinstance(term, SensorTerm)  # noqa: S101
             bends.append(term.bent(self.foretold, p) - self.foretold)
-        return _combine_steadiness(np.stack(bends, axis=1), self.gradient)
+        return np.stack(bends, axis=1)
 
 
 def _make_sensor_errors(problem: Problem, theta: Array, key: str) -> SensorErrors:
@@ -146,19 +152,17 @@ def _make_sensor_errors(problem: Problem, theta: Array, key: str) -> SensorError
     return SensorErrors(problem, (readings - errors)[kept], (errors / variances)[kept])
 
 
-def _combine_steadiness(laws: Array, gradient: Array) -> float:
-    """Return the correlation of laws (samples, amplitudes) with a gradient in standard errors, all together."""
+def _combine_steadiness(laws: Array, gradient: Array) -> Array:
+    """Return correlations (shapes,) of laws (shapes, samples, amplitudes) with a gradient, all amplitudes together.
+
+    The unit is a standard error of the mean, from its values over parts of the recording. It is zero for a law that is
+    constant, or infinite somewhere.
+    """
     edges = np.linspace(0, len(gradient), BLOCKS + 1).astype(int)[:-1]
-    return math.sqrt(sum(_compute_steadiness(law, gradient, edges) ** 2 for law in laws.T))
-
-
-def _compute_steadiness(law: Array, gradient: Array, edges: NDArray[np.intp]) -> float:
-    """Return the correlation of a law with a gradient in standard errors, from its mean over parts of the recording."""
-    if not np.all(np.isfinite(law)):
-        return 0.0
-    parts = np.add.reduceat((law - law.mean()) * gradient, edges)
-    error = float(parts.std(ddof=1)) / math.sqrt(BLOCKS)
-    return float(parts.mean()) / error if error > 0.0 else 0.0
+    with np.errstate(invalid="ignore", over="ignore", divide="ignore"):
+        parts = np.add.reduceat((laws - laws.mean(axis=1, keepdims=True)) * gradient[:, None], edges, axis=1)
+        steady = parts.mean(axis=1) / (parts.std(axis=1, ddof=1) / math.sqrt(BLOCKS))
+    return np.asarray(np.sqrt(np.sum(np.where(np.isfinite(steady), steady, 0.0) ** 2, axis=1)))
 
 
 def scan_shapes(fit: Fit) -> dict[str, list[dict[str, float]]]:
@@ -204,21 +208,16 @@ def _select_best_shape(motion: SmoothedMotion | SensorErrors, key: str) -> dict[
     problem = motion.problem
     usual = {s.key: list_tried_values(s.param, problem.scales) for s in sort_slots(problem, key)[1]}
 
-    def steadiest(tried: list[dict[str, float]]) -> tuple[float, dict[str, float]]:
-        return max(((motion.measure_steadiness(key, shape), shape) for shape in tried), key=lambda pair: pair[0])
-
     travel = 0.0 if find_term(problem, key)[0].acts == "drive" else motion.travel
     shapes = list_shapes(problem, key, travel)
     if isinstance(motion, SensorErrors):
         shapes = drop_rounding(problem, key, shapes)
     if not shapes:
         return None
-    top, best = steadiest(shapes)
-    return (
-        best
-        if top > max(problem.settings.select.shape_steady, steadiest(_list_star_shapes(problem, key, usual))[0])
-        else None
-    )
+    steady = motion.measure_steadiness(key, shapes)
+    least = max(motion.measure_steadiness(key, _list_star_shapes(problem, key, usual)))
+    top = int(np.argmax(steady))
+    return shapes[top] if steady[top] > max(problem.settings.select.shape_steady, least) else None
 
 
 def list_shapes(problem: Problem, key: str, travel: float = 0.0) -> list[dict[str, float]]:

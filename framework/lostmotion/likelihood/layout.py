@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -184,18 +185,18 @@ class Layout:
         base = fulls[:, : len(self.model.params)]
         onsets = fulls[:, len(self.slots) : len(self.slots) + len(self.forces)]
         more = {"step": step, "finest": step, "omega": harmonic.omega, "amplitude": harmonic.amplitude}
-        columns = []
-        for key, term in self.forces:
-            own = np.empty((len(fulls), len(self._sources[key])))
-            for column, (kind, i) in enumerate(self._sources[key]):
-                if kind in ("mobility", "inertia"):
-                    moved = self.inertia(fulls, self.model.interfaces[i])
-                    own[:, column] = moved if kind == "inertia" else line * step / moved
-                elif kind == "number":
-                    own[:, column] = i
-                else:
-                    own[:, column] = fulls[:, i] if kind == "own" else more[kind]
-            columns.append(term.prepared(own))
+        targets, origins, needs, ends = self._gathering
+        numbers, moved = np.empty((len(fulls), ends[-1])), dict[int, Any]()
+        numbers[:, targets] = fulls[:, origins]
+        for column, kind, i in needs:
+            if kind in ("mobility", "inertia") and i not in moved:
+                moved[i] = self.inertia(fulls, self.model.interfaces[i])
+            if kind == "mobility":
+                numbers[:, column] = line * step / moved[i]
+            else:
+                numbers[:, column] = moved[i] if kind == "inertia" else i if kind == "number" else more[kind]
+        spans = zip(self.forces, itertools.pairwise(ends), strict=True)
+        columns = [term.prepared(numbers[:, begin:end]) for (_, term), (begin, end) in spans]
         with np.errstate(divide="ignore"):
             inverse = [1.0 / fulls[:, i] for i in self.inertias]
         silent, steps = np.zeros(len(fulls)), np.full(len(fulls), step)
@@ -205,6 +206,18 @@ class Layout:
         """Return `p` of a term outside of the kernel: its own parameters, then what it needs of the drive."""
         known = {"omega": harmonic.omega, "amplitude": harmonic.amplitude}
         return tuple(float(full[i] if kind == "own" else known.get(kind, 0.0)) for kind, i in self._sources[key])
+
+    @cached_property
+    def _gathering(self) -> tuple[NDArray[np.intp], NDArray[np.intp], list[tuple[int, str, int]], list[int]]:
+        """How `pack` fills the columns of the forces, and where those of each force begin and end.
+
+        Targets and origins of parameters, and the targets of what laws need besides, with its kind and index.
+        """
+        each = [self._sources[key] for key, _ in self.forces]
+        flat = [(column, kind, i) for column, (kind, i) in enumerate(itertools.chain(*each))]
+        own = np.array([(column, i) for column, kind, i in flat if kind == "own"], dtype=np.intp).reshape(-1, 2)
+        ends = [0, *itertools.accumulate(len(sources) for sources in each)]
+        return own[:, 0], own[:, 1], [entry for entry in flat if entry[1] != "own"], ends
 
     @cached_property
     def _sources(self) -> Mapping[str, tuple[tuple[str, int], ...]]:

@@ -157,8 +157,28 @@ def compute_derivatives(
     `packed` are the parameters (1, params), `times` (points,) in s, zero if not given. Missing inputs are zero. The
     force with the key `muted` is switched off, and its states stay.
     """
-    rates, seen = np.zeros(states.shape), np.zeros((len(states), len(system.model.channels)))
+    rates, seen = compute_each(system, active, packed, states, inputs, times, muted=muted)
+    return rates[0], seen[0]
+
+
+def compute_each(
+    system: System,
+    active: frozenset[str],
+    packed: Array,
+    states: Array,
+    inputs: Array,
+    times: Any = None,
+    *,
+    muted: str | None = None,
+) -> tuple[Array, Array]:
+    """Return for each set of parameters `packed` (sets, params) what `compute_derivatives` returns for one.
+
+    The derivatives are (sets, points, n), the channels (sets, points, channels).
+    """
+    shape = (len(packed), len(states))
+    rates, seen = np.zeros((*shape, states.shape[1])), np.zeros((*shape, len(system.model.channels)))
     made, wires = system.functions(), make_model_wires(system, active, muted=muted)
+    rows, kernel = system.blueprint.rows, build_motion()["evaluate"]
     told: list[Any] = [
         np.ascontiguousarray(a, dtype=float)
         for a in (
@@ -167,7 +187,10 @@ def compute_derivatives(
             pad_inputs(inputs, len(system.model.inputs)),
         )
     ]
-    blocks = (make_model_block(system, packed),)
-    failed = build_motion()["evaluate"]((made.derive, made.observe), blocks, wires, *told, rates, seen)
-    require_no_failure(failed, system, blocks[0], wires)
+    block = make_block(rows.total)
+    for one, to, shown in zip(packed, rates, seen, strict=True):
+        block[:] = 0.0
+        block[rows.params :] = one[:, None]
+        failed = kernel((made.derive, made.observe), (block,), wires, *told, to, shown)
+        require_no_failure(failed, system, block, wires)
     return rates, seen
