@@ -132,3 +132,15 @@ def test_sets_near_the_best_are_refitted_once_with_other_shapes(waved):
     selection, refits = Selection(waved, waved, sets), Refits()
     assert [set(v.terms) for v in refits.take_shaped(selection)] == [{"near"}]
     assert refits.take_shaped(selection) == []
+
+
+def test_subsets_of_the_best_set_are_refitted_from_it_without_a_sensor_of_position(waved, monkeypatch):
+    """A shift of the gap had the better initial state, and was named for it in a machine that hides nothing."""
+    weights = {"": 0.0, "one": 5.0, "other": 4.0, "one other": 20.0, "one third": 6.0}
+    sets = {frozenset(k.split()): TermSet(frozenset(k.split()), waved, weight) for k, weight in weights.items()}
+    selection, refits = Selection(waved, waved, sets), Refits()
+    best = sets[frozenset({"one", "other"})]
+    assert refits.take_subsets(selection, best) == []
+    monkeypatch.setattr("lostmotion.inference.refits.lacks_position", lambda _: True)
+    assert {v.terms for v in refits.take_subsets(selection, best)} == {frozenset({"one"}), frozenset({"other"})}
+    assert refits.take_subsets(selection, best) == []

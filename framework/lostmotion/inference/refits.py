@@ -54,6 +54,18 @@ class Refits:
         self.shared.update((v.terms, best.terms) for v in far)
         return far
 
+    def take_subsets(self, selection: Selection, best: TermSet) -> list[TermSet]:
+        """Return the sets that lack one term of the best one, and count them as refitted from it.
+
+        It is done where no sensor shows the position: a better initial state would count as an effect of the term.
+        """
+        if not lacks_position(best.fit.problem):
+            return []
+        sets = [selection.fitted_sets.get(best.terms - {key}) for key in sorted(best.terms)]
+        less = [v for v in sets if v and (v.terms, best.terms) not in self.shared and v.fit.status != "diverged"]
+        self.shared.update((v.terms, best.terms) for v in less)
+        return less
+
     def take_shaped(self, selection: Selection) -> list[TermSet]:
         """Return the best sets with shapes from which they were not refitted yet, and count them as refitted.
 

@@ -188,7 +188,7 @@ class Selector:
         for term_set in list_near_sets(self.selection, here):
             self._fit_additions(term_set.fit)
         self._refit_close_sets()
-        return self._take_best(here)
+        return self._take_best(self.selection.fitted_sets[here.terms])
 
     def _take_best(self, here: TermSet) -> bool:
         """Replace the chosen set by the best fitted set, if that is decisively better and robust.
@@ -254,13 +254,13 @@ class Selector:
         return term_set.weight > here.weight + (self.limits.decisive if term_set.terms > here.terms else 0.0)
 
     def _refit_close_sets(self) -> None:
-        """Refit the best sets, and sets with another noise from the best one: some stopped at a local maximum."""
+        """Refit the best sets, and from the best one its subsets and sets with another noise: some are local maxima."""
         if close := self._refits.take_close(self.selection):
             self.say(f"refits with {', '.join(' and '.join(sorted(v.terms)) or 'no term' for v in close)}")
             self._add_sets(each(lambda v: refit_with_terms(v.fit), close, self.jobs))
         best = max(self.selection.fitted_sets.values(), key=lambda v: v.weight)
-        if far := self._refits.take_far(self.selection, best):
-            self.say(f"refits with the noise of {' and '.join(sorted(best.terms)) or 'no term'}")
+        if far := self._refits.take_far(self.selection, best) + self._refits.take_subsets(self.selection, best):
+            self.say(f"refits from the fit with {' and '.join(sorted(best.terms)) or 'no term'}")
             self._add_sets(each(lambda v: refit_from(v.fit, best.fit), far, self.jobs))
         for term_set in self._refits.take_shaped(self.selection):
             self.say(f"refits with other shapes of {' and '.join(sorted(term_set.terms))}")
