@@ -17,6 +17,7 @@ from lostmotion.likelihood.bends import correct_readings, correct_twice
 from lostmotion.likelihood.drive import DriveHarmonic
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem, Scales
+from lostmotion.likelihood.reference import Reference
 from lostmotion.likelihood.space import FreeParameter
 from lostmotion.likelihood.system import System
 from lostmotion_plugins.models.basic import LinearOscillator
@@ -146,7 +147,21 @@ def test_the_correction_at_predictions_is_that_of_the_true_error():
     points = problem.points(theta[None], 0)
     run = partial(problem.engine.filter, problem.dynamics)
     true = view.readings[:, 0] - (PositionRipple.bent(moved(), (0.0, RIPPLE, PITCH)) - moved())
-    twice = correct_twice(run, view, corrections, points)[0].readings[:, 0]
-    once = correct_readings(view, corrections)[0].readings[:, 0]
+    twice = correct_twice(run, view, [corrections], points)[0][0, :, 0]
+    once = correct_readings(view, corrections)[0][:, 0]
     settled = slice(100, None)
     assert np.std((twice - true)[settled]) < 0.3 * np.std((once - true)[settled])
+
+
+def test_points_with_corrections_of_their_own_are_filtered_together():
+    """Seven sizes of the wave in one call give what each gives alone, and what the plain filter gives."""
+    problem = rippled(1)
+    part = problem.observations[0].part(0, 120)
+    problem = problem.on((part,))
+    thetas = np.tile(maximise(problem, problem.start).theta, (7, 1))
+    thetas[:, 0] = np.linspace(-RIPPLE, 2.0 * RIPPLE, 7)
+    together = problem.filter_many(thetas)
+    for engine, near in ((problem.engine, 1e-12), (Reference(), 1e-7)):
+        alone = [replace(problem, engine=engine).innovations(theta) for theta in thetas]
+        np.testing.assert_allclose(together.errors, [one.errors for one in alone], rtol=near, atol=near * RIPPLE)
+        np.testing.assert_allclose(together.variances, [one.variances for one in alone], rtol=near)

@@ -181,8 +181,8 @@ def update_ar1(work, ar1, gauge, many, own, precision, miss, o):  # type: ignore
 
 
 @jit
-def update_states(work, ar1, levels, sensor, z, many, own, errors, variances, k, lanes):  # type: ignore[no-untyped-def]
-    """Update the states by one reading of a sensor; `EXPECTED` and `H` hold its prediction and its slopes.
+def update_states(work, ar1, levels, sensor, many, own, errors, variances, k, lanes):  # type: ignore[no-untyped-def]
+    """Update the states by one reading of a sensor, in `END`; `EXPECTED` and `H` hold its prediction and its slopes.
 
     `levels` has for each sensor the variances of white and of AR(1) noise, the AR(1) coefficient per sample, gain,
     offset and lag. `ar1` holds for each of the `many` sensors with AR(1) noise its mean, its covariance with the states
@@ -192,7 +192,7 @@ def update_states(work, ar1, levels, sensor, z, many, own, errors, variances, k,
     wide = 1 + N + many
     for o in range(0, lanes, WIDTH):
         gauge = load(levels, first + 3, o)
-        miss = z - (gauge * load(work, EXPECTED, o) + load(levels, first + 4, o))
+        miss = load(work, END, o) - (gauge * load(work, EXPECTED, o) + load(levels, first + 4, o))
         var = load(levels, first, o) + gauge * gauge * load(work, LOOSE, o)
         for a in range(N):
             s = load(work, P + a * N, o) * load(work, H, o)
@@ -293,8 +293,9 @@ def add_input_uncertainty(work, noise, sources, drawn, unsure, lanes):  # type: 
 
 @whole
 def run_filter(functions, blocks, wiring, inputs, drives, z, sensors, unsure, dt, nsub, written, kept, lanes):  # type: ignore[no-untyped-def]
-    """Filter `z` (samples, sensors) at `lanes` points; write innovations; return nonzero if a law raised an error.
+    """Filter readings at `lanes` points; write their innovations; return nonzero if a law raised an error.
 
+    `z` (sets, samples, sensors) are the readings, one set for all points or one for each (the last serves the rest).
     `functions` are the addresses of `derive` and `observe`. `blocks` are those of the model, of work and of AR(1)
     noise, then the data of each point: its time at the first sample (1 row); for each sensor the variances of white and
     of AR(1) noise, the AR(1) coefficient per sample, gain, offset and lag (6 rows each); for each source of process
@@ -313,11 +314,11 @@ def run_filter(functions, blocks, wiring, inputs, drives, z, sensors, unsure, dt
     space, work, ar1, begin = pointer(blocks[0]), pointer(blocks[1]), pointer(blocks[2]), pointer(blocks[3])
     levels, noise, start = pointer(blocks[4]), pointer(blocks[5]), pointer(blocks[6])
     wires, u, which = pointer(wiring), pointer(inputs), pointer(drives)
-    samples, keep, failed = z.shape[0], kept[0].shape[0] > 1, 0
+    samples, keep, failed = z.shape[1], kept[0].shape[0] > 1, 0
     seen_states, seen_cov, ahead_states, ahead_cov, steps = kept
     sources, drawn = wires[SOURCES], wires[DRAWN]
-    many = 0 * z.shape[0]
-    for s in range(z.shape[1]):
+    many = 0 * z.shape[1]
+    for s in range(z.shape[2]):
         many = max(many, sensors[s, 2] + 1)
     initialise(work, ar1, start, noise, levels, sensors, sources, many, nsub, lanes)
     for k in range(samples):
@@ -327,8 +328,8 @@ def run_filter(functions, blocks, wiring, inputs, drives, z, sensors, unsure, dt
                 ahead_states[k, a] = value(work, Y + a, 0)
                 for b in range(N):
                     ahead_cov[k, a, b] = value(work, P + a * N + b, 0)
-        for s in range(z.shape[1]):
-            if math.isnan(z[k, s]):
+        for s in range(z.shape[2]):
+            if math.isnan(z[0, k, s]):
                 for lane in range(lanes):
                     errors[lane, k, s] = 0.0
                     variances[lane, k, s] = UNREAD_VARIANCE
@@ -346,7 +347,9 @@ def run_filter(functions, blocks, wiring, inputs, drives, z, sensors, unsure, dt
                 failed |= linearise_sensor(
                     (derive, observe), space, wires, work, sensors[s, 0], dt / nsub, given, lanes
                 )
-            update_states(work, ar1, levels, s, z[k, s], many, sensors[s, 2], errors, variances, k, lanes)
+            for lane in range(lanes):
+                assign(work, END, lane, z[min(lane, z.shape[0] - 1), k, s])
+            update_states(work, ar1, levels, s, many, sensors[s, 2], errors, variances, k, lanes)
         living = False
         for lane in range(lanes):
             if value(work, ALIVE, lane) > 0.5:
@@ -366,7 +369,7 @@ def run_filter(functions, blocks, wiring, inputs, drives, z, sensors, unsure, dt
         failed |= cross_sample(
             derive, space, wires, work, ar1, u, which, begin, k, nsub, dt, sources, many, keep, lanes
         )
-        for s in range(z.shape[1]):
+        for s in range(z.shape[2]):
             own = sensors[s, 2]
             if own >= 0:
                 propagate_ar1(ar1, levels, s, own, many, lanes)

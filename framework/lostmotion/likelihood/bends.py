@@ -17,7 +17,6 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from lostmotion.contracts import Array, SensorTerm, Values
-from lostmotion.likelihood.batches import join_innovations
 from lostmotion.likelihood.engine import Innovations, Points
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.sensors import FLATTEST, Sensor, SensorChange
@@ -63,54 +62,52 @@ Filter = Callable[[Observation, Points], Innovations]
 
 
 def filter_corrected(
-    filter_readings: Filter, seen: Observation, corrections: Corrections, points: Points
+    filter_readings: Filter, seen: Observation, corrections: Sequence[Corrections], points: Points
 ) -> Innovations:
     """Return the innovations of corrected readings, in the scale of the readings themselves.
 
-    All points have the same corrections. The second pass filters each point alone, since its predictions are its own.
+    `corrections` are those of each point.
     """
-    if not any(corrections):
+    if not any(map(any, corrections)):
         return filter_readings(seen, points)
-    if not corrections.bends or corrections.changes:
-        right, slopes = correct_readings(seen, corrections)
-        return rescale_innovations(filter_readings(right, points), slopes)
-    parts = []
-    for row in range(len(points)):
-        single = points.select([row])
-        right, slopes = correct_twice(filter_readings, seen, corrections, single)
-        parts.append(rescale_innovations(filter_readings(right, single), slopes))
-    return join_innovations(parts)
+    readings, slopes = correct_twice(filter_readings, seen, corrections, points)
+    return rescale_innovations(filter_readings(seen, replace(points, readings=readings)), slopes)
 
 
 def correct_twice(
-    filter_readings: Filter, seen: Observation, corrections: Corrections, single: Points
-) -> tuple[Observation, Array]:
-    """Return an observation corrected by the errors of its sensors at predicted values, and slopes as below.
+    filter_readings: Filter, seen: Observation, corrections: Sequence[Corrections], points: Points
+) -> tuple[Array, Array]:
+    """Return for each point the readings corrected by the errors of its sensors at predicted values, and slopes.
 
-    The predictions are those of a first pass at the point `single`. Where a prediction is less certain than a reading,
-    as at the beginning, and for a sensor that changes at a time, the reading is corrected by the error at itself.
+    Both are (points, samples, sensors). The predictions are those of a first pass. Where a prediction is less certain
+    than a reading, as at the beginning, and for a sensor that changes at a time, the reading is corrected by the error
+    at itself.
     """
-    right, slopes = correct_readings(seen, corrections)
-    if not corrections.bends or corrections.changes:
-        return right, slopes
-    found = filter_readings(right, single)
-    predicted = right.readings - found.errors[0]
-    shown, known = predicted.copy(), found.variances[0] < 2.0 * (single.white[0] + single.ar1[0])
-    for sensor, term, p in reversed(corrections.bends):
-        shown[:, sensor] = term.bent(shown[:, sensor], p)
-    readings = np.where(known, seen.readings - (shown - predicted), right.readings)
-    return replace(seen, readings=readings), np.where(known, 1.0, slopes)
+    pairs = [correct_readings(seen, one) for one in corrections]
+    readings, slopes = (np.stack(arrays) for arrays in zip(*pairs, strict=True))
+    twice = [i for i, one in enumerate(corrections) if one.bends and not one.changes]
+    if not twice:
+        return readings, slopes
+    found = filter_readings(seen, replace(points.select(twice), readings=readings[twice]))
+    for i, errors, variances in zip(twice, found.errors, found.variances, strict=True):
+        predicted, known = readings[i] - errors, variances < 2.0 * (points.white[i] + points.ar1[i])
+        shown = predicted.copy()
+        for sensor, term, p in reversed(corrections[i].bends):
+            shown[:, sensor] = term.bent(shown[:, sensor], p)
+        readings[i] = np.where(known, seen.readings - (shown - predicted), readings[i])
+        slopes[i] = np.where(known, 1.0, slopes[i])
+    return readings, slopes
 
 
-def correct_readings(seen: Observation, corrections: Corrections) -> tuple[Observation, Array]:
-    """Return an observation with its readings corrected, and the slopes (samples, sensors) of that."""
+def correct_readings(seen: Observation, corrections: Corrections) -> tuple[Array, Array]:
+    """Return the corrected readings (samples, sensors) of an observation, and the slopes of that, of the same shape."""
     seen, slopes = correct_bends(seen, corrections.bends)
     readings, time = seen.readings.copy(), seen.time
     for sensor, changes in enumerate(corrections.changes):
         for change in reversed(changes):
             readings[:, sensor], slope = change.undo(readings[:, sensor], time)
             slopes[:, sensor] *= slope
-    return replace(seen, readings=readings), slopes
+    return readings, slopes
 
 
 def correct_bends(seen: Observation, bends: Sequence[Bend]) -> tuple[Observation, Array]:

@@ -55,6 +55,7 @@ class Points:
     `offset` relate the reading to the channel, and `lag` (s) is its delay within half a sample either way. The states
     of model and terms begin at `mean` (points, n) with `covariance` (points, n, n). `drives` are the inputs, `which`
     (points,) the one of each point, and `first` (points,) the sample of its drive at which a simulation begins.
+    `readings` (points, samples, sensors) take the place of those of the observation, where each point corrects them.
     """
 
     params: Array
@@ -71,14 +72,15 @@ class Points:
     drives: tuple[Drive, ...]
     which: NDArray[np.int64]
     first: NDArray[np.int64]
+    readings: Array | None = None
 
     def __len__(self) -> int:
         return len(self.params)
 
     def select(self, rows: Any) -> Points:
         """Return some of the points: a slice, or an array of their numbers."""
-        arrays = {f.name: getattr(self, f.name)[rows] for f in fields(self) if f.name != "drives"}
-        return replace(self, **arrays)
+        arrays = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "drives"}
+        return replace(self, **{name: array[rows] for name, array in arrays.items() if array is not None})
 
 
 @dataclass(frozen=True)

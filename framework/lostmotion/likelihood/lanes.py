@@ -125,9 +125,10 @@ class Lanes(Engine):
         )
         made = system.functions(self.compiled)
         lanes = count_lanes(len(points))
+        readings = observation.readings[None] if points.readings is None else points.readings
         padded = _pad_arrays(written, lanes)
         failed = kernels["run_filter"](
-            (made.derive, made.observe), blocks, wires, inputs, which, np.ascontiguousarray(observation.readings),
+            (made.derive, made.observe), blocks, wires, inputs, which, np.ascontiguousarray(readings),
             numbers, find_input_variance(dynamics, observation), dt, nsub, padded, kept, lanes,
         )  # fmt: skip
         require_no_failure(failed, system, blocks[0], wires)

@@ -232,7 +232,8 @@ class Problem:
         def work(task: tuple[int, NDArray[np.intp]]) -> Innovations:
             index, rows = task
             late = self.count_delays(thetas[rows[:1]], index)[0]
-            corrections = self._list_corrections(thetas[rows[0]], index)
+            changing = self.active & {*self.system.bending_terms, *self.system.rescaling}
+            corrections = [self._list_corrections(theta, index) for theta in thetas[rows]] if changing else []
             awake = self._drop_idle_lags(thetas[rows[0]], index)
             run = partial(self.engine.filter, awake.dynamics)
             found = filter_corrected(run, self._make_view(index, late), corrections, awake.points(thetas[rows], index))
@@ -241,13 +242,12 @@ class Problem:
         return each(work, tasks, self.jobs)
 
     def _list_views(self, thetas: Array, index: int) -> list[tuple[Any, ...]]:
-        """Return for each of some coordinates (points, n) what changes the view of the readings: delay, bend, lag."""
+        """Return for each of some coordinates (points, n) what changes the view of readings: delay, idle lags."""
         late = self.count_delays(thetas, index)
-        if not self.active & {*self.system.bending_terms, *self.system.lagging_terms, *self.system.rescaling}:
+        if not self.active & set(self.system.lagging_terms):
             return list(late)
-        corrections = [self._list_corrections(theta, index) for theta in thetas]
         awake = [self._drop_idle_lags(theta, index).active for theta in thetas]
-        return list(zip(late, corrections, awake, strict=True))
+        return list(zip(late, awake, strict=True))
 
     def _drop_idle_lags(self, theta: Array, index: int) -> Problem:
         """Return the problem without sensors that have no lag at some coordinates: a lag of zero has no rate."""
@@ -369,8 +369,8 @@ class Problem:
         view = self._make_view(index, self.count_delays(theta[None], index)[0])
         points = self.points(theta[None], index)
         run = partial(self.engine.filter, self.dynamics)
-        seen, _ = correct_twice(run, view, self._list_corrections(theta, index), points)
-        return self.engine.smooth(self.dynamics, seen, points)
+        readings, _ = correct_twice(run, view, [self._list_corrections(theta, index)], points)
+        return self.engine.smooth(self.dynamics, view, replace(points, readings=readings))
 
     def extend(self, more: Iterable[FreeParameter], active: Iterable[str]) -> Problem:
         """Return the problem with further free parameters and terms."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import ClassVar
 
@@ -199,6 +199,8 @@ class _Run:
     @classmethod
     def of(cls, dynamics: Dynamics, observation: Observation, points: Points) -> _Run:
         """Return the filter at the first sample; AR(1) noise has the mean `ar1` and the covariances `shared`."""
+        if points.readings is not None:
+            observation = replace(observation, readings=points.readings[0])
         nsub, n, m = count_fine_steps(dynamics.nsub), dynamics.states, len(observation.sensors)
         total = n + dynamics.forces
         machine = _Machine.of(dynamics, points, nsub)
