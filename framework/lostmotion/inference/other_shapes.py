@@ -20,8 +20,12 @@ RAISES = (0.0, 3.0)
 """Each shape is tried with the random force of the fit, and with a larger one, which makes maxima wider."""
 AGAIN = 3
 """The search from other shapes is repeated at most so often, each time from the best maximum."""
+BETTER = 2.0
+"""It goes on only from a maximum whose log evidence is higher by more than this."""
 HOPELESS = 30.0
 """A fit that will not come closer to the best one than this in log posterior is abandoned."""
+ROUGHLY = 0.1
+"""A fit from another shape has converged when a step predicts less gain in log posterior than this."""
 VARIED = 8.0
 """The widths of two maxima make their log evidences differ from their log posteriors by up to this."""
 NEAR = 0.03
@@ -63,10 +67,9 @@ def find_modes(fit: Fit, *, reach: float = math.inf) -> list[Fit]:
 def refit_shapes(fit: Fit) -> Fit:
     """Return the best fit of a set of terms from other shapes, and with other choices of them."""
     for _ in range(AGAIN):
-        best = find_modes(fit)[0]
-        if best is fit:
+        before, fit = fit, find_modes(fit)[0]
+        if not fit.log_evidence > before.log_evidence + BETTER:
             break
-        fit = best
     return refit_choices(fit, fit.problem.active)
 
 
@@ -102,7 +105,7 @@ def refit_complete(fit: Fit) -> list[Fit]:
 def _maximise_each(problems: Sequence[Problem], starts: Sequence[Array], fit: Fit, hopeless: float) -> list[Fit]:
     """Return the converged fits, best first; those that would stay below a log posterior are abandoned."""
     pairs = list(zip(problems, starts, strict=True))
-    found = each(lambda pair: maximise(pair[0], pair[1], hopeless=hopeless), pairs, fit.problem.jobs)
+    found = each(lambda pair: maximise(pair[0], pair[1], hopeless=hopeless, tolerance=ROUGHLY), pairs, fit.problem.jobs)
     return sorted((f for f in found if f.status == "converged"), key=lambda f: -f.local.log_posterior)
 
 
