@@ -15,9 +15,16 @@ from lostmotion.likelihood.problem import RANDOM
 from lostmotion.settings import DEFAULT
 
 
-def set_of(terms, log_random_force=0.0):
-    fit = SimpleNamespace(problem=SimpleNamespace(keys=(RANDOM,)), theta=np.array([log_random_force]))
-    return TermSet(frozenset(terms), fit, 10.0)
+def set_of(terms, log_random_force=9.0, noise=1.0):
+    """Return a set of terms; the usual level of its random force is zero, and `noise` the variance of its sensor."""
+    problem = SimpleNamespace(
+        keys=(RANDOM,),
+        free=(SimpleNamespace(parameter=RANDOM, mean=0.0),),
+        settings=DEFAULT,
+        observations=(SimpleNamespace(sensors=(None,)),),
+        measurement=lambda theta, index, sensor: noise,
+    )
+    return TermSet(frozenset(terms), SimpleNamespace(problem=problem, theta=np.array([log_random_force])), 10.0)
 
 
 @pytest.mark.parametrize(
@@ -29,10 +36,17 @@ def test_a_vague_amplitude_counts_where_samples_are_independent(monkeypatch, dev
     assert RobustChecks(DEFAULT.select).is_robust(set_of("a"), set_of("")) == robust
 
 
-@pytest.mark.parametrize(("log_random_force", "robust"), [(-0.1, False), (-0.3, True)])
+@pytest.mark.parametrize(("log_random_force", "robust"), [(8.9, False), (8.7, True)])
 def test_with_autocorrelated_residuals_the_random_force_must_fall(monkeypatch, log_random_force, robust):
     monkeypatch.setattr(robustness, "measure_significance", lambda fit: Significance({"a": 9.0}, 3.0))
     assert RobustChecks(DEFAULT.select).is_robust(set_of("a", log_random_force), set_of("")) == robust
+
+
+@pytest.mark.parametrize(("level", "noise", "robust"), [(0.0, 0.9, False), (0.0, 0.7, True), (9.0, 0.7, False)])
+def test_without_a_random_force_the_noise_of_a_sensor_must_fall(monkeypatch, level, noise, robust):
+    """What an accelerometer lacks is in its noise: no term could lower a random force that is not there."""
+    monkeypatch.setattr(robustness, "measure_significance", lambda fit: Significance({"a": 9.0}, 3.0))
+    assert RobustChecks(DEFAULT.select).is_robust(set_of("a", level, noise), set_of("", level)) == robust
 
 
 def test_one_vague_term_does_not_refute_another(monkeypatch):

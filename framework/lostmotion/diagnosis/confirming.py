@@ -147,8 +147,8 @@ def find_simplest(outcome: Outcome, observations: Sequence[Observation]) -> tupl
     It is used where no set is better than a generic smooth force. A set qualifies if no random force remains with it,
     if its log evidence less the prior penalties exceeds that of the best learned curve, of the chosen set, and of the
     usual errors of known values and channels (as predicted, or as fitted if that is less), and if it predicts held-out
-    data as well as the best of them. It is no extension of chosen terms. Its terms are reported as likely, because a
-    smooth force explains about as much.
+    data as well as the best of them. It is no extension of chosen terms, and no other such set is decisively better.
+    Its terms are reported as likely, because a smooth force explains about as much.
     """
     d, selection = outcome.diagnosis, outcome.diagnosis.selection
     here = selection.fitted_sets.get(selection.chosen.problem.active)
@@ -161,6 +161,7 @@ def find_simplest(outcome: Outcome, observations: Sequence[Observation]) -> tupl
     least = here.weight + max(curve, decisive + max(gain, 0.0))
     sets = _list_simple_sets(selection, here)
     good = sorted((v for v in sets if v.weight > least), key=lambda v: -v.weight)[:MOST_COMPARED]
+    good = [v for v in good if v.weight > good[0].weight - decisive]
     good = [v for v in good if compute_random_force_gain(v.fit) <= d.settings.locate.significant]
     best = (
         _select_predicting(outcome, good, cut_heldout(observations, d.held), decisive * usual.inflation)

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.random_force import reduces_random_force
+from lostmotion.inference.random_force import reduces_noise, reduces_random_force
 from lostmotion.inference.significance import Significance, measure_significance
 from lostmotion.inference.term_sets import TermSet
 from lostmotion.settings import SelectSettings
@@ -27,10 +27,13 @@ class RobustChecks:
         """Return whether all terms of a set, or the terms `keys`, are robust against autocorrelated residuals.
 
         Each amplitude must be significant by its robust standard deviation. If this exceeds the usual one by a factor,
-        the random force must also be lower by a share than that of the other set.
+        the random force must also be lower by a share than that of the other set, or the noise of a sensor if no set
+        has a random force.
         """
         found = self._measure(term_set)
-        calm = found.ratio < self.limits.memory or reduces_random_force(term_set.fit, over.fit, self.limits.share)
+        calm = found.ratio < self.limits.memory or any(
+            reduces(term_set.fit, over.fit, self.limits.share) for reduces in (reduces_random_force, reduces_noise)
+        )
         return calm and not set(found.list_vague(self.limits)).intersection(keys or term_set.terms)
 
     def _measure(self, term_set: TermSet) -> Significance:
