@@ -12,6 +12,7 @@ from lostmotion.contracts import Array, place_of
 from lostmotion.inference.calls import require_finite
 from lostmotion.inference.far_values import hold_shape, try_far_values
 from lostmotion.inference.fit import (
+    ROUGHLY,
     Fit,
     Sensitivity,
     begin_at,
@@ -53,8 +54,6 @@ SPREAD = (0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0)
 """Starting values of the shape of a law that replaces a simpler related law, in units of its typical value."""
 RAISED = 2.0
 """The increase of the log random force where a fit begins far from its maximum."""
-ROUGHLY = 0.1
-"""A fit that is to be compared with others has converged when a step predicts less gain in log posterior than this."""
 REFINED = 12
 """The number of shapes of a term at which a score test is computed again with larger differences."""
 MUTE = 1e-6

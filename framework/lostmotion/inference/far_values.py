@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.inference.fit import Fit, maximise, raise_random_force, restart
+from lostmotion.inference.fit import HOPELESS, Fit, maximise, raise_random_force, restart
 from lostmotion.inference.natural import compute_size, list_tried_values
 from lostmotion.inference.random_force import has_usual_random_force
 from lostmotion.likelihood.problem import FreeParameter, Problem
@@ -26,8 +26,6 @@ RAISED, RAISED_MOST = 2.0, 6.0
 """The increase of the log random force from the nominal fit, and from the middle of the priors."""
 ROUNDS, MORE_ROUNDS = 3, 12
 """The most steps of a refit from the nominal fit, and from the middle of the priors."""
-HOPELESS = 30.0
-"""A refit from the middle of the priors that would stay below the nominal fit by more in log posterior is abandoned."""
 
 
 @dataclass(frozen=True)

@@ -28,6 +28,10 @@ STEP_FACTOR = 3.0
 """Derivatives are computed again where the first finite-difference steps were wrong by more than this factor."""
 DAMPINGS = (1.0, 8.0, 64.0, 512.0)
 """Steps with these multiples of the damping are tried at once."""
+ROUGHLY = 0.1
+"""A fit that is to be compared with others has converged when a step predicts less gain in log posterior than this."""
+HOPELESS = 30.0
+"""Such a fit is abandoned if it will not come closer than this to the best one in log posterior."""
 
 
 @dataclass(frozen=True)
@@ -341,6 +345,12 @@ def begin_at(problem: Problem, theta: Array) -> Problem:
     """Return a problem with the coordinates `theta` as the starting point."""
     frees = zip(problem.free, theta, strict=True)
     return replace(problem, free=tuple(replace(f, start=float(c)) for f, c in frees))
+
+
+def hold_free(problem: Problem, at: int, value: float) -> Problem:
+    """Return a problem without its free parameter number `at`, which is held at a value (SI)."""
+    held = problem.hold_values({problem.free[at].parameter: value})
+    return replace(held, free=(*held.free[:at], *held.free[at + 1 :]))
 
 
 def compute_covariance(fit: Fit, held: Sequence[int] = ()) -> Array:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
 
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.inference.fit import Fit, maximise, raise_random_force, use_one_core
-from lostmotion.inference.natural import collect_shapes, find_term
+from lostmotion.inference.fit import HOPELESS, ROUGHLY, Fit, hold_free, maximise, raise_random_force, use_one_core
+from lostmotion.inference.natural import collect_shapes, sort_slots
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.problem import Problem
 
@@ -22,10 +21,6 @@ AGAIN = 3
 """The search from other shapes is repeated at most so often, each time from the best maximum."""
 BETTER = 2.0
 """It goes on only from a maximum whose log evidence is higher by more than this."""
-HOPELESS = 30.0
-"""A fit that will not come closer to the best one than this in log posterior is abandoned."""
-ROUGHLY = 0.1
-"""A fit from another shape has converged when a step predicts less gain in log posterior than this."""
 VARIED = 8.0
 """The widths of two maxima make their log evidences differ from their log posteriors by up to this."""
 NEAR = 0.03
@@ -92,13 +87,11 @@ def refit_complete(fit: Fit) -> list[Fit]:
     """Return the fit of each law that is complete: an amplitude of an active term is held at its greatest value."""
     problem, found = fit.problem, list[Fit]()
     for key in sorted(problem.active):
-        for slot in find_term(problem, key)[1]:
-            if slot.param.null is None or math.isinf(slot.param.high) or slot.key not in problem.keys:
-                continue
-            at = problem.keys.index(slot.key)
-            held = problem.hold_values({slot.key: slot.param.high})
-            held = replace(held, free=(*held.free[:at], *held.free[at + 1 :]))
-            found.append(maximise(held, held.clip(np.delete(fit.theta, at))))
+        for slot in sort_slots(problem, key)[0]:
+            if math.isfinite(slot.param.high) and slot.key in problem.keys:
+                at = problem.keys.index(slot.key)
+                held = hold_free(problem, at, slot.param.high)
+                found.append(maximise(held, held.clip(np.delete(fit.theta, at))))
     return [one for one in found if one.status == "converged"]
 
 

@@ -9,12 +9,11 @@ Applied Statistics 37 (1988) 87-94).
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.inference.fit import Fit, maximise, use_one_core
+from lostmotion.inference.fit import Fit, hold_free, maximise, use_one_core
 from lostmotion.inference.mixture import MANY
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.space import LEVELS
@@ -87,9 +86,8 @@ def _fall_at(fit: Fit, at: int, shift: float, begin: Array) -> tuple[float, Arra
 
     The others begin at `begin`, or at their expectation under the normal approximation.
     """
-    free, value = fit.problem.free[at], float(fit.theta[at]) + shift
-    held = fit.problem.hold_values({free.parameter: free.value(value)})
-    held = replace(held, free=(*held.free[:at], *held.free[at + 1 :]))
+    value = float(fit.theta[at]) + shift
+    held = hold_free(fit.problem, at, fit.problem.free[at].value(value))
     cross = fit.local.covariance[:, at]
     starts = held.clip(np.delete(np.array([begin, fit.theta + shift * cross / cross[at]]), at, axis=1))
     found = maximise(held, starts[int(np.argmax(held.log_likelihoods(starts)))], rounds=ROUNDS, tolerance=0.1)

@@ -20,7 +20,7 @@ from lostmotion.inference.candidates import (
     run_score_tests,
 )
 from lostmotion.inference.commoner import rewrite_in_commoner_terms
-from lostmotion.inference.fit import Fit, maximise, restart, use_cores, use_one_core
+from lostmotion.inference.fit import HOPELESS, Fit, maximise, restart, use_cores, use_one_core
 from lostmotion.inference.late import compute_onset_price, drop_weak_onsets
 from lostmotion.inference.natural import find_term
 from lostmotion.inference.other_shapes import refit_choices, refit_shapes
@@ -342,7 +342,7 @@ class Selector:
 
     def _compute_hopeless(self) -> float:
         """Return the log posterior below which a fit is abandoned."""
-        return max(v.fit.local.log_posterior for v in self.selection.fitted_sets.values()) - 30.0
+        return max(v.fit.local.log_posterior for v in self.selection.fitted_sets.values()) - HOPELESS
 
     def _fit_swaps(self, fit: Fit) -> None:
         """Fit each related term in place of an active one (swap), because a term may only imitate a related one."""

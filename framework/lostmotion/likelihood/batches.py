@@ -23,7 +23,7 @@ def realign(found: Innovations, late: Sequence[int]) -> Innovations:
 
 
 def group_rows(rows: NDArray[np.intp], views: Sequence[tuple[Any, ...]]) -> list[NDArray[np.intp]]:
-    """Return the rows in groups with the same view of the readings: equal shifts and equal corrections."""
+    """Return the rows in groups with the same view of the readings: equal shifts and idle lags."""
     groups: dict[tuple[Any, ...], list[int]] = {}
     for row, shift in zip(rows.tolist(), views, strict=True):
         groups.setdefault(shift, []).append(row)
