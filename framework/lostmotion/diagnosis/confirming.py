@@ -11,6 +11,7 @@ import itertools
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -115,30 +116,55 @@ def decide_by_heldout(
 
     On the fitted data a small smooth force explains about as much as such a term. The log score of the held-out data is
     added to the log odds of the fitted data; the sum is the log posterior odds of all data. A set is compared with the
-    best of: the smooth force, the smooth force with corrected channels, the learned curves, and the chosen set. Nothing
-    is decided for a term if a usual error of a channel explains all data better.
+    best of: the smooth force, the smooth force with corrected channels, the learned curves, and the set without the
+    term. Where a term of the chosen set is not supported beside the further term, the further term takes its place.
+    Nothing is decided for a term if a usual error of a channel explains all data better.
     """
     d, selection = outcome.diagnosis, outcome.diagnosis.selection
     here = selection.fitted_sets.get(selection.chosen.problem.active)
     if here is None or _has_force_over_time(selection, here):
         return None
     decisive, behind = d.settings.select.decisive, d.settings.heldout.behind
-    unbeaten = [v for v in _list_tied(selection, here, decisive) if selection.compute_log_odds(v, here) > -behind]
-    for term_set in unbeaten:
-        selection.fit_discrepancy(term_set)
-    close = [v for v in unbeaten if selection.compute_log_odds(v, here) > -behind]
-    close = sorted(close, key=lambda v: -selection.compute_log_odds(v, here))[:MOST_COMPARED]
+    further = [_drop_unsupported(selection, v, here) for v in _list_tied(selection, here, decisive)]
+    further = [v for v in further if v.term_set.weight > v.without.weight + decisive]
+    unbeaten = [v for v in further if selection.compute_log_odds(*v) > -behind]
+    for v in unbeaten:
+        selection.fit_discrepancy(v.term_set)
+    close = [v for v in unbeaten if selection.compute_log_odds(*v) > -behind]
+    close = sorted(close, key=lambda v: -selection.compute_log_odds(*v))[:MOST_COMPARED]
     if not close:
         return None
+    pieces, gains = cut_heldout(observations, d.held), dict[frozenset[str], float]()
+    for base in {v.without.terms: v.without for v in close}.values():
+        sets = [v.term_set for v in close if v.without is base]
+        gains |= _measure_heldout_gains(d, sets, base, pieces)
+    best = max(close, key=lambda v: selection.compute_log_odds(*v) + gains[v.term_set.terms])
+    gain = gains[best.term_set.terms]
+    if not selection.compute_log_odds(*best) + gain - math.log(len(close)) > decisive:
+        return None
     channels = _list_tied(selection, here, decisive, channels=True)
-    measured = _measure_heldout_gains(d, [*close, *channels], here, cut_heldout(observations, d.held))
-    gains = {v.terms: measured[v.terms] for v in close}
-    best = max(close, key=lambda v: selection.compute_log_odds(v, here) + gains[v.terms])
-    if not selection.compute_log_odds(best, here) + gains[best.terms] - math.log(len(close)) > decisive:
+    measured = _measure_heldout_gains(d, channels, best.without, pieces)
+    if any(v.weight + measured[v.terms] > best.term_set.weight + gain for v in channels):
         return None
-    if any(v.weight + measured[v.terms] > best.weight + gains[best.terms] for v in channels):
-        return None
-    return best.fit, gains
+    return best.term_set.fit, gains
+
+
+class FurtherTerm(NamedTuple):
+    """A fitted set with a term that evidence supports, and the set without the term."""
+
+    term_set: TermSet
+    without: TermSet
+
+
+def _drop_unsupported(selection: Selection, term_set: TermSet, here: TermSet) -> FurtherTerm:
+    """Return a set with a further term, or its fitted subset with the term that has a larger weight.
+
+    A term that was chosen first may stand for the further one: a dead zone of the drive, for an end stop.
+    """
+    more, known = term_set.terms - here.terms, selection.fitted_sets
+    subsets = [v for terms, v in known.items() if more <= terms <= term_set.terms and terms - more in known]
+    best = max((v for v in subsets if v.fit.status != "diverged"), key=lambda v: v.weight)
+    return FurtherTerm(best, known[best.terms - more])
 
 
 def find_simplest(outcome: Outcome, observations: Sequence[Observation]) -> tuple[Fit, SimplestTerms] | None:

@@ -236,10 +236,12 @@ def _try_terms(
 def _keep_good(trial: Outcome) -> list[Outcome]:
     """Return the trial in a list if it predicts no worse than the nominal model and leaves no larger force, or none.
 
-    Each trial has a horizon of its own, so both predictions are those of the trial.
+    Each trial has a horizon of its own, so both predictions are those of the trial. Each term must be at least as
+    probable as a rival.
     """
     d = trial.diagnosis
-    return [trial] if d.explains and not is_worse(trial.before, trial.after, d.settings.heldout) else []
+    good = d.explains and not is_worse(trial.before, trial.after, d.settings.heldout)
+    return [trial] if good and all(d.selection.inclusion(key) > d.settings.name.rival for key in d.named) else []
 
 
 def check_heldout(
