@@ -13,7 +13,7 @@ from lostmotion.inference.fit import Fit, maximise, restart
 from lostmotion.inference.rival import DiscrepancyExpansion
 from lostmotion.likelihood.observation import Observation
 
-ROUNDS = 8
+ROUNDS = 4
 """Rounds of a fit to corrected recordings."""
 
 
@@ -41,7 +41,9 @@ def correct_channels(expansion: DiscrepancyExpansion, before: CorrectedFit | Non
     """Return the fit to recordings that are corrected for channel errors; None where there are no channel errors.
 
     The recordings of the expansion may have been corrected `before`. A correction is at most `rival.correction` prior
-    standard deviations: a larger error is a term of its own, such as a wrong gain or a delay.
+    standard deviations: a larger error is a term of its own, such as a wrong gain or a delay. If the predicted
+    correction reduces the log density of the readings by more than `rival.absurd`, the expansion is not valid, and
+    nothing is fitted (None).
     """
     count, fit = len(expansion.channel_errors), expansion.fit
     if not count:
@@ -57,6 +59,9 @@ def correct_channels(expansion: DiscrepancyExpansion, before: CorrectedFit | Non
         changes += ((channel_error.change, size),)
     problem = restart(fit).on(observations)
     begin = problem.clip(expansion.shift_coordinates(sizes - already))
+    now = fit.local.log_posterior + (before.log_jacobian if before else 0.0)
+    if not problem.log_posterior(begin) + wider > now - fit.problem.settings.rival.absurd:
+        return None
     better = maximise(problem, begin, rounds=ROUNDS, tolerance=0.3)
     inner = np.eye(count) + expansion.compute_channel_information() * np.outer(widths, widths)
     price = 0.5 * float(np.sum((sizes / widths) ** 2)) + 0.5 * float(np.linalg.slogdet(inner)[1])
