@@ -14,7 +14,7 @@ import numpy as np
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import HOPELESS, Fit, maximise, raise_random_force, restart
 from lostmotion.inference.natural import compute_size, list_tried_values
-from lostmotion.inference.random_force import has_usual_random_force
+from lostmotion.inference.random_force import compute_random_force_gain
 from lostmotion.likelihood.problem import FreeParameter, Problem
 from lostmotion.likelihood.system import Slot
 
@@ -45,24 +45,28 @@ def try_far_values(fit: Fit, slot: Slot, key: str) -> FarValue | None:
 
     The other parameters are refitted roughly, on the beginning of the recording. It is done for the nominal model
     alone: a missing term of this size is evident there. An amplitude with a scan is tried where a random force beyond
-    the usual is left, also from the middle of the priors, because a gap makes a spring seem far too soft.
+    the usual gains more than a far value must gain, also from the middle of the priors, because a gap makes a spring
+    seem far too soft.
     """
+    least = fit.problem.settings.select.far
     values = [factor * compute_size(slot.param, fit.problem.scales) for factor in slot.param.far]
-    scanned = bool(slot.param.scan) and not has_usual_random_force(fit)
+    scanned = bool(slot.param.scan) and compute_random_force_gain(fit) > least
     if scanned:
         values += list_tried_values(slot.param, fit.problem.scales)
     if not values:
         return None
-    short = fit.problem.on(tuple(t.part(0, min(t.samples, SHORT)) for t in fit.problem.observations))
-    bottom = maximise(restart(replace(fit, problem=short)), fit.theta, rounds=2)
+    bottom = _shorten(fit)
+    short = bottom.problem
     wider = short.extend((hold_shape(slot),), {key})
     theta = raise_random_force(short, bottom.theta, RAISED)
     log_densities = wider.log_likelihoods(np.array([np.append(theta, value) for value in values]))
     best: FarValue | None = None
-    least = fit.problem.settings.select.far
     for i in np.argsort(-log_densities)[:MOST_TRIED]:
         trial = _hold_value(short, slot, key, values[i])
-        refits: list[tuple[Fit, Array | None]] = [(maximise(trial, bottom.theta, rounds=ROUNDS, tolerance=1.0), None)]
+        near = maximise(
+            trial, bottom.theta, rounds=ROUNDS, tolerance=1.0, hopeless=bottom.local.log_posterior, patience=1
+        )
+        refits: list[tuple[Fit, Array | None]] = [(near, None)]
         if scanned:
             begin = raise_random_force(short, short.start, RAISED_MOST)
             lost = bottom.local.log_posterior - HOPELESS
@@ -73,6 +77,15 @@ def try_far_values(fit: Fit, slot: Slot, key: str) -> FarValue | None:
             if gain > (best.gain if best else least):
                 best = FarValue(values[i], gain, base)
     return best
+
+
+def _shorten(fit: Fit) -> Fit:
+    """Return the fit to the beginning of the recordings; it is the fit itself where they are short."""
+    observations = fit.problem.observations
+    if all(t.samples <= SHORT for t in observations):
+        return fit
+    short = fit.problem.on(tuple(t.part(0, min(t.samples, SHORT)) for t in observations))
+    return maximise(restart(replace(fit, problem=short)), fit.theta, rounds=2)
 
 
 def _hold_value(problem: Problem, slot: Slot, key: str, value: float) -> Problem:

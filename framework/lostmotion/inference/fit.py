@@ -209,11 +209,12 @@ def maximise(
     rounds: int = 40,
     tolerance: float = 0.02,
     hopeless: float = -math.inf,
+    patience: int = 3,
 ) -> Fit:
     """Return the maximum of the log posterior near `theta`, by damped Fisher scoring within the bounds.
 
     It has converged when a full step predicts a gain of less than `tolerance` in log posterior. It is abandoned when
-    after a few rounds five times the predicted gain would not reach `hopeless`.
+    after `patience` rounds five times the predicted gain would not reach `hopeless`.
     """
     point = problem.clip(problem.start if theta is None else theta)
     local = expand(problem, point, choose_first_steps(problem))
@@ -229,7 +230,7 @@ def maximise(
         promise = _compute_step(problem, curved, damping)[1]
         if promise < tolerance:
             return Fit(problem, local, "converged", turn)
-        if turn >= 3 and local.log_posterior + 5.0 * promise < hopeless:
+        if turn >= patience and local.log_posterior + 5.0 * promise < hopeless:
             return Fit(problem, local, "abandoned", turn)
         better = _climb(problem, curved, damping)
         if better is not None:
