@@ -56,21 +56,18 @@ def try_far_values(fit: Fit, slot: Slot, key: str) -> FarValue | None:
     if not values:
         return None
     bottom = _shorten(fit)
-    short = bottom.problem
+    short, nominal = bottom.problem, bottom.local.log_posterior
     wider = short.extend((hold_shape(slot),), {key})
     theta = raise_random_force(short, bottom.theta, RAISED)
     log_densities = wider.log_likelihoods(np.array([np.append(theta, value) for value in values]))
     best: FarValue | None = None
     for i in np.argsort(-log_densities)[:MOST_TRIED]:
         trial = _hold_value(short, slot, key, values[i])
-        near = maximise(
-            trial, bottom.theta, rounds=ROUNDS, tolerance=1.0, hopeless=bottom.local.log_posterior, patience=1
-        )
+        near = maximise(trial, bottom.theta, rounds=ROUNDS, tolerance=1.0, hopeless=nominal, patience=1)
         refits: list[tuple[Fit, Array | None]] = [(near, None)]
         if scanned:
             begin = raise_random_force(short, short.start, RAISED_MOST)
-            lost = bottom.local.log_posterior - HOPELESS
-            other = maximise(trial, begin, rounds=MORE_ROUNDS, tolerance=1.0, hopeless=lost)
+            other = maximise(trial, begin, rounds=MORE_ROUNDS, tolerance=1.0, hopeless=nominal - HOPELESS)
             refits.append((other, other.theta))
         for found, base in refits:
             gain = found.log_likelihood - bottom.log_likelihood

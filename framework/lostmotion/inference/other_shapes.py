@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from functools import partial
 
 import numpy as np
 
@@ -62,7 +63,7 @@ def find_modes(fit: Fit, *, reach: float = math.inf) -> list[Fit]:
 def refit_shapes(fit: Fit) -> Fit:
     """Return the best fit of a set of terms from other shapes, and with other choices of them."""
     for _ in range(AGAIN):
-        before, fit = fit, find_modes(fit)[0]
+        before, fit = fit, find_modes(fit, reach=BETTER)[0]
         if not fit.log_evidence > before.log_evidence + BETTER:
             break
     return refit_choices(fit, fit.problem.active)
@@ -97,8 +98,8 @@ def refit_complete(fit: Fit) -> list[Fit]:
 
 def _maximise_each(problems: Sequence[Problem], starts: Sequence[Array], fit: Fit, hopeless: float) -> list[Fit]:
     """Return the converged fits, best first; those that would stay below a log posterior are abandoned."""
-    pairs = list(zip(problems, starts, strict=True))
-    found = each(lambda pair: maximise(pair[0], pair[1], hopeless=hopeless, tolerance=ROUGHLY), pairs, fit.problem.jobs)
+    climb = partial(maximise, hopeless=hopeless, tolerance=ROUGHLY, patience=1)
+    found = each(lambda pair: climb(*pair), list(zip(problems, starts, strict=True)), fit.problem.jobs)
     return sorted((f for f in found if f.status == "converged"), key=lambda f: -f.local.log_posterior)
 
 
