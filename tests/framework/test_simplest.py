@@ -24,6 +24,8 @@ NOTHING = SimpleNamespace(active=frozenset())
         ({"a": 40.0, "ab": 42.0}, {"a": 9.0, "ab": 9.0, "smooth": 10.0, "": 0.0}, 30.0, "a"),
         ({"a": 40.0, "ab": 45.0}, {"a": 9.0, "ab": 9.0, "smooth": 10.0, "": 0.0}, 30.0, "ab"),
         ({"a": 40.0, "b": 41.0}, {"a": 9.0, "b": 1.0, "smooth": 10.0, "": 0.0}, 30.0, "a"),
+        ({"a": 40.0, "b": 40.0}, {"a": 9.0, "b": 9.0, "smooth": 10.0, "": 0.0}, 30.0, "a"),
+        ({"a": 40.2, "b": 40.0, "c": 40.0}, {"a": 9.0, "b": 9.0, "c": 9.0, "smooth": 10.0, "": 0.0}, 30.0, None),
         ({"a": 11.4}, {"a": 9.0, "smooth": 10.0, "": 0.0}, 0.0, None),
         ({"l": 40.0}, {"l": 9.0, "smooth": 10.0, "": 0.0}, 30.0, None),
         ({"u": 40.0}, {"u": 9.0, "smooth": 10.0, "": 0.0}, 30.0, "u"),
@@ -33,7 +35,8 @@ NOTHING = SimpleNamespace(active=frozenset())
 def test_a_law_better_than_any_curve_is_the_simplest_explanation(monkeypatch, weights, scores, curve, chosen):
     """It beats the learned curve and the usual channel errors (8.5 fitted), and predicts held-out data as well.
 
-    With `l` a random force is left. `u` is a delay that is usual in acquisition systems; it may be the only term.
+    Three terms that are about equally probable are no explanation; a term that predicts worse does not count. With `l`
+    a random force is left. `u` is a delay that is usual in acquisition systems; it may be the only term.
     """
     fits = {k: SimpleNamespace(status="converged", key=k, problem=NOTHING) for k in scores}
     nominal = SimpleNamespace(problem=SimpleNamespace(active=frozenset(), settings=DEFAULT))

@@ -174,7 +174,8 @@ def find_simplest(outcome: Outcome, observations: Sequence[Observation]) -> tupl
     if its log evidence less the prior penalties exceeds that of the best learned curve, of the chosen set, and of the
     usual errors of known values and channels (as predicted, or as fitted if that is less), and if it predicts held-out
     data as well as the best of them. It is no extension of chosen terms, and no other such set is decisively better.
-    Its terms are reported as likely, because a smooth force explains about as much.
+    Its terms are reported as likely, because a smooth force explains about as much, and only if no other term is about
+    as probable. Sets that predict held-out data worse have no probability.
     """
     d, selection = outcome.diagnosis, outcome.diagnosis.selection
     here = selection.fitted_sets.get(selection.chosen.problem.active)
@@ -196,10 +197,13 @@ def find_simplest(outcome: Outcome, observations: Sequence[Observation]) -> tupl
     )
     if best is None:
         return None
-    weights = [(v.terms, v.weight) for v in sets] + [(here.terms, here.weight + curve)]
+    refuted = good[: good.index(best)]
+    weights = [(v.terms, v.weight) for v in sets if v not in refuted] + [(here.terms, here.weight + curve)]
     total = float(np.logaddexp.reduce([weight for _, weight in weights]))
     keys = sorted({key for terms, _ in weights for key in terms})
     shares = {key: sum(math.exp(weight - total) for terms, weight in weights if key in terms) for key in keys}
+    if any(shares[key] < d.settings.name.simplest_share for key in best.terms):
+        return None
     return best.fit, SimplestTerms({key: d.settings.name.simplest * share for key, share in shares.items()}, curve)
 
 

@@ -285,6 +285,12 @@ class NameSettings:
         " its probability among the terms times this: the smooth force may be real.",
         most=1.0,
     )
+    simplest_share: float = threshold(
+        0.45,
+        "The terms of the simplest explanation have at least this share of the probability among all terms: with less,"
+        " several terms explain the data about equally well, and none is reported.",
+        most=1.0,
+    )
     rival: float = threshold(
         0.05, "A set of terms with a larger share of the posterior is reported as a rival.", most=1.0
     )
