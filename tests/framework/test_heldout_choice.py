@@ -79,6 +79,29 @@ def test_what_makes_predictions_worse_is_taken_back_until_they_are_not(monkeypat
 NOTHING = SimpleNamespace(active=frozenset())
 
 
+def make_outcome(monkeypatch, weights, scores, leads, tied, begun=""):
+    """Return an outcome with fitted sets, named by the letters of their terms.
+
+    `scores` are those of held-out data, also of a force that is `smooth` if there is one; `leads` are the log odds over
+    the set without the further term, and `begun` is the chosen set. `s` is a usual error of a channel.
+    """
+    fits = {k: SimpleNamespace(status="converged", key=k, problem=NOTHING) for k in scores}
+    rival = SimpleNamespace(fit=fits["smooth"], corrected=None) if "smooth" in fits else None
+    selection = SimpleNamespace(
+        chosen=SimpleNamespace(problem=SimpleNamespace(active=frozenset(begun))),
+        fitted_sets={frozenset(k): TermSet(frozenset(k), fits[k], weight) for k, weight in weights.items()},
+        tied=tied,
+        compute_log_odds=lambda term_set, over: leads["".join(sorted(term_set.terms))],
+        fit_discrepancy=lambda term_set: None,
+        discrepancy_fit=lambda term_set: rival,
+        expansion=lambda term_set: SimpleNamespace(inflation=1.0),
+    )
+    monkeypatch.setattr(confirming, "find_term", lambda problem, key: (SimpleNamespace(usual=key == "s"), ()))
+    monkeypatch.setattr(confirming, "score_heldout", lambda fit, pieces: scores[fit.key])
+    monkeypatch.setattr(confirming, "cut_heldout", lambda observations, held: ())
+    return SimpleNamespace(diagnosis=SimpleNamespace(selection=selection, learned=None, held=(), settings=DEFAULT))
+
+
 @pytest.mark.parametrize(
     ("scores", "leads", "chosen"),
     [
@@ -97,22 +120,9 @@ def test_held_out_data_decide_between_a_term_and_a_smooth_force(monkeypatch, sco
 
     `s` is a delay of a sensor: where it explains all data better, they do not decide for the force.
     """
-    fits = {k: SimpleNamespace(status="converged", key=k, problem=NOTHING) for k in scores}
-    fitted_sets = {frozenset(k): TermSet(frozenset(k), fits[k], 50.0 if k else 0.0) for k in ("", *leads)}
-    selection = SimpleNamespace(
-        chosen=SimpleNamespace(problem=SimpleNamespace(active=frozenset())),
-        fitted_sets=fitted_sets,
-        tied=set(leads),
-        compute_log_odds=lambda term_set, here: leads["".join(term_set.terms)],
-        fit_discrepancy=lambda term_set: None,
-        discrepancy_fit=lambda term_set: SimpleNamespace(fit=fits["smooth"], corrected=None),
-        expansion=lambda term_set: SimpleNamespace(inflation=1.0),
-    )
-    monkeypatch.setattr(confirming, "find_term", lambda problem, key: (SimpleNamespace(usual=key == "s"), ()))
-    monkeypatch.setattr(confirming, "score_heldout", lambda fit, pieces: scores[fit.key])
-    monkeypatch.setattr(confirming, "cut_heldout", lambda observations, held: ())
-    d = SimpleNamespace(selection=selection, learned=None, held=(), settings=DEFAULT)
-    found = confirming.decide_by_heldout(SimpleNamespace(diagnosis=d), ())
+    weights = {k: 50.0 if k else 0.0 for k in ("", *leads)}
+    outcome = make_outcome(monkeypatch, weights, scores, leads, set(leads))
+    found = confirming.decide_by_heldout(outcome, ())
     assert (found and found[0].key) == chosen
 
 
@@ -120,21 +130,9 @@ def test_held_out_data_decide_between_a_term_and_a_smooth_force(monkeypatch, sco
 def test_a_term_that_stood_for_a_further_one_is_not_kept_beside_it(monkeypatch, weight, chosen):
     """`b` was chosen first, `a` is to be added: without `b` the set has more weight, or less."""
     weights = {"": 0.0, "b": 30.0, "a": weight, "ab": 80.0}
-    fits = {k: SimpleNamespace(status="converged", key=k, problem=NOTHING) for k in weights}
-    selection = SimpleNamespace(
-        chosen=SimpleNamespace(problem=SimpleNamespace(active=frozenset("b"))),
-        fitted_sets={frozenset(k): TermSet(frozenset(k), fits[k], w) for k, w in weights.items()},
-        tied={"a"},
-        compute_log_odds=lambda term_set, over: 1.0,
-        fit_discrepancy=lambda term_set: None,
-        discrepancy_fit=lambda term_set: None,
-        expansion=lambda term_set: SimpleNamespace(inflation=1.0),
-    )
-    monkeypatch.setattr(confirming, "find_term", lambda problem, key: (SimpleNamespace(usual=False), ()))
-    monkeypatch.setattr(confirming, "score_heldout", lambda fit, pieces: 20.0 * ("a" in fit.key))
-    monkeypatch.setattr(confirming, "cut_heldout", lambda observations, held: ())
-    d = SimpleNamespace(selection=selection, learned=None, held=(), settings=DEFAULT)
-    fit, gains = confirming.decide_by_heldout(SimpleNamespace(diagnosis=d), ())
+    scores = {k: 20.0 * ("a" in k) for k in weights}
+    outcome = make_outcome(monkeypatch, weights, scores, dict.fromkeys(weights, 1.0), {"a"}, begun="b")
+    fit, gains = confirming.decide_by_heldout(outcome, ())
     assert fit.key == chosen
     assert gains == {frozenset(chosen): 20.0}
 

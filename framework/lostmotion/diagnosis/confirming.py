@@ -134,17 +134,17 @@ def decide_by_heldout(
     close = sorted(close, key=lambda v: -selection.compute_log_odds(*v))[:MOST_COMPARED]
     if not close:
         return None
-    pieces, gains = cut_heldout(observations, d.held), dict[frozenset[str], float]()
+    channels = _list_tied(selection, here, decisive, channels=True)
+    pieces, measured = cut_heldout(observations, d.held), dict[frozenset[str], dict[frozenset[str], float]]()
     for base in {v.without.terms: v.without for v in close}.values():
         sets = [v.term_set for v in close if v.without is base]
-        gains |= _measure_heldout_gains(d, sets, base, pieces)
+        measured[base.terms] = _measure_heldout_gains(d, [*sets, *channels], base, pieces)
+    gains = {v.term_set.terms: measured[v.without.terms][v.term_set.terms] for v in close}
     best = max(close, key=lambda v: selection.compute_log_odds(*v) + gains[v.term_set.terms])
-    gain = gains[best.term_set.terms]
+    gain, rivals = gains[best.term_set.terms], measured[best.without.terms]
     if not selection.compute_log_odds(*best) + gain - math.log(len(close)) > decisive:
         return None
-    channels = _list_tied(selection, here, decisive, channels=True)
-    measured = _measure_heldout_gains(d, channels, best.without, pieces)
-    if any(v.weight + measured[v.terms] > best.term_set.weight + gain for v in channels):
+    if any(v.weight + rivals[v.terms] > best.term_set.weight + gain for v in channels):
         return None
     return best.term_set.fit, gains
 

@@ -53,13 +53,13 @@ def correct_channels(expansion: DiscrepancyExpansion, before: CorrectedFit | Non
     most = fit.problem.settings.rival.correction * widths
     sizes = np.clip(already + best.mean[-count:], -most, most)
     wider, changes = (before.log_jacobian, before.changes) if before else (0.0, ())
+    now = fit.local.log_posterior + wider
     for channel_error, size in zip(expansion.channel_errors, map(float, sizes - already), strict=True):
         observations = tuple(channel_error.change(o, size) for o in observations)
         wider += channel_error.log_jacobian * size
         changes += ((channel_error.change, size),)
     problem = restart(fit).on(observations)
     begin = problem.clip(expansion.shift_coordinates(sizes - already))
-    now = fit.local.log_posterior + (before.log_jacobian if before else 0.0)
     if not problem.log_posterior(begin) + wider > now - fit.problem.settings.rival.absurd:
         return None
     better = maximise(problem, begin, rounds=ROUNDS, tolerance=0.3)
