@@ -144,6 +144,9 @@ def simulate(draft, channel, factor):
     effects = (draft.effect(factor),) if draft.effect else ()
     if any(effect.parameters.get("error", 0.0) < LEAST_ERROR for effect in effects):
         raise ValueError("the drive or the sensor would be reversed, or nearly without effect")
+    cycle = 2.0 * math.pi / max(omega for _, omega, _ in rig.signal.tones)
+    if any(e.mechanism in LATE and max(e.parameters.values()) > cycle for e in effects):
+        raise ValueError("the delay or lag would be longer than a cycle of the drive")
     hidden = convert_effects(rig, effects)
     truth = simulate_machine(BlindMachine(**{**vars(rig), "channel": channel}), *hidden, make_rng(draft))
     own = simulate_machine(rig, *hidden, make_rng(draft))
