@@ -11,7 +11,9 @@ import numpy as np
 import pytest
 from truths import fit_oscillator
 
+from lostmotion.inference import candidates
 from lostmotion.inference.candidates import compute_slopes, run_score_test
+from lostmotion.inference.fit import restart
 from lostmotion.inference.refits import Refits, refit_from
 from lostmotion.inference.resonance_scan import scan_resonances
 from lostmotion.inference.term_sets import Selection, TermSet
@@ -24,11 +26,24 @@ table = importlib.util.module_from_spec(SPEC)
 sys.modules[SPEC.name] = table
 SPEC.loader.exec_module(table)
 
+EVERY = (
+    "coulomb_friction",
+    "cubic_stiffness",
+    "quadratic_damping",
+    "directional_damping",
+    "end_stop",
+    "cogging",
+    "dahl_friction",
+    "hidden_mode",
+    "drive_saturation",
+    "excitation_gain",
+    "sensor_lag",
+)
 NATURAL = 20.0 / (2.0 * np.pi)
 """The natural frequency (Hz) of the oscillator; the usual values of a hidden one are 1.93 times apart."""
 
 
-def shaken(ratio, tone=6.2, damping=0.02):
+def shaken(ratio, tone=6.2, damping=0.02, terms=("hidden_mode",)):
     """Return the fit of a linear oscillator that carries `ratio` of its mass on a spring at `tone` (Hz), by leapfrog.
 
     Its acceleration is recorded under twelve tones up to three times its natural frequency.
@@ -49,13 +64,15 @@ def shaken(ratio, tone=6.2, damping=0.02):
     times = dt * np.arange(samples)
     drive = sum(np.cos(line * times + 1.7 * line) for line in lines)[:, None]
     shown = seen + 0.03 * seen.std() * rng.standard_normal(samples)
-    return fit_oscillator(Observation.of("seen", shown, drive, dt, "acceleration"), rng, terms=("hidden_mode",))
+    return fit_oscillator(Observation.of("seen", shown, drive, dt, "acceleration"), rng, terms=terms)
 
 
-def test_a_narrow_resonance_between_the_usual_frequencies_is_scanned_for():
-    fit = shaken(0.01)
+@pytest.mark.parametrize(("ratio", "damping"), [(0.01, 0.005), (0.01, 0.02), (0.04, 0.1)])
+def test_a_resonance_between_the_usual_frequencies_is_scanned_for(ratio, damping):
+    """The scan is made with one damping, which may be six times too large or a third of the true one."""
+    fit = shaken(ratio, damping=damping)
     (shape,) = scan_resonances(fit)["hidden_mode"]
-    assert shape["hidden_mode.frequency"] == pytest.approx(6.2, rel=0.05)
+    assert shape["hidden_mode.frequency"] == pytest.approx(6.2, rel=0.06)
     slopes = compute_slopes(fit)
     usual, scanned = (run_score_test(fit, slopes, "hidden_mode", more) for more in ((), (shape,)))
     assert scanned.gain > usual.gain + 10.0
@@ -63,6 +80,20 @@ def test_a_narrow_resonance_between_the_usual_frequencies_is_scanned_for():
 
 def test_without_a_hidden_mass_there_is_no_resonance():
     assert scan_resonances(shaken(0.0)) == {}
+
+
+@pytest.mark.parametrize("ratio", [0.0, 0.01])
+def test_a_small_gain_is_not_computed_again_and_stays_small(monkeypatch, ratio):
+    """Without the limit all gains are computed with larger differences: none becomes promising, none is lost."""
+    fit = shaken(ratio, terms=EVERY)
+    slopes, limits = compute_slopes(fit), fit.problem.settings.select
+    once = {key: run_score_test(fit, slopes, key).gain for key in fit.problem.system.keys}
+    monkeypatch.setattr(candidates, "SMALL", -1.0)
+    again = {key: run_score_test(fit, slopes, key).gain for key in fit.problem.system.keys}
+    assert {k for k, gain in once.items() if gain > limits.promising} == {
+        k for k, gain in again.items() if gain > limits.promising
+    }
+    assert max(abs(once[k] - again[k]) for k in once) < 0.5 * limits.promising
 
 
 def test_a_fit_at_a_wrong_division_of_scatter_begins_again_at_the_noise_of_the_best_one():
@@ -80,6 +111,23 @@ def test_a_fit_at_a_wrong_division_of_scatter_begins_again_at_the_noise_of_the_b
     assert far.terms == {"wrong"}
     assert refits.take_far(selection, sets[frozenset({"best"})]) == []
     assert refit_from(far.fit, best).local.log_posterior == pytest.approx(best.local.log_posterior, abs=0.1)
+
+
+@pytest.mark.parametrize(("log_random_force", "simple", "taken"), [(0.0, 9.0, 0), (0.0, 3.0, 1), (9.0, 9.0, 1)])
+def test_no_other_pitch_is_tried_where_plain_friction_leaves_nothing(log_random_force, simple, taken):
+    """A wave of friction beside plain friction: with what random force (log of the usual one), at which weight."""
+    drive = np.cos(15.0 * 0.01 * np.arange(300))[:, None]
+    shown = 0.01 * np.sin(15.0 * 0.01 * np.arange(300)) + 1e-4 * np.random.default_rng(3).standard_normal(300)
+    terms = ("coulomb_friction", "position_dependent_friction")
+    fit = fit_oscillator(Observation.of("seen", shown, drive, 0.01, "position"), np.random.default_rng(3), terms=terms)
+    waved = restart(fit).extend((), {"position_dependent_friction"})
+    theta = fit.theta.copy()
+    theta[waved.keys.index(RANDOM)] = waved.free[waved.keys.index(RANDOM)].mean + log_random_force
+    waved = replace(fit, problem=waved, local=replace(fit.local, theta=theta), status="converged")
+    pairs = zip(terms, (fit, waved), (simple, 5.0), strict=True)
+    sets = [TermSet(frozenset({name}), one, weight) for name, one, weight in pairs]
+    selection = Selection(fit, fit, {v.terms: v for v in sets})
+    assert len(Refits().take_shaped(selection)) == taken
 
 
 @pytest.mark.slow

@@ -13,6 +13,7 @@ from lostmotion.diagnosis.compare import Prediction
 from lostmotion.diagnosis.search import SearchResult
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.natural import find_term
+from lostmotion.inference.penalties import is_simpler
 from lostmotion.inference.term_sets import SimplestTerms
 from lostmotion.quantities import TIME
 from lostmotion.report.words import to_words
@@ -33,12 +34,14 @@ def compute_probability(d: SearchResult, key: str) -> float:
 
     Where friction drifts, there is friction.
     """
-    return _sum_probabilities(d, key, lambda term, other: _contains(other, term))
+    return _sum_probabilities(d, key, is_simpler)
 
 
 def _compute_equal_probability(d: SearchResult, key: str) -> float:
     """Return that probability, with that of terms that this kind of recording cannot distinguish from the term."""
-    return _sum_probabilities(d, key, lambda term, other: _contains(other, term) or _are_indistinguishable(term, other))
+    return _sum_probabilities(
+        d, key, lambda term, other: is_simpler(term, other) or _are_indistinguishable(term, other)
+    )
 
 
 def _sum_probabilities(d: SearchResult, key: str, is_kin: Callable[[Term, Term], bool]) -> float:
@@ -47,11 +50,6 @@ def _sum_probabilities(d: SearchResult, key: str, is_kin: Callable[[Term, Term],
     system = d.before.problem.system
     kin = {k for k, other in zip(system.keys, system.terms, strict=True) if is_kin(term, other)}
     return min(sum(d.selection.inclusion(k) for k in sorted({key} | kin)), 1.0)
-
-
-def _contains(law: Term, simpler: Term) -> bool:
-    """Return whether a law at the same place has a simpler one as a special case."""
-    return law.at == simpler.at and simpler.name in law.extends
 
 
 def _are_indistinguishable(term: Term, other: Term) -> bool:
@@ -120,7 +118,7 @@ def _warn_of_equal_terms(d: SearchResult, key: str) -> Iterator[str]:
             continue
         near = chosen.log_evidence - term_set.fit.log_evidence < d.settings.name.related
         if near and not any(
-            _are_indistinguishable(own, t) or _contains(t, own) for t in (find_term(problem, k)[0] for k in fresh)
+            _are_indistinguishable(own, t) or is_simpler(own, t) for t in (find_term(problem, k)[0] for k in fresh)
         ):
             names = " and ".join(
                 [_name_term(d, fresh[0]), *(to_words(find_term(problem, k)[0].name) for k in fresh[1:])]

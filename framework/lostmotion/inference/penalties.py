@@ -13,6 +13,11 @@ def are_related(one: Term, other: Term) -> bool:
     return one.at == other.at and (other.name in one.resembles or one.name in other.resembles)
 
 
+def is_simpler(one: Term, other: Term) -> bool:
+    """Return whether a term is a simpler law that another one at the same place contains."""
+    return one.at == other.at and one.name in other.extends
+
+
 def compute_penalty(term: Term, many: int, settings: Settings = DEFAULT) -> float:
     """Return the log prior penalty of a term: one of `many`, a factor e, its further parameters and its choices.
 

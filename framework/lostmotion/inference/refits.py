@@ -6,7 +6,9 @@ from dataclasses import dataclass, field
 
 from lostmotion.inference.candidates import refit_with_noise
 from lostmotion.inference.fit import Fit, maximise, raise_random_force, use_one_core
+from lostmotion.inference.natural import find_term
 from lostmotion.inference.other_shapes import has_other_shapes, refit_choices
+from lostmotion.inference.penalties import is_simpler
 from lostmotion.inference.random_force import has_usual_random_force
 from lostmotion.inference.term_sets import CLOSE, Selection, TermSet
 from lostmotion.inference.unseen import lacks_position, refit_start_in_play
@@ -70,11 +72,12 @@ class Refits:
         """Return the best sets with shapes from which they were not refitted yet, and count them as refitted.
 
         A wave at a wrong pitch is far behind, so sets count that are further from the best one than close ones. Those
-        that are no better than one of their subsets do not.
+        that are no better than one of their subsets do not. If no random force remains, other shapes have nothing to
+        explain, and those that are no better than a set with a simpler law do not count either.
         """
         sets = sorted(selection.fitted_sets.values(), key=lambda v: -v.weight)
         near = [v for v in sets if v.weight > sets[0].weight - WAVED and v.terms not in self.shaped]
-        near = [v for v in near if not any(w.terms < v.terms and w.weight > v.weight for w in sets)]
+        near = [v for v in near if not any(w.weight > v.weight and _is_enough(w, v) for w in sets)]
         taken = [v for v in near if v.fit.status == "converged" and has_other_shapes(v.fit.problem)][:MOST_SHAPED]
         self.shaped.update(v.terms for v in taken)
         return taken
@@ -88,6 +91,17 @@ class Refits:
             return None
         self.own.add(term_set.terms)
         return refit_start_in_play(term_set.fit)
+
+
+def _is_enough(less: TermSet, more: TermSet) -> bool:
+    """Return whether a set is a subset of another one, or has simpler laws in it and no random force remains."""
+    extra, dropped = less.terms - more.terms, more.terms - less.terms
+    if not extra:
+        return bool(dropped)
+    problem = more.fit.problem
+    laws = [[find_term(problem, key)[0] for key in sorted(keys)] for keys in (extra, dropped)]
+    simpler = all(any(is_simpler(one, other) for other in laws[1]) for one in laws[0])
+    return simpler and len(less.terms) <= len(more.terms) and has_usual_random_force(more.fit)
 
 
 def refit_with_terms(fit: Fit) -> Fit:

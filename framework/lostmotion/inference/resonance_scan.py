@@ -15,7 +15,7 @@ import numpy as np
 
 from lostmotion.inference.candidates import compute_slopes, run_score_test
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.natural import compute_size, find_term, list_tried_values, sort_slots
+from lostmotion.inference.natural import compute_size, find_term, sort_slots
 from lostmotion.likelihood.problem import Problem
 from lostmotion.likelihood.system import Slot
 from lostmotion.quantities import FREQUENCY
@@ -48,10 +48,13 @@ def _list_resonances(problem: Problem, key: str) -> list[Slot]:
 
 
 def _list_shapes(problem: Problem, key: str) -> list[Mapping[str, float]]:
-    """Return each frequency over its range together with each usual value of the other shapes."""
+    """Return each frequency over its range, with the other shapes at their typical values.
+
+    A mode with a third or three times the typical damping keeps most of its gain.
+    """
     fine = {s.key for s in _list_resonances(problem, key)}
     shapes = sort_slots(problem, key)[1]
-    grids = [_make_grid(s, problem) if s.key in fine else list_tried_values(s.param, problem.scales) for s in shapes]
+    grids = [_make_grid(s, problem) if s.key in fine else [compute_size(s.param, problem.scales)] for s in shapes]
     return [dict(zip((s.key for s in shapes), values, strict=True)) for values in itertools.product(*grids)]
 
 

@@ -218,23 +218,24 @@ class Selector:
         near = [v for v in good if log_odds[v.terms] > max(log_odds.values()) - self.limits.decisive]
         behind = [v for v in good if v not in near]
         for term_set in [*sorted(near, key=lambda v: -v.weight), *sorted(behind, key=lambda v: -log_odds[v.terms])]:
-            if not log_odds[term_set.terms] > needs[term_set.terms]:
-                self.selection.tied |= term_set.terms - here.terms if term_set.terms > here.terms else frozenset()
-                continue
-            robust = term_set if self._checks.is_robust(term_set, here) else self._drop_vague_term(term_set, here)
-            if robust is not None:
-                self.selection.chosen = robust.fit
+            better = log_odds[term_set.terms] > needs[term_set.terms]
+            sound = better and self._checks.is_robust(term_set, here)
+            if (taken := term_set if sound else self._drop_vague_term(term_set, here)) is not None:
+                self.selection.chosen = taken.fit
                 self.selection.declined.clear()
                 self.selection.tied = set()
                 return True
-            self.selection.declined.update(term_set.terms - here.terms)
+            if better:
+                self.selection.declined.update(term_set.terms - here.terms)
+            elif term_set.terms > here.terms:
+                self.selection.tied |= term_set.terms - here.terms
         return False
 
     def _drop_vague_term(self, term_set: TermSet, here: TermSet) -> TermSet | None:
         """Return a set without the chosen term that its further terms make most vague; None if that is no better.
 
         The further terms may be what the chosen one only imitated: a damping that differs by direction looks like a
-        constant force.
+        constant force. Both together may be no better than a smooth force, because the vague one has its penalty too.
         """
         vague = [key for key in self._checks.list_vague(term_set) if key in here.terms]
         if not vague or term_set.terms - {vague[0]} in self._built_on:

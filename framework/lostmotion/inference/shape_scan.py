@@ -128,7 +128,9 @@ class SensorErrors:
 
     def measure_steadiness(self, key: str, shapes: Sequence[Mapping[str, float]]) -> Array:
         """Return the correlations (shapes,) of a sensor term with the errors in standard errors, as of a law."""
-        return np.concatenate([_combine_steadiness(self._bend(key, shape)[None], self.gradient) for shape in shapes])
+        batches = [shapes[i : i + TOGETHER] for i in range(0, len(shapes), TOGETHER)]
+        bent = (np.stack([self._bend(key, shape) for shape in batch]) for batch in batches)
+        return np.concatenate([_combine_steadiness(laws, self.gradient) for laws in bent])
 
     def _bend(self, key: str, shape: Mapping[str, float]) -> Array:
         """Return the error of the sensor by each amplitude alone at its typical size, (samples, amplitudes)."""
