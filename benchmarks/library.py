@@ -315,11 +315,14 @@ def check_coverage(row):
     ]
 
 
+SIMPLER = "a simpler law that the hidden one contains"
+
+
 def explain_miss(row):
     """Return why a hidden term was not named: a simpler law, or an alternative that is stated; empty for neither."""
     law, found = default().load("term", row["name"]), [f for f in row["found"] if f["mechanism"] != "unknown"]
     if any(f["mechanism"] in law.extends for f in found):
-        return "a simpler law that the hidden one contains"
+        return SIMPLER
     words = to_words(row["name"]).lower()
     if any(words in doubt.lower() for f in found for doubt in f.get("doubts", ())):
         return "the hidden one is stated as an alternative"
@@ -332,12 +335,16 @@ BINS = (0.0, 20.0, 50.0, 150.0, MOST, math.inf)
 
 
 def format_line(rows):
-    """Return the numbers of named machines, intervals with the truth and wrong names, and the median time, as text."""
+    """Return the numbers of named machines, intervals with the truth and wrong names, and the median time, as text.
+
+    The number in brackets is that of the wrong names that are a simpler law contained in the hidden one.
+    """
     hits = sum(list_names(r)[1] for r in rows)
     held = [ok for r in rows for ok in check_coverage(r)]
     extra = sum(sum(bool(n) for n in list_names(r)[0]) for r in rows)
+    simpler = sum(explain_miss(r) == SIMPLER for r in rows if not list_names(r)[1])
     seconds = float(np.median([r["seconds"] for r in rows]))
-    return f"{hits} of {len(rows)} | {sum(held)} of {len(held)} | {extra} | {seconds:.0f} |"
+    return f"{hits} of {len(rows)} | {sum(held)} of {len(held)} | {extra} ({simpler}) | {seconds:.0f} |"
 
 
 def print_summary(rows):
@@ -347,7 +354,7 @@ def print_summary(rows):
     """
     hidden = [r for r in rows if r.get("status") == 0 and r["name"] != "clean"]
     good = [r for r in hidden if isinstance(r.get("reached"), float)]
-    heads = "named | intervals that hold | names too many | seconds (median)"
+    heads = "named | intervals that hold | names too many (a simpler law) | seconds (median)"
     print(f"\n| gain | {heads} |\n|{'---|' * 5}")
     for low, high in itertools.pairwise(BINS):
         if own := [r for r in good if low <= r["reached"] < high]:

@@ -9,6 +9,7 @@ import pytest
 
 from lostmotion.inference import robustness
 from lostmotion.inference.robustness import RobustChecks
+from lostmotion.inference.selection import Selector
 from lostmotion.inference.significance import Significance
 from lostmotion.inference.term_sets import TermSet
 from lostmotion.likelihood.problem import RANDOM
@@ -67,3 +68,41 @@ def test_significance_is_measured_once_for_each_fit(monkeypatch):
     for term_set in (first, first, second):
         checks.list_vague(term_set)
     assert calls == [first.fit, second.fit]
+
+
+def selector_of(monkeypatch, deviations, odds):
+    """Return a selector with friction and an offset chosen, and damping beside them; the damping makes one vague."""
+    weights = {"friction offset": 100.0, "damping friction offset": 140.0, "damping friction": 135.0}
+    made = {}
+    for names, weight in weights.items():
+        terms = frozenset(names.split())
+        fit = SimpleNamespace(problem=SimpleNamespace(active=terms, settings=DEFAULT))
+        made[terms] = TermSet(terms, fit, weight)
+    less = made.pop(frozenset({"damping", "friction"}))
+    monkeypatch.setattr(robustness, "measure_significance", lambda fit: Significance(deviations, 1.5))
+    selector = object.__new__(Selector)
+    selector.limits, selector._built_on, selector._checks = DEFAULT.select, set(), RobustChecks(DEFAULT.select)
+    selector._get_without = lambda fit, key: less
+    selector.selection = SimpleNamespace(
+        fitted_sets=made,
+        discrepancy_fits={},
+        tied=set(),
+        declined=set(),
+        chosen=made[frozenset({"friction", "offset"})].fit,
+        fit_discrepancy=lambda here: None,
+        settle_comparison=lambda one, other, need: None,
+        compute_log_odds=lambda one, other: odds[" ".join(sorted(one.terms))],
+    )
+    return selector, made[frozenset({"friction", "offset"})]
+
+
+@pytest.mark.parametrize(
+    ("offset", "without", "taken"), [(1.0, 9.9, "damping friction"), (1.0, -1.0, ""), (9.0, 9.9, "")]
+)
+def test_a_term_takes_the_place_of_the_one_that_it_makes_vague(monkeypatch, offset, without, taken):
+    """All three are no better than a smooth force; without the vague offset the other two are, as in EMPS."""
+    odds = {"damping friction offset": -0.5, "damping friction": without}
+    selector, here = selector_of(monkeypatch, {"damping": 30.0, "friction": 40.0, "offset": offset}, odds)
+    assert selector._take_best(here) == bool(taken)
+    assert " ".join(sorted(selector.selection.chosen.problem.active)) == (taken or "friction offset")
+    assert selector.selection.tied == (set() if taken else {"damping"})
