@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 import pytest
@@ -121,7 +122,15 @@ def test_a_drive_that_saturates_completely_is_among_the_draws(share, complete):
     assert low < share <= high
 
 
-def test_sets_near_the_best_are_refitted_once_with_other_shapes(waved):
+class Law(NamedTuple):
+    """A law that contains no simpler one."""
+
+    name: str
+    at: str = "ground"
+    extends: tuple[str, ...] = ()
+
+
+def test_sets_near_the_best_are_refitted_once_with_other_shapes(waved, monkeypatch):
     """A wave 20 behind the best set is refitted.
 
     One 50 behind is not, nor is one beside a term that is better alone; a set without shapes has nothing to try.
@@ -130,6 +139,7 @@ def test_sets_near_the_best_are_refitted_once_with_other_shapes(waved):
     weights = {"plain": (waved, 0.0), "near": (wave, -20.0), "far": (wave, -50.0), "plain more": (wave, -5.0)}
     sets = {frozenset(k.split()): TermSet(frozenset(k.split()), fit, weight) for k, (fit, weight) in weights.items()}
     selection, refits = Selection(waved, waved, sets), Refits()
+    monkeypatch.setattr("lostmotion.inference.refits.find_term", lambda _, key: (Law(key), []))
     assert [set(v.terms) for v in refits.take_shaped(selection)] == [{"near"}]
     assert refits.take_shaped(selection) == []
 

@@ -54,9 +54,8 @@ SPREAD = (0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0)
 """Starting values of the shape of a law that replaces a simpler related law, in units of its typical value."""
 RAISED = 2.0
 """The increase of the log random force where a fit begins far from its maximum."""
-REFINED, SMALL = 12, 0.25
-"""The number of shapes of a term at which a score test is computed again with larger differences, and the share of a
-promising gain below which it is not."""
+REFINED = 12
+"""The number of shapes of a term at which a score test is computed again with larger differences."""
 MUTE = 1e-6
 """An amplitude of typical size with less information than this has no effect while the others are zero."""
 
@@ -233,8 +232,8 @@ def count_steps_for_sticking(problem: Problem, theta: Array, *, creep: float = C
 def _test_shapes(fit: Fit, slopes: Sensitivity, key: str, shapes: Sequence[Mapping[str, float]]) -> list[ScoreTest]:
     """Return the score tests of a term at its `REFINED` best shapes, all of them computed together.
 
-    Differences of all shapes are taken over a small amplitude, those of the best over half a standard deviation if
-    their gain is not small.
+    Differences of all shapes are taken over a small amplitude, those of the best over half a standard deviation: small
+    differences may miss the whole gain of a dry friction.
     """
     amplitudes, fixed = sort_slots(fit.problem, key)
     frees = (*make_term_parameters(fit.problem, key, amplitudes, {}), *(hold_shape(slot) for slot in fixed))
@@ -243,14 +242,13 @@ def _test_shapes(fit: Fit, slopes: Sensitivity, key: str, shapes: Sequence[Mappi
     zeros = [np.concatenate([slopes.theta, np.zeros(len(sizes)), [shape[s.key] for s in fixed]]) for shape in shapes]
     joints = _join_sensitivities(slopes, wider, zeros, [0.01 * sizes for _ in shapes], shared=True)
     hints = [_solve_score_test(fit, key, amplitudes, shape, joint) for shape, joint in zip(shapes, joints, strict=True)]
-    least = SMALL * fit.problem.settings.select.promising
-    near = sorted((i for i, hint in enumerate(hints) if hint.gain > least), key=lambda i: -hints[i].gain)[:REFINED]
-    if near:
-        told = [np.maximum(np.diag(joints[i].information())[-len(sizes) :], 1e-300) for i in near]
-        widths = [np.clip(0.5 / np.sqrt(curvature), 1e-9 * sizes, sizes) for curvature in told]
-        shared = not find_term(fit.problem, key)[0].states
-        joints = _join_sensitivities(slopes, wider, [zeros[i] for i in near], widths, shared=shared)
-        hints = [_solve_score_test(fit, key, amplitudes, shapes[i], j) for i, j in zip(near, joints, strict=True)]
+    near = sorted(range(len(hints)), key=lambda i: -hints[i].gain)[:REFINED]
+    told = [np.maximum(np.diag(joints[i].information())[-len(sizes) :], 1e-300) for i in near]
+    widths = [np.clip(0.5 / np.sqrt(curvature), 1e-9 * sizes, sizes) for curvature in told]
+    shared = not find_term(fit.problem, key)[0].states
+    joints = _join_sensitivities(slopes, wider, [zeros[i] for i in near], widths, shared=shared)
+    pairs = zip(near, joints, strict=True)
+    hints = [_solve_score_test(fit, key, amplitudes, shapes[i], joint) for i, joint in pairs]
     if can_have_onset(fit.problem, key):
         best = max(range(len(hints)), key=lambda i: hints[i].gain)
         late = _test_onsets(fit, key, amplitudes, hints[best], joints[best])

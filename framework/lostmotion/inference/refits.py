@@ -98,10 +98,10 @@ def _is_enough(less: TermSet, more: TermSet) -> bool:
     extra, dropped = less.terms - more.terms, more.terms - less.terms
     if not extra:
         return bool(dropped)
-    problem = more.fit.problem
-    laws = [[find_term(problem, key)[0] for key in sorted(keys)] for keys in (extra, dropped)]
-    simpler = all(any(is_simpler(one, other) for other in laws[1]) for one in laws[0])
-    return simpler and len(less.terms) <= len(more.terms) and has_usual_random_force(more.fit)
+    if len(extra) > len(dropped) or not has_usual_random_force(more.fit):
+        return False
+    laws = [[find_term(more.fit.problem, key)[0] for key in sorted(keys)] for keys in (extra, dropped)]
+    return all(any(is_simpler(one, other) for other in laws[1]) for one in laws[0])
 
 
 def refit_with_terms(fit: Fit) -> Fit:
