@@ -15,7 +15,7 @@ from lostmotion.diagnosis.search import diagnose
 from lostmotion.inference import rounding
 from lostmotion.inference.candidates import compute_slopes, fit_term, run_score_test
 from lostmotion.inference.natural import compute_size
-from lostmotion.inference.shape_scan import BLOCKS, TOGETHER, SmoothedMotion, scan_shapes
+from lostmotion.inference.shape_scan import BLOCKS, TOGETHER, SmoothedMotion, measure_steadiness, scan_shapes
 from lostmotion.likelihood.latent import smooth_expected_force
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
@@ -70,7 +70,7 @@ def test_many_shapes_together_give_what_each_gives_alone():
     states, gradient = smooth_expected_force(fit.problem, fit.theta)
     motion = SmoothedMotion(fit.problem, fit.theta, np.ascontiguousarray(states[:, :2]), gradient)
     shapes = [{"ratchet.pitch": pitch} for pitch in np.geomspace(1e-3, 1e-2, TOGETHER + 3)]
-    steady = motion.measure_steadiness("ratchet", shapes)
+    steady = measure_steadiness(motion, "ratchet", shapes)
     for shape, found in list(zip(shapes, steady, strict=True))[::17]:
         size = compute_size(Ratchet.params[0], fit.problem.scales)
         full = fit.problem.full(fit.theta)

@@ -107,11 +107,6 @@ class SmoothedMotion:
         inputs = self.problem.drive(0, self.theta).inputs[: len(self.states)]
         return self._rates(self._packed, frozenset(), inputs)
 
-    def measure_steadiness(self, key: str, shapes: Sequence[Mapping[str, float]]) -> Array:
-        """Return the correlations (shapes,) of a law with the gradient in standard errors, all amplitudes together."""
-        batches = [shapes[i : i + TOGETHER] for i in range(0, len(shapes), TOGETHER)]
-        return np.concatenate([_combine_steadiness(self.compute_columns(key, b), self.gradient) for b in batches])
-
 
 @dataclass(frozen=True)
 class SensorErrors:
@@ -126,11 +121,9 @@ class SensorErrors:
         """The range of the predicted readings."""
         return float(np.ptp(self.foretold))
 
-    def measure_steadiness(self, key: str, shapes: Sequence[Mapping[str, float]]) -> Array:
-        """Return the correlations (shapes,) of a sensor term with the errors in standard errors, as of a law."""
-        batches = [shapes[i : i + TOGETHER] for i in range(0, len(shapes), TOGETHER)]
-        bent = (np.stack([self._bend(key, shape) for shape in batch]) for batch in batches)
-        return np.concatenate([_combine_steadiness(laws, self.gradient) for laws in bent])
+    def compute_columns(self, key: str, shapes: Sequence[Mapping[str, float]]) -> Array:
+        """Return the error of the sensor by each amplitude alone at its typical size, (shapes, samples, amplitudes)."""
+        return np.stack([self._bend(key, shape) for shape in shapes])
 
     def _bend(self, key: str, shape: Mapping[str, float]) -> Array:
         """Return the error of the sensor by each amplitude alone at its typical size, (samples, amplitudes)."""
@@ -152,6 +145,12 @@ def _make_sensor_errors(problem: Problem, theta: Array, key: str) -> SensorError
     readings = observation.readings[:, sensor]
     kept = np.isfinite(readings)
     return SensorErrors(problem, (readings - errors)[kept], (errors / variances)[kept])
+
+
+def measure_steadiness(motion: SmoothedMotion | SensorErrors, key: str, shapes: Sequence[Mapping[str, float]]) -> Array:
+    """Return the correlations (shapes,) of a term with the gradient in standard errors, all amplitudes together."""
+    batches = [shapes[i : i + TOGETHER] for i in range(0, len(shapes), TOGETHER)]
+    return np.concatenate([_combine_steadiness(motion.compute_columns(key, b), motion.gradient) for b in batches])
 
 
 def _combine_steadiness(laws: Array, gradient: Array) -> Array:
@@ -216,8 +215,8 @@ def _select_best_shape(motion: SmoothedMotion | SensorErrors, key: str) -> dict[
         shapes = drop_rounding(problem, key, shapes)
     if not shapes:
         return None
-    steady = motion.measure_steadiness(key, shapes)
-    least = max(motion.measure_steadiness(key, _list_star_shapes(problem, key, usual)))
+    steady = measure_steadiness(motion, key, shapes)
+    least = max(measure_steadiness(motion, key, _list_star_shapes(problem, key, usual)))
     top = int(np.argmax(steady))
     return shapes[top] if steady[top] > max(problem.settings.select.shape_steady, least) else None
 
