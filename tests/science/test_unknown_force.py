@@ -11,6 +11,7 @@ import pytest
 from truths import case_of
 
 from lostmotion.inference.curves import compute_band
+from lostmotion.inference.fit import maximise
 from lostmotion.inference.proposal import Axis, propose_formula
 from lostmotion.inference.setup import make_problem, search_maximum
 from lostmotion.inference.unexplained import CurveSearch
@@ -91,3 +92,14 @@ def test_friction_that_depends_on_position_is_told_from_a_force_that_does():
 def test_nothing_is_learned_where_nothing_is_missing(seed):
     fit = fitted(CLEAN, seed=seed)
     assert CurveSearch(LIBRARY).unknown(fit, fit) is None
+
+
+@pytest.mark.slow
+def test_the_gain_of_a_curve_is_that_over_the_better_of_two_nominal_fits():
+    """A selection may improve the nominal fit after the search for curves has stored it; the odds count the better."""
+    fit = fitted(ROUGH)
+    worse = maximise(fit.problem, fit.theta + 1.0, rounds=1)
+    assert worse.log_evidence < fit.log_evidence - 100.0
+    ahead, behind = (CurveSearch(LIBRARY).unknown(nominal, fit) for nominal in (fit, worse))
+    assert behind.keys == ahead.keys
+    assert behind.gain == pytest.approx(ahead.gain, abs=3.0)

@@ -155,8 +155,10 @@ class CurveSearch:
         terms, these are dropped, and otherwise the names are kept.
         """
         (before, search), limits = self._begun(nominal), nominal.problem.settings.unknown
-        after = _shorten_fit(add_all_curves(chosen)) if chosen.problem.active else before
+        after = before if chosen is nominal else _shorten_fit(add_all_curves(chosen))
         bar = max(search.visits[before.problem.active][1], search.visit(after))
+        if search.visits[after.problem.active][0] is after:
+            search.learned.discard((after.problem.active, False))
         search.learn(after)
         if chosen.problem.active:
             search.learn(before, 1)

@@ -16,6 +16,7 @@ from scipy.optimize import brentq, minimize_scalar
 from lostmotion.contracts import Array, Interface, Model
 from lostmotion.errors import CaseError, nearest
 from lostmotion.likelihood.drive import SILENT, Drive, DriveHarmonic
+from lostmotion.likelihood.input_curve import InputCurve
 from lostmotion.likelihood.sensors import NOISES, Sensor
 from lostmotion.likelihood.space import make_level_name
 from lostmotion.likelihood.splines import fit_smoothing_spline
@@ -118,31 +119,22 @@ class Observation:
         else:
             powers = self.dt ** np.arange(4)
             cubics = np.zeros((self.samples, 4, self.inputs.shape[1]))
-            cubics[:-1] = self._spline.c[::-1].transpose(1, 0, 2) * powers[None, :, None]
+            cubics[:-1] = self._curve.spline.c[::-1].transpose(1, 0, 2) * powers[None, :, None]
             cubics[-1, 0] = self.inputs[-1]
             drive = Drive(cubics, self.dt)
         return replace(drive, begin=self.begin * self.dt, harmonic=self.harmonic)
 
     @cached_property
-    def _spline(self) -> CubicSpline:
-        return CubicSpline(np.arange(self.samples) * self.dt, self.inputs)
+    def _curve(self) -> InputCurve:
+        return InputCurve(self.inputs, self.dt, self.held)
 
     def recorded(self, column: int, t: Array) -> Array:
         """Return a recorded input at times `t` (s, from the start of the recording), of any shape.
 
-        Outside of the recording it keeps its first or last value. One that is held between the samples is averaged over
-        a quarter of a sample.
+        Outside of the recording it is predicted from it. One that is held between the samples is averaged over a
+        quarter of a sample.
         """
-        start, last = self.begin * self.dt, (self.samples - 1) * self.dt
-        if not self.held:
-            return np.asarray(self._spline(np.clip(t - start, 0.0, last))[..., column])
-        half = 0.125 * self.dt
-        edges = np.arange(self.samples + 1) * self.dt
-        sums = np.concatenate([[0.0], np.cumsum(self.inputs[:, column])]) * self.dt
-        middle = np.clip(t - start, half, edges[-1] - half)
-        return np.asarray(
-            (np.interp(middle + half, edges, sums) - np.interp(middle - half, edges, sums)) / (2.0 * half)
-        )
+        return self._curve.evaluate(column, t - self.begin * self.dt)
 
     @property
     def columns(self) -> tuple[Callable[[Array], Array], ...]:

@@ -1,0 +1,81 @@
+"""The inputs of a recording as functions of time: between its samples, before the first one and after the last one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from lostmotion.contracts import Array
+from lostmotion.signals.prediction import predict_before
+
+REACH = 300
+"""Inputs are predicted for so many samples beyond either end, and for no more than a quarter of the recording."""
+JOINT = 4
+"""The spline of the predicted samples passes through so many measured ones."""
+
+
+@dataclass(frozen=True)
+class InputCurve:
+    """Inputs (samples, inputs) every `dt` s, held between the samples or interpolated by a cubic spline.
+
+    A drive that acts late shows at the first samples what was before the recording. Held at its first value there, it
+    would have a jump that the machine never felt; so it is predicted from the recording.
+    """
+
+    inputs: Array
+    dt: float
+    held: bool
+
+    @cached_property
+    def spline(self) -> CubicSpline:
+        """The inputs over the time (s) from the first sample."""
+        return CubicSpline(np.arange(len(self.inputs)) * self.dt, self.inputs)
+
+    def evaluate(self, column: int, t: Array) -> Array:
+        """Return an input at times `t` (s) from the first sample, of any shape.
+
+        One that is held between the samples is averaged over a quarter of a sample, and keeps its first and its last
+        value outside of the recording.
+        """
+        if self.held:
+            return self._average(column, t)
+        last = (len(self.inputs) - 1) * self.dt
+        found = np.asarray(self.spline(np.clip(t, 0.0, last))[..., column])
+        found = np.where(t < 0.0, self._before(-t)[..., column], found) if np.any(t < 0.0) else found
+        return np.where(t > last, self._after(t - last)[..., column], found) if np.any(t > last) else found
+
+    def _average(self, column: int, t: Array) -> Array:
+        half = 0.125 * self.dt
+        edges = np.arange(len(self.inputs) + 1) * self.dt
+        sums = np.concatenate([[0.0], np.cumsum(self.inputs[:, column])]) * self.dt
+        middle = np.clip(t, half, edges[-1] - half)
+        return np.asarray(
+            (np.interp(middle + half, edges, sums) - np.interp(middle - half, edges, sums)) / (2.0 * half)
+        )
+
+    def _before(self, t: Array) -> Array:
+        """Return the inputs (..., inputs) at times `t` (s) before the first sample; far before they are constant."""
+        return np.asarray(self._predicted[0](np.clip(t, 0.0, self._reach * self.dt)))
+
+    def _after(self, t: Array) -> Array:
+        """Return the inputs (..., inputs) at times `t` (s) after the last sample; far after they are constant."""
+        return np.asarray(self._predicted[1](np.clip(t, 0.0, self._reach * self.dt)))
+
+    @property
+    def _reach(self) -> int:
+        return min(REACH, len(self.inputs) // 4)
+
+    @cached_property
+    def _predicted(self) -> tuple[CubicSpline, CubicSpline]:
+        """Splines over the time (s) before the first sample and after the last one, which increases outwards."""
+        return self._predict(self.inputs), self._predict(self.inputs[::-1])
+
+    def _predict(self, inputs: Array) -> CubicSpline:
+        """Return the spline over the time before the first of some inputs (samples, inputs)."""
+        joint = inputs[:JOINT]
+        outer = np.stack([predict_before(column, self._reach) for column in inputs.T], axis=1)
+        times = np.arange(1 - len(joint), self._reach + 1) * self.dt
+        return CubicSpline(times, np.concatenate([outer, joint])[::-1])
