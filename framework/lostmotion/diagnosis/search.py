@@ -175,7 +175,7 @@ def diagnose(
             selector = Selector(selection.nominal, list_fitted_keys(system), say, {**shapes, **more}, curves.promise)
             selection = selector.extend(selection, more)
     say("final estimates")
-    before = polish_fit(selection.nominal)
+    before = polish_fit(selection.best_nominal)
     after = polish_fit(selection.chosen) if selection.chosen.problem.active else before
     gain = compute_random_force_gain(after)
     say("missing force")

@@ -89,6 +89,11 @@ class Selection:
     imitations: dict[tuple[frozenset[str], frozenset[str]], tuple[Fit, Fit]] = field(default_factory=dict)
 
     @property
+    def best_nominal(self) -> Fit:
+        """The best fit of the nominal model: the first one, or a better one from the initial states of another set."""
+        return self.fitted_sets[frozenset()].fit
+
+    @property
     def limits(self) -> RivalSettings:
         """The usual imperfections of real machines."""
         return self.nominal.problem.settings.rival
@@ -328,5 +333,5 @@ class Selection:
         """Return the log evidence that a term alone adds to the nominal model, or a bound from its score test."""
         alone = self.fitted_sets.get(frozenset({key}))
         if alone:
-            return alone.fit.log_evidence - self.nominal.log_evidence
+            return alone.fit.log_evidence - self.best_nominal.log_evidence
         return max((hint.gain - 5.0 for hint in self.hints if hint.key == key), default=0.0)
