@@ -9,13 +9,11 @@ position, velocity or acceleration, at a size with a given expected gain in log-
 from __future__ import annotations
 
 import argparse
-import itertools
 import json
 import math
 import os
 import tempfile
 import time
-from collections import Counter
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
@@ -24,15 +22,14 @@ from pathlib import Path
 import click
 import numpy as np
 
+from library_rows import DRIVES, LATE, SENSORS, SIMPLER, explain_miss, print_summary
 from lostmotion.case import dump_case
 from lostmotion.codec import to_plain
 from lostmotion.errors import LostMotionError
 from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import default
-from lostmotion.report.words import to_words
-from lostmotion.results import Interval
 from lostmotion.storage import save_table
-from lostmotion_trials.blind.bound import are_equivalent, complete_parameters, compute_bound, is_covered
+from lostmotion_trials.blind.bound import compute_bound, compute_lead
 from lostmotion_trials.blind.hiding import convert_effects
 from lostmotion_trials.blind.mechanisms import NOISY, TABLE, Effect
 from lostmotion_trials.blind.pilot import Pilot
@@ -49,8 +46,6 @@ from lostmotion_trials.blind.simulator import (
 )
 from lostmotion_trials.integrators.hidden import Hidden
 
-SENSORS = ("position", "velocity", "acceleration")
-DRIVES = ("multisine", "sweep", "harmonic")
 NOISE = float(os.environ.get("NOISE", "0.03"))
 UNITS = {"position": "m", "velocity": "m/s", "acceleration": "m/s^2"}
 ANGULAR = {"position": "rad", "velocity": "rad/s", "acceleration": "rad/s^2"}
@@ -58,7 +53,6 @@ STEPS, SIZES, TOLERANCE = 2, 3.0, 0.4
 """Steps of the size towards the wanted gain, the largest factor of each, and the error of its logarithm at the end."""
 LEAST_ERROR = -0.9
 """The least relative error of a gain, as in the library."""
-LATE = {"excitation_delay", "sensor_delay", "actuator_lag", "sensor_lag"}
 ESTIMATED = {"linear_oscillator": ("c", "k"), "rigid_drive": ("m", "c")}
 
 
@@ -192,7 +186,7 @@ def write_case(task, draft, factor, folder):
 
 
 def write_sized_case(task, draft, folder):
-    """Write the case with the effect at the wanted gain; return the effects and the gain that was reached.
+    """Write the case with the effect at the wanted gain; return the effects, the noise, and the gain that was reached.
 
     The linear formula of the pilot run ignores that other parameters and the random force explain a part. The size
     follows the measured gain instead, within a factor of `SIZES`, until it is within `TOLERANCE` of the wanted one.
@@ -211,7 +205,7 @@ def write_sized_case(task, draft, folder):
             effects, noise = write_case(task, draft, best, folder)
             break
         reached, best = measure_gain(folder, effects, draft.rig, noise), factor
-    return effects, reached
+    return effects, noise, reached
 
 
 def measure_gain(folder, effects, rig, noise):
@@ -224,6 +218,17 @@ def measure_gain(folder, effects, rig, noise):
         return f"not reached: {err}"
 
 
+def measure_lead(folder, effect, rig, noise):
+    """Return the lead in log-likelihood of the hidden law over the simpler one that it contains; NaN without one."""
+    law, p = default().load("term", effect.mechanism), effect.parameters
+    if not law.extends:
+        return math.nan
+    size = p.get("force", 0.5 * (p.get("forward", 0.0) + p.get("backward", 0.0)))
+    simpler = Effect(law.extends[0], effect.at, {"force": size})
+    machine = SealedMachine(**vars(rig), measurement_noise=noise)
+    return compute_lead(prepare(folder / "case.toml", default()), machine, effect, simpler)
+
+
 def run_task(task):
     """Return the row of one diagnosis."""
     from lostmotion.cli import main as run
@@ -234,7 +239,7 @@ def run_task(task):
         folder = Path(place)
         try:
             draft = draft_machine(task)
-            effects, reached = write_sized_case(task, draft, folder)
+            effects, noise, reached = write_sized_case(task, draft, folder)
         except (ValueError, ArithmeticError, LostMotionError) as err:
             return {**row, "status": f"not made: {err}"}
         rig, begin = draft.rig, time.process_time()
@@ -257,6 +262,8 @@ def run_task(task):
         row["ranking"] = diagnosis["ranking"][:6]
         row["nrmse"] = [diagnosis["fit"][k]["heldout_nrmse"] for k in ("before", "after")]
         row |= {"reached": reached} if effects else {}
+        if effects and explain_miss(row) == SIMPLER:
+            row["lead"] = measure_lead(folder, effects[0], rig, noise)
     return row
 
 
@@ -279,106 +286,6 @@ def choose_gain(args, name, sensor, drive, seed):
     """Return the expected gain in log-likelihood of a machine: the option, or a random number from 50 to 500."""
     text = f"{name} {sensor} {drive} {seed}".encode()
     return args.gain or 50.0 * 10.0 ** float(np.random.default_rng(list(text)).random())
-
-
-def list_names(row):
-    """Return the names of a row, empty for the hidden one or an equivalent one, and whether that is among them."""
-    unnamed = {"unknown", "random_force"} - {row["name"]}
-    found = [f for f in row["found"] if f["mechanism"] not in unnamed]
-    right = [are_equivalent(f["mechanism"], row["name"]) or is_short_delay(f, row) for f in found]
-    return ["" if ok else f["mechanism"] for f, ok in zip(found, right, strict=True)], any(right)
-
-
-def is_short_delay(entry, row):
-    """Return whether a delay or lag of less than half a sample is named where the other kind is hidden.
-
-    At 40 samples per cycle, exp(-s T) and 1 / (1 + s T) differ by less than 0.4 % of the amplitude at such a time T.
-    """
-    if not {entry["mechanism"], row["name"]} <= LATE:
-        return False
-    return all(abs(i["median"]) < 0.5 * row["dt"] for i in entry["parameters"].values())
-
-
-def check_coverage(row):
-    """Return for each parameter of the hidden term whether its interval contains the truth."""
-    if not row["truth"]:
-        return []
-    truth = {k: v for k, v in row["truth"][0].items() if k not in ("name", "at")}
-    machine = row.get("machine")
-    known = complete_parameters(truth, machine["values"], BlindDrive(machine["signal"]["tones"])) if machine else truth
-    entry = next((f for f in row["found"] if f["mechanism"] == row["name"]), None)
-    intervals = entry["parameters"] if entry else {}
-    return [
-        is_covered(Interval(i["median"], i["low"], i["high"], i["unit"]), known[k], turn=k == "phase")
-        for k, i in intervals.items()
-        if k in known and i["low"] is not None
-    ]
-
-
-SIMPLER = "a simpler law that the hidden one contains"
-
-
-def explain_miss(row):
-    """Return why a hidden term was not named: a simpler law, or an alternative that is stated; empty for neither."""
-    law, found = default().load("term", row["name"]), [f for f in row["found"] if f["mechanism"] != "unknown"]
-    if any(f["mechanism"] in law.extends for f in found):
-        return SIMPLER
-    words = to_words(row["name"]).lower()
-    if any(words in doubt.lower() for f in found for doubt in f.get("doubts", ())):
-        return "the hidden one is stated as an alternative"
-    return ""
-
-
-LEAST, MOST = 50.0, 750.0
-"""The gains in log-likelihood of the machines that count: 50 to 500 wanted, reached within `TOLERANCE`."""
-BINS = (0.0, 20.0, 50.0, 150.0, MOST, math.inf)
-
-
-def format_line(rows):
-    """Return the numbers of named machines, intervals with the truth and wrong names, and the median time, as text.
-
-    The number in brackets is that of the wrong names that are a simpler law contained in the hidden one.
-    """
-    hits = sum(list_names(r)[1] for r in rows)
-    held = [ok for r in rows for ok in check_coverage(r)]
-    extra = sum(sum(bool(n) for n in list_names(r)[0]) for r in rows)
-    simpler = sum(explain_miss(r) == SIMPLER for r in rows if not list_names(r)[1])
-    seconds = float(np.median([r["seconds"] for r in rows]))
-    return f"{hits} of {len(rows)} | {sum(held)} of {len(held)} | {extra} ({simpler}) | {seconds:.0f} |"
-
-
-def print_summary(rows):
-    """Print the table by gain, the table by sensor and drive, and the missed machines with a gain of `LEAST` to `MOST`.
-
-    The gain in log-likelihood is that of the true term on the fitted data, by our own likelihood from the truth.
-    """
-    hidden = [r for r in rows if r.get("status") == 0 and r["name"] != "clean"]
-    good = [r for r in hidden if isinstance(r.get("reached"), float)]
-    heads = "named | intervals that hold | names too many (a simpler law) | seconds (median)"
-    print(f"\n| gain | {heads} |\n|{'---|' * 5}")
-    for low, high in itertools.pairwise(BINS):
-        if own := [r for r in good if low <= r["reached"] < high]:
-            print(f"| {low:g} to {high:g} | {format_line(own)}")
-    if other := [r for r in hidden if r not in good]:
-        print(f"| not known | {format_line(other)}")
-    shown = [r for r in good if LEAST <= r["reached"] <= MOST]
-    print(f"\n| sensor | drive | {heads} |\n|{'---|' * 6}")
-    for sensor, drive in itertools.product(SENSORS, DRIVES):
-        if own := [r for r in shown if (r["sensor"], r["drive"]) == (sensor, drive)]:
-            print(f"| {sensor} | {drive} | {format_line(own)}")
-    clean = [r for r in rows if r.get("status") == 0 and r["name"] == "clean"]
-    if clean:
-        print(f"\nOf {len(clean)} machines that hide nothing {sum(bool(list_names(r)[0]) for r in clean)} had a name.")
-    missed = [(r, explain_miss(r)) for r in shown if not list_names(r)[1]]
-    causes = Counter(why or "neither" for _, why in missed)
-    print(
-        f"\nNot named: {len(missed)} of {len(shown)}. "
-        + "; ".join(f"{why}: {count}" for why, count in causes.most_common())
-    )
-    for r, why in missed:
-        found = ", ".join(f["mechanism"] for f in r["found"]) or "nothing"
-        place = f"{r['name']}, {r['sensor']}, {r['drive']}, {r['model']}, gain {r['reached']:.0f}"
-        print(f"- {place}: {found}" + (f" ({why})" if why else ""))
 
 
 def main():

@@ -306,6 +306,20 @@ def test_each_is_named_in_a_recording_by_another_integrator(library, tmp_path, n
             assert abs(interval["median"] - known[parameter]) <= width + 1e-12, parameter
 
 
+@pytest.mark.parametrize(("sensor", "distinct"), [("velocity", False), ("position", True)])
+def test_two_levels_of_friction_show_in_a_position_only(library, tmp_path, sensor, distinct):
+    """Their difference shifts the middle of the motion of a spring-held mass; the velocity has no middle."""
+    from library_rows import is_simpler_enough
+
+    gain = library.choose_gain(type("Options", (), {"gain": 0.0}), "directional_friction", sensor, "multisine", 14)
+    task = ("directional_friction", sensor, "multisine", 14, gain, 1500)
+    draft = library.draft_machine(task)
+    (effect,), noise = library.write_case(task, draft, 1.0, tmp_path)
+    row = {"name": effect.mechanism, "lead": library.measure_lead(tmp_path, effect, draft.rig, noise)}
+    assert draft.rig.model == "linear_oscillator"
+    assert is_simpler_enough(row) is not distinct
+
+
 def test_every_name_of_the_contract_can_be_hidden():
     assert set(NEW) | {"actuator_lag", "sensor_lag", "quadratic_stiffness"} <= set(TABLE)
 

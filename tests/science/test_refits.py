@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
-import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -19,11 +17,7 @@ from lostmotion.inference.term_sets import Selection, TermSet
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import NOISE, RANDOM
 
-SOURCE = Path(__file__).parents[2] / "benchmarks" / "library.py"
-SPEC = importlib.util.spec_from_file_location("benchmarks_library", SOURCE)
-table = importlib.util.module_from_spec(SPEC)
-sys.modules[SPEC.name] = table
-SPEC.loader.exec_module(table)
+BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
 
 NATURAL = 20.0 / (2.0 * np.pi)
 """The natural frequency (Hz) of the oscillator; the usual values of a hidden one are 1.93 times apart."""
@@ -122,7 +116,7 @@ def test_no_other_pitch_is_tried_where_plain_friction_leaves_nothing(log_random_
         (("bouc_wen_hysteresis", "velocity", "multisine"), 8, "hidden_mode"),
     ],
 )
-def test_machines_of_the_table_that_were_named_wrongly(machine, seed, wrong):
+def test_machines_of_the_table_that_were_named_wrongly(monkeypatch, machine, seed, wrong):
     """Machines of `benchmarks/library.py table`; `wrong` is what was named in place of the term or beside it.
 
     The initial states were those of the nominal model (the first two), the noise was divided wrongly (the third), a
@@ -131,9 +125,13 @@ def test_machines_of_the_table_that_were_named_wrongly(machine, seed, wrong):
     end, the share of a saturated drive was vague while its limit was free, and held-out data refuted the term by an
     error or a log score that was worse by no more than chance. In the last one, a hysteresis began at zero force.
     """
-    gain = table.choose_gain(type("Options", (), {"gain": 0.0}), *machine, seed)
-    row = table.run_task((*machine, seed, gain, 1500))
+    monkeypatch.syspath_prepend(str(BENCHMARKS))
+    import library
+    import library_rows
+
+    gain = library.choose_gain(type("Options", (), {"gain": 0.0}), *machine, seed)
+    row = library.run_task((*machine, seed, gain, 1500))
     assert row["status"] == 0
-    others, named = table.list_names(row)
+    others, named = library_rows.list_names(row)
     assert named, wrong
     assert not any(others), wrong

@@ -95,6 +95,20 @@ def compute_bound(
     return LikelihoodBound(tuple(gains), tuple(status), error, margin)
 
 
+def compute_lead(prepared: Prepared, machine: SealedMachine, effect: Effect, other: Effect) -> float:
+    """Return the log-likelihood of the law of an effect less that of another law, each fitted from its parameters.
+
+    Both are fitted to the data that a diagnosis fits. Where the other law is a part of the first one, the lead is the
+    gain of what it lacks.
+    """
+    train, _ = split_heldout(prepared.observations)
+    system = System(prepared.model, prepared.terms)
+    problem = _start_at_truth(make_problem(system, prepared.case, train, jobs=1), machine)
+    keys = [(find_key(system, law.mechanism, law.at), law) for law in (effect, other)]
+    first, second = (_fit_terms(problem, {key: law.parameters}) if key else None for key, law in keys)
+    return first.log_likelihood - second.log_likelihood if first and second else math.nan
+
+
 def add_library_names(effect: Effect, machine: BlindMachine) -> Effect:
     """Return an effect with its parameters under all further names of the library."""
     return replace(effect, parameters=complete_parameters(effect.parameters, machine.values, machine.signal))
