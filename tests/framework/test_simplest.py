@@ -146,3 +146,14 @@ def test_a_set_as_good_as_the_chosen_one_is_compared_before_probabilities_are_st
     chances = selection.probabilities()
     assert chances[frozenset({"spring"})] == pytest.approx(1.0 / (1.0 + np.exp(0.6)))
     assert chances[frozenset({"far"})] < 1e-5
+
+
+def test_the_gain_of_a_term_is_over_the_best_fit_of_the_nominal_model():
+    """The first fit was a local maximum, 40 lower in log evidence than a later one of the same model."""
+    evidence = {"first": 60.0, "later": 100.0, "a": 130.0}
+    fits = {k: SimpleNamespace(status="converged", log_evidence=e, problem=NOTHING) for k, e in evidence.items()}
+    nothing, alone = frozenset[str](), frozenset({"a"})
+    sets = {nothing: TermSet(nothing, fits["later"], 100.0), alone: TermSet(alone, fits["a"], 125.0)}
+    selection = Selection(fits["first"], fits["a"], sets)
+    assert selection.best_nominal is fits["later"]
+    assert selection.gain("a") == 30.0
