@@ -61,6 +61,11 @@ def test_a_law_better_than_any_curve_is_the_simplest_explanation(monkeypatch, we
     assert (found and found[0].key) == chosen
     if found and [*weights] == ["a"]:
         assert found[1].probabilities["a"] == pytest.approx(DEFAULT.name.simplest / (1.0 + np.exp(-10.0)))
+    if found:
+        simplest = found[1]
+        alone = sum(p for key, p in simplest.probabilities.items() if [*weights] in (["a"], ["a", "b"], ["u"]))
+        assert simplest.nothing < 1e-15
+        assert not alone or alone + simplest.unknown + simplest.nothing == pytest.approx(1.0)
 
 
 def test_a_refuted_term_gives_way_to_a_simpler_set_that_was_visited(monkeypatch):

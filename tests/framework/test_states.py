@@ -169,19 +169,21 @@ def test_a_set_without_the_term_that_is_a_part_of_what_was_found_is_no_other_cau
     assert list_warnings(diagnosis(after, {(FRICTION, CHANGE): 0.99}, {(CHANGE,): part}), FRICTION) == []
 
 
-def test_the_simplest_explanation_is_likely_and_says_why():
+@pytest.mark.parametrize(("curve", "than"), [(30.0, "any learned curve"), (0.0, "the model alone")])
+def test_the_simplest_explanation_is_likely_and_says_why(curve, than):
+    """A learned curve is mentioned where there was one."""
     after = fit_of({f"{FRICTION}.force": 1.0}, [FRICTION])
     (doubt,) = list_warnings(
-        diagnosis(after, {(FRICTION,): 0.45}, simplest=SimplestTerms({FRICTION: 0.45}, 30.0)), FRICTION
+        diagnosis(after, {(FRICTION,): 0.45}, simplest=SimplestTerms({FRICTION: 0.45}, curve, 0.55, 0.0)), FRICTION
     )
-    assert "better than any learned curve" in doubt
+    assert f"better than {than} and predicts held-out data" in doubt
     assert doubt.endswith("its probability is 0.45.")
 
 
 def test_a_simplest_explanation_lists_what_these_data_cannot_distinguish():
     """Terms with less than a twentieth of its probability are left out."""
     after, simplest = fit_of({f"{DELAY}.delay": 0.2}, [DELAY]), {DELAY: 0.3, FRICTION: 0.19, CHANGE: 0.01}
-    d = diagnosis(after, {(DELAY,): 0.3}, simplest=SimplestTerms(simplest, 30.0))
+    d = diagnosis(after, {(DELAY,): 0.3}, simplest=SimplestTerms(simplest, 30.0, 0.5, 0.0))
     why, usual = list_warnings(d, DELAY)
     assert why.endswith("it cannot be distinguished from: Coulomb friction.")
     assert usual.startswith("A delay of 0.2 samples is usual in acquisition systems")

@@ -204,7 +204,11 @@ def find_simplest(outcome: Outcome, observations: Sequence[Observation]) -> tupl
     shares = {key: sum(math.exp(weight - total) for terms, weight in weights if key in terms) for key in keys}
     if any(shares[key] < d.settings.name.simplest_share for key in best.terms):
         return None
-    return best.fit, SimplestTerms({key: d.settings.name.simplest * share for key, share in shares.items()}, curve)
+    most, nothing = d.settings.name.simplest, selection.fitted_sets[frozenset()].weight
+    known = most * sum(math.exp(weight - total) for _, weight in weights[:-1])
+    bare = most * math.exp(min(nothing - total, 0.0))
+    stated = {key: most * share for key, share in shares.items()}
+    return best.fit, SimplestTerms(stated, curve, unknown=1.0 - known - bare, nothing=bare)
 
 
 def _select_predicting(

@@ -88,9 +88,12 @@ def _warn_of_probability(d: SearchResult, key: str) -> Iterator[str]:
     p = _compute_equal_probability(d, key)
     if d.selection.simplest:
         others = _list_simplest_alternatives(d, d.selection.simplest, key)
+        good = "any learned curve and predicts held-out data as well as one"
+        if not d.selection.simplest.curve:
+            good = "the model alone and predicts held-out data better"
         yield (
-            "It explains the fitted data better than any learned curve and predicts held-out data as well as one; but a"
-            f" small generic smooth force explains about as much, so its probability is {rounded(p)}."
+            f"It explains the fitted data better than {good}; but a small generic smooth force explains about as much,"
+            f" so its probability is {rounded(p)}."
             + (f" On these data it cannot be distinguished from: {', '.join(others)}." if others else "")
         )
         return

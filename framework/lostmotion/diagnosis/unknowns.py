@@ -243,7 +243,7 @@ def compute_unknown_odds(d: SearchResult) -> tuple[float, float]:
     if d.learned:
         return d.learned.probability, d.learned.gain
     if simplest := d.selection.simplest:
-        return 1.0 - max(simplest.probabilities[key] for key in d.selection.chosen.problem.active), simplest.curve
+        return simplest.unknown, simplest.curve
     if d.found or not d.unexplained:
         return 0.0, 0.0
     return 1.0 - math.exp(-d.random_gain), d.random_gain

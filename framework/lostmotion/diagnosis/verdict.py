@@ -209,6 +209,7 @@ def rank_candidates(d: SearchResult, found: Sequence[Mechanism], *, failed: bool
             )
         )
     nothing = selection.probabilities().get(frozenset(), 0.0) * (1.0 - unknown)
+    nothing = selection.simplest.nothing if selection.simplest else nothing
     fitted = d.learned is not None
     rows += [
         Candidate(mechanism="nothing_missing", at="", log_evidence_gain=0.0, probability=nothing, fitted=True),

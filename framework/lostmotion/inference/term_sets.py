@@ -49,12 +49,15 @@ class KnownLogOdds(NamedTuple):
 class SimplestTerms:
     """Terms that explain the data better than any learned curve, and no better than a generic smooth force.
 
-    `probabilities` are those of the terms by key; `curve` is the log evidence that the best learned curve adds, zero
-    where none is decisive.
+    `probabilities` are those of the terms by key, `unknown` that of a force which the library does not contain, and
+    `nothing` that of the nominal model. `curve` is the log evidence that the best learned curve adds, zero where none
+    is decisive.
     """
 
     probabilities: Mapping[str, float]
     curve: float
+    unknown: float
+    nothing: float
 
 
 @dataclass
