@@ -34,7 +34,7 @@ from lostmotion.diagnosis.rivals import Proposals, describe_confusions, propose_
 from lostmotion.diagnosis.search import SearchResult, diagnose, drop_least_probable, replace_terms
 from lostmotion.diagnosis.sharings import add_sharing
 from lostmotion.diagnosis.show import ShownMotions, measure_behaviour
-from lostmotion.diagnosis.states import limit_confidence, list_open_terms, sort_findings
+from lostmotion.diagnosis.states import limit_confidence, list_improbable, list_open_terms, sort_findings
 from lostmotion.diagnosis.unknowns import describe_dependence
 from lostmotion.diagnosis.verdict import (
     count_bodies,
@@ -250,13 +250,14 @@ def check_heldout(
     """Return the diagnosis with its predictions, without the findings that make held-out predictions worse.
 
     Held-out data first choose among sets that explain the fitted data equally well. Then, while free runs or one-step
-    predictions are worse with the findings than without them, or the missing force is larger, one finding is withdrawn:
-    learned curves first, then the least probable term.
+    predictions are worse with the findings than without them, the missing force is larger, or a finding is improbable,
+    one finding is withdrawn: learned curves first, then the least probable term.
     """
     outcome, limits = compare_heldout(diagnosis, prepared), diagnosis.settings.heldout
     outcome = _choose_by_heldout(outcome, prepared, rng, say)
     while (found := outcome.diagnosis).found:
-        if not is_worse(outcome.before, outcome.after, limits) and found.explains:
+        good = not is_worse(outcome.before, outcome.after, limits) and found.explains
+        if good and not list_improbable(found):
             break
         less = drop_least_probable(found, rng.spawn(1)[0])
         if less is None:

@@ -44,6 +44,17 @@ def _compute_equal_probability(d: SearchResult, key: str) -> float:
     )
 
 
+def list_improbable(d: SearchResult) -> list[str]:
+    """Return the found terms that are less probable than a rival is, with their kin; none beside learned curves.
+
+    Held-out data may prefer such a term to the one that the fitted data chose. If all data together speak for something
+    else, it is no finding.
+    """
+    if d.learned:
+        return []
+    return [key for key in d.named if _compute_equal_probability(d, key) <= d.settings.name.rival]
+
+
 def _sum_probabilities(d: SearchResult, key: str, is_kin: Callable[[Term, Term], bool]) -> float:
     """Return the posterior probability of a term together with that of its kin, at most 1."""
     term, _ = find_term(d.after.problem, key)
@@ -282,7 +293,7 @@ def sort_findings(found: Sequence[Mechanism]) -> tuple[Mechanism, ...]:
 def list_open_terms(d: SearchResult) -> tuple[OpenTerm, ...]:
     """Return the open terms: they would raise the likelihood, but a check failed. Withdrawn terms come first."""
     reasons = [
-        (set(d.withdrawn), "with it, held-out data are predicted worse, or the missing force is larger"),
+        (set(d.withdrawn), "with it, held-out data are predicted worse, or it is improbable in view of all data"),
         (d.selection.tied, "a small generic smooth force explains as much"),
         (d.selection.declined, "the residuals are autocorrelated, so this gain is not reliable"),
     ]
