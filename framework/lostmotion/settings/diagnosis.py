@@ -292,7 +292,9 @@ class NameSettings:
         most=1.0,
     )
     rival: float = threshold(
-        0.05, "A set of terms with a larger share of the posterior is reported as a rival.", most=1.0
+        0.05,
+        "A set of terms with a larger share of the posterior is reported as a rival; a term with less is no finding.",
+        most=1.0,
     )
     worth: float = threshold(0.01, "A term that was not found is listed when its probability is above this.", most=1.0)
     mixed: float = threshold(
