@@ -10,8 +10,8 @@ import pytest
 from truths import fit_oscillator
 
 from lostmotion.inference.candidates import compute_slopes, run_score_test
-from lostmotion.inference.fit import restart
-from lostmotion.inference.refits import Refits, refit_from
+from lostmotion.inference.fit import maximise, restart
+from lostmotion.inference.refits import Refits, refit_from, refit_with_terms
 from lostmotion.inference.resonance_scan import scan_resonances
 from lostmotion.inference.term_sets import Selection, TermSet
 from lostmotion.likelihood.observation import Observation
@@ -77,6 +77,28 @@ def test_a_fit_at_a_wrong_division_of_scatter_begins_again_at_the_noise_of_the_b
     assert far.terms == {"wrong"}
     assert refits.take_far(selection, sets[frozenset({"best"})]) == []
     assert refit_from(far.fit, best).local.log_posterior == pytest.approx(best.local.log_posterior, abs=0.1)
+
+
+def test_a_set_whose_motion_begins_elsewhere_is_refitted_from_further_behind():
+    """An accelerometer: the initial state of another model is ten standard deviations off; a refit gains that back."""
+    best = shaken(0.0)
+    (seen,) = best.problem.observations
+    mean, covariance = seen.begun
+    moved = replace(seen, begun=(mean + 10.0 * np.sqrt(np.diag(covariance)), covariance))
+    wrong = maximise(best.problem.on((moved,)), best.theta)
+    sets = {
+        frozenset({name}): TermSet(frozenset({name}), fit, weight)
+        for name, fit, weight in (
+            ("best", best, 0.0),
+            ("late", wrong, -40.0),
+            ("same", best, -40.0),
+            ("far", wrong, -60.0),
+        )
+    }
+    selection, refits = Selection(best, best, sets), Refits()
+    assert [sorted(v.terms) for v in refits.take_close(selection)] == [["best"], ["late"]]
+    assert [sorted(v.terms) for v in refits.take_close(selection)] == []
+    assert refit_with_terms(wrong).local.log_posterior > wrong.local.log_posterior + 20.0
 
 
 @pytest.mark.parametrize(("log_random_force", "simple", "taken"), [(0.0, 9.0, 0), (0.0, 3.0, 1), (9.0, 9.0, 1)])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from lostmotion.inference.candidates import refit_with_noise
@@ -11,11 +12,14 @@ from lostmotion.inference.other_shapes import has_other_shapes, refit_choices
 from lostmotion.inference.penalties import is_simpler
 from lostmotion.inference.random_force import has_usual_random_force
 from lostmotion.inference.term_sets import CLOSE, Selection, TermSet
-from lostmotion.inference.unseen import lacks_position, refit_start_in_play
+from lostmotion.inference.unseen import begins_elsewhere, lacks_position, refit_start_in_play
 from lostmotion.likelihood.space import LEVELS
 
 FAR = 300.0
 """Sets whose log weight is lower than the largest by more than this are not refitted."""
+DISPLACED = 50.0
+"""Sets within this distance of the best in log weight are refitted if their motion begins elsewhere: with the initial
+state of the nominal model, a late drive was 26 in log-likelihood behind its own maximum."""
 MOST_SHARED = 3
 """The number of sets that are refitted from the best one in each round."""
 
@@ -34,14 +38,27 @@ class Refits:
     def take_close(self, selection: Selection) -> list[TermSet]:
         """Return the sets close to the best one that were not refitted yet, and count them as refitted.
 
-        A set without a random force beyond the usual is refitted only where no sensor shows the position.
+        A set without a random force beyond the usual is refitted only where no sensor shows the position. There, sets
+        that are further behind count too if their motion begins elsewhere.
         """
         sets = selection.fitted_sets.values()
         best = max(v.weight for v in sets)
         close = [v for v in sets if v.weight > best - CLOSE and v.terms not in self.own]
         close = [v for v in close if not has_usual_random_force(v.fit) or (v.terms and lacks_position(v.fit.problem))]
+        close += self._list_displaced(sets, best)
         self.own.update(v.terms for v in close)
         return close
+
+    def _list_displaced(self, sets: Iterable[TermSet], best: float) -> list[TermSet]:
+        """Return sets behind the close ones whose motion begins elsewhere, where no sensor shows the position.
+
+        Only the best of those that were not refitted yet are asked.
+        """
+        behind = [
+            v for v in sets if best - CLOSE >= v.weight > best - DISPLACED and v.terms and v.terms not in self.own
+        ]
+        behind = [v for v in behind if v.fit.status == "converged" and lacks_position(v.fit.problem)]
+        return [v for v in sorted(behind, key=lambda v: -v.weight)[:MOST_SHARED] if begins_elsewhere(v.fit)]
 
     def take_far(self, selection: Selection, best: TermSet) -> list[TermSet]:
         """Return sets as large as the best one that have another noise, and count them as refitted from it.
