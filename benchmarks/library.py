@@ -219,10 +219,8 @@ def measure_gain(folder, effects, rig, noise):
 
 
 def measure_lead(folder, effect, rig, noise):
-    """Return the lead in log-likelihood of the hidden law over the simpler one that it contains; NaN without one."""
+    """Return the lead in log-likelihood of the hidden law over the simpler one that it contains."""
     law, p = default().load("term", effect.mechanism), effect.parameters
-    if not law.extends:
-        return math.nan
     size = p.get("force", 0.5 * (p.get("forward", 0.0) + p.get("backward", 0.0)))
     simpler = Effect(law.extends[0], effect.at, {"force": size})
     machine = SealedMachine(**vars(rig), measurement_noise=noise)

@@ -208,8 +208,10 @@ def rank_candidates(d: SearchResult, found: Sequence[Mechanism], *, failed: bool
                 fitted=frozenset({key}) in selection.fitted_sets,
             )
         )
-    nothing = selection.probabilities().get(frozenset(), 0.0) * (1.0 - unknown)
-    nothing = selection.simplest.nothing if selection.simplest else nothing
+    if selection.simplest:
+        nothing = selection.simplest.nothing
+    else:
+        nothing = selection.probabilities().get(frozenset(), 0.0) * (1.0 - unknown)
     fitted = d.learned is not None
     rows += [
         Candidate(mechanism="nothing_missing", at="", log_evidence_gain=0.0, probability=nothing, fitted=True),

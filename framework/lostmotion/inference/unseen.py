@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -29,8 +29,6 @@ OPENING = 150
 PLACES, SPEEDS, NARROW = np.linspace(-1.5, 1.5, 25), np.linspace(-1.5, 1.5, 7), 0.1
 """Initial positions and velocities that are tried for a machine with play, and the standard deviation of each, in
 natural lengths and velocities."""
-
-
 SHIFTS = np.array([-1.5, -0.75, 0.75, 1.5])
 """Shifts of an initial state that are tried, in its standard deviations."""
 
@@ -141,10 +139,8 @@ def refit_start_in_play(fit: Fit) -> Fit:
         return near
     if not any(place.play for place in fit.problem.system.model.interfaces):
         return near
-    found = _find_start_in_play(near)
-    if found is None:
-        return refit_shifted_start(near)
-    far = refit_start(maximise(found, near.theta))
+    found = _find_start(near, _list_starts_in_play)
+    far = refit_start(maximise(found, near.theta)) if found else near
     gained = far.status != "diverged" and far.local.log_posterior > near.local.log_posterior + GAINED
     return refit_shifted_start(far if gained else near)
 
@@ -156,7 +152,7 @@ def refit_shifted_start(fit: Fit) -> Fit:
     show, then explains the first samples better, and seems to be a property of the machine.
     """
     for _ in range(AGAIN):
-        found = _find_shifted_start(fit)
+        found = _find_start(fit, _list_shifted_starts)
         better = maximise(found, fit.theta) if found else fit
         if better.status == "diverged" or not better.local.log_posterior > fit.local.log_posterior + GAINED:
             return fit
@@ -164,53 +160,46 @@ def refit_shifted_start(fit: Fit) -> Fit:
     return fit
 
 
-def _find_shifted_start(fit: Fit) -> Problem | None:
-    """Return the problem with shifted initial states that explain the first samples better; None if there are none."""
-    whole = list(fit.problem.observations)
-    for i, observation in enumerate(whole):
-        if observation.begun is None or shows_place(observation):
-            continue
-        mean, covariance = observation.begun
-        shifts = SHIFTS * np.sqrt(np.diag(covariance))[:, None]
-        means = [
-            mean,
-            *(mean + shift * way for way, row in zip(np.eye(len(mean)), shifts, strict=True) for shift in row),
-        ]
-        trials = [replace(observation, begun=(moved, covariance)) for moved in means]
-        openings = [
-            [o.part(0, min(OPENING, o.samples)) for o in (*whole[:i], trial, *whole[i + 1 :])] for trial in trials
-        ]
-        scores = [_score_openings(fit, opening) for opening in openings]
-        best = int(np.argmax(scores))
-        if scores[best] > scores[0] + GAINED:
-            whole[i] = trials[best]
-    changed = any(a is not b for a, b in zip(whole, fit.problem.observations, strict=True))
-    return fit.problem.on(tuple(whole)) if changed else None
+def _list_shifted_starts(fit: Fit, index: int) -> list[tuple[Array, Array]]:
+    """Return mean and covariance of initial states, one of them shifted by some standard deviations."""
+    begun = fit.problem.observations[index].begun
+    if begun is None:
+        return []
+    mean, covariance = begun
+    ways = np.diag(np.sqrt(np.diag(covariance)))
+    return [(mean + shift * way, covariance) for way in ways for shift in SHIFTS]
 
 
-def _find_start_in_play(fit: Fit) -> Problem | None:
-    """Return the problem with other initial states that explain the first samples better; None if there are none."""
+def _list_starts_in_play(fit: Fit, index: int) -> list[tuple[Array, Array]]:
+    """Return mean and covariance of initial states all over the motion."""
     problem, n = fit.problem, len(fit.problem.system.model.states)
-    openings = [o.part(0, min(OPENING, o.samples)) for o in problem.observations]
-    whole, unit = list(problem.observations), (problem.scales.length, problem.scales.velocity)
-    for i, observation in enumerate(problem.observations):
+    unit, now = (problem.scales.length, problem.scales.velocity), problem.points(fit.theta[None], index)
+    mean, covariance = now.mean[0, :n], now.covariance[0, :n, :n].copy()
+    covariance[:2], covariance[:, :2] = 0.0, 0.0
+    covariance[0, 0], covariance[1, 1] = ((NARROW * size) ** 2 for size in unit)
+    seen = any(sensor.channel == "velocity" for sensor in problem.observations[index].sensors)
+    speeds = [mean[1]] if seen else unit[1] * SPEEDS
+    pairs = itertools.product(unit[0] * PLACES, speeds)
+    return [(np.array([place, speed, *mean[2:]]), covariance) for place, speed in pairs]
+
+
+def _find_start(fit: Fit, starts: Callable[[Fit, int], list[tuple[Array, Array]]]) -> Problem | None:
+    """Return the problem with other initial states that explain the first samples better; None if there are none.
+
+    `starts` returns those that are tried for a recording in which no sensor shows the position.
+    """
+    whole = list(fit.problem.observations)
+    openings = [o.part(0, min(OPENING, o.samples)) for o in whole]
+    for i, observation in enumerate(fit.problem.observations):
         if shows_place(observation):
             continue
-        now = problem.points(fit.theta[None], i)
-        mean, covariance = now.mean[0, :n], now.covariance[0, :n, :n].copy()
-        covariance[:2], covariance[:, :2] = 0.0, 0.0
-        covariance[0, 0], covariance[1, 1] = ((NARROW * size) ** 2 for size in unit)
-        seen = any(sensor.channel == "velocity" for sensor in observation.sensors)
-        speeds = [mean[1]] if seen else unit[1] * SPEEDS
-        trials = [openings[i]]
-        for place, speed in itertools.product(unit[0] * PLACES, speeds):
-            trials.append(replace(openings[i], begun=(np.array([place, speed, *mean[2:]]), covariance)))
+        trials = [openings[i], *(replace(openings[i], begun=begun) for begun in starts(fit, i))]
         scores = [_score_openings(fit, [*openings[:i], trial, *openings[i + 1 :]]) for trial in trials]
         best = int(np.argmax(scores))
         if scores[best] > scores[0] + GAINED:
             openings[i], whole[i] = trials[best], replace(observation, begun=trials[best].begun)
-    changed = any(a is not b for a, b in zip(whole, problem.observations, strict=True))
-    return problem.on(tuple(whole)) if changed else None
+    changed = any(a is not b for a, b in zip(whole, fit.problem.observations, strict=True))
+    return fit.problem.on(tuple(whole)) if changed else None
 
 
 def _score_openings(fit: Fit, openings: Sequence[Observation]) -> float:

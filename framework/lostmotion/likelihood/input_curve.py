@@ -38,14 +38,18 @@ class InputCurve:
         """Return an input at times `t` (s) from the first sample, of any shape.
 
         One that is held between the samples is averaged over a quarter of a sample, and keeps its first and its last
-        value outside of the recording.
+        value outside of the recording. Any other is predicted there, and constant from `REACH` samples on.
         """
         if self.held:
             return self._average(column, t)
         last = (len(self.inputs) - 1) * self.dt
         found = np.asarray(self.spline(np.clip(t, 0.0, last))[..., column])
-        found = np.where(t < 0.0, self._before(-t)[..., column], found) if np.any(t < 0.0) else found
-        return np.where(t > last, self._after(t - last)[..., column], found) if np.any(t > last) else found
+        early, late, far = t < 0.0, t > last, self._reach * self.dt
+        if np.any(early):
+            found[early] = self._before(np.minimum(-t[early], far))[..., column]
+        if np.any(late):
+            found[late] = self._after(np.minimum(t[late] - last, far))[..., column]
+        return found
 
     def _average(self, column: int, t: Array) -> Array:
         half = 0.125 * self.dt
@@ -56,22 +60,19 @@ class InputCurve:
             (np.interp(middle + half, edges, sums) - np.interp(middle - half, edges, sums)) / (2.0 * half)
         )
 
-    def _before(self, t: Array) -> Array:
-        """Return the inputs (..., inputs) at times `t` (s) before the first sample; far before they are constant."""
-        return np.asarray(self._predicted[0](np.clip(t, 0.0, self._reach * self.dt)))
-
-    def _after(self, t: Array) -> Array:
-        """Return the inputs (..., inputs) at times `t` (s) after the last sample; far after they are constant."""
-        return np.asarray(self._predicted[1](np.clip(t, 0.0, self._reach * self.dt)))
-
     @property
     def _reach(self) -> int:
         return min(REACH, len(self.inputs) // 4)
 
     @cached_property
-    def _predicted(self) -> tuple[CubicSpline, CubicSpline]:
-        """Splines over the time (s) before the first sample and after the last one, which increases outwards."""
-        return self._predict(self.inputs), self._predict(self.inputs[::-1])
+    def _before(self) -> CubicSpline:
+        """The inputs over the time (s) before the first sample."""
+        return self._predict(self.inputs)
+
+    @cached_property
+    def _after(self) -> CubicSpline:
+        """The inputs over the time (s) after the last sample."""
+        return self._predict(self.inputs[::-1])
 
     def _predict(self, inputs: Array) -> CubicSpline:
         """Return the spline over the time before the first of some inputs (samples, inputs)."""

@@ -66,9 +66,9 @@ def compute_bound(
     prepared: Prepared, machine: SealedMachine, effects: Sequence[Effect], said: Diagnosis | None
 ) -> LikelihoodBound:
     """Return the result of the true model of a case, with its held-out error if there is a diagnosis."""
-    train, held = split_heldout(prepared.observations)
-    system = System(prepared.model, prepared.terms)
-    problem = _start_at_truth(make_problem(system, prepared.case, train, jobs=1), machine)
+    _, held = split_heldout(prepared.observations)
+    problem = _pose_at_truth(prepared, machine)
+    system = problem.system
     effects = [add_library_names(effect, machine) for effect in effects]
     keys = [find_key(system, effect.mechanism, effect.at) for effect in effects]
     status = [_find_status(effect, key) for effect, key in zip(effects, keys, strict=True)]
@@ -101,10 +101,8 @@ def compute_lead(prepared: Prepared, machine: SealedMachine, effect: Effect, oth
     Both are fitted to the data that a diagnosis fits. Where the other law is a part of the first one, the lead is the
     gain of what it lacks.
     """
-    train, _ = split_heldout(prepared.observations)
-    system = System(prepared.model, prepared.terms)
-    problem = _start_at_truth(make_problem(system, prepared.case, train, jobs=1), machine)
-    keys = [(find_key(system, law.mechanism, law.at), law) for law in (effect, other)]
+    problem = _pose_at_truth(prepared, machine)
+    keys = [(find_key(problem.system, law.mechanism, law.at), law) for law in (effect, other)]
     first, second = (_fit_terms(problem, {key: law.parameters}) if key else None for key, law in keys)
     return first.log_likelihood - second.log_likelihood if first and second else math.nan
 
@@ -171,8 +169,10 @@ def _gain_without_term(fit: Fit, effect: Effect) -> float:
     return compute_random_force_gain(fit) if effect.mechanism == "random_force" else math.nan
 
 
-def _start_at_truth(problem: Problem, machine: SealedMachine) -> Problem:
-    """Return the problem with the true values and the usual noise as its start."""
+def _pose_at_truth(prepared: Prepared, machine: SealedMachine) -> Problem:
+    """Return the problem of the fitted data, with the true values and the usual noise as its start."""
+    train, _ = split_heldout(prepared.observations)
+    problem = make_problem(System(prepared.model, prepared.terms), prepared.case, train, jobs=1)
     free = []
     for f in problem.free:
         if f.level == NOISE:
