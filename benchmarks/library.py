@@ -51,8 +51,8 @@ UNITS = {"position": "m", "velocity": "m/s", "acceleration": "m/s^2"}
 ANGULAR = {"position": "rad", "velocity": "rad/s", "acceleration": "rad/s^2"}
 STEPS, SIZES, TOLERANCE = 2, 3.0, 0.4
 """Steps of the size towards the wanted gain, the largest factor of each, and the error of its logarithm at the end."""
-LEAST_ERROR = -0.9
-"""The least relative error of a gain, as in the library."""
+LEAST_ERROR, MOST_ERROR = -0.9, 1.0
+"""The least relative error of a gain, as in the library, and the largest one: twice the recorded drive."""
 ESTIMATED = {"linear_oscillator": ("c", "k"), "rigid_drive": ("m", "c")}
 
 
@@ -136,8 +136,8 @@ def simulate(draft, channel, factor):
     """
     rig, pilot = draft.rig, draft.pilot
     effects = (draft.effect(factor),) if draft.effect else ()
-    if any(effect.parameters.get("error", 0.0) < LEAST_ERROR for effect in effects):
-        raise ValueError("the drive or the sensor would be reversed, or nearly without effect")
+    if not all(LEAST_ERROR <= effect.parameters.get("error", 0.0) <= MOST_ERROR for effect in effects):
+        raise ValueError("the drive or the sensor would be reversed, nearly without effect, or more than doubled")
     cycle = 2.0 * math.pi / max(omega for _, omega, _ in rig.signal.tones)
     if any(e.mechanism in LATE and max(e.parameters.values()) > cycle for e in effects):
         raise ValueError("the delay or lag would be longer than a cycle of the drive")

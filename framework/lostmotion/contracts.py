@@ -9,14 +9,14 @@ all rules of its kind. All values are in SI units.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, Literal, Self
 
 import numpy as np
 
 from lostmotion.errors import ContractError, nearest
-from lostmotion.parts import PSEUDO_NEEDS, Array, Group, Interface, Param
+from lostmotion.parts import PSEUDO_NEEDS, Array, Drive, Group, Input, Interface, Motion, Param, Values
 from lostmotion.quantities import Dimension
 from lostmotion.results import Embedding, Estimate
 from lostmotion.subjects import Data, Flow, Orbit, Series
@@ -30,13 +30,6 @@ __all__ = [
     "Flow", "Group", "Input", "Interface", "Model", "Motion", "Orbit", "Param", "Quantifier", "SensorTerm", "Series",
     "Surrogate", "Term", "Values", "place_of"]  # fmt: skip
 
-Input = Callable[[Array, int], Array]
-"""A recorded input: its value (order 0) or its first derivative (order 1) at times (s) of any shape."""
-Values = tuple[float, ...]
-"""The parameters or states that a term receives: numbers to be read by index; they cannot be assigned."""
-Drive = tuple[float, float, float]
-"""A harmonic drive: amplitude (SI), angular frequency omega (rad/s) and phase (rad)."""
-Motion = Literal["translation", "rotation"]
 _NOWHERE = Interface("", -1, "", lambda y, u: (0.0, 0.0))
 
 
@@ -155,6 +148,11 @@ class Term(ABC):
     def derived(p: Values) -> Values:
         """Return the numbers that `further` declares, computed from `p`: for instance a phase from two amplitudes."""
         return ()
+
+    @staticmethod
+    def shifted(p: Values, by: float) -> Values:
+        """Return `params` with which the force at x - `by` (m or rad) is that of `p` at x: a wave has another phase."""
+        return p
 
     def commoner(self, values: Mapping[str, float]) -> Mapping[str, Mapping[str, float]]:
         """Return more common terms whose sum is the same force at these values, `{name: {param: value}}`, or `{}`.

@@ -13,6 +13,13 @@ from numpy.typing import NDArray
 from lostmotion.quantities import Dimension
 
 Array = NDArray[np.float64]
+Input = Callable[[Array, int], Array]
+"""A recorded input: its value (order 0) or its first derivative (order 1) at times (s) of any shape."""
+Values = tuple[float, ...]
+"""The parameters or states that a term receives: numbers to be read by index; they cannot be assigned."""
+Drive = tuple[float, float, float]
+"""A harmonic drive: amplitude (SI), angular frequency omega (rad/s) and phase (rad)."""
+Motion = Literal["translation", "rotation"]
 PSEUDO_NEEDS = (
     "step", "finest", "mobility", "inertia", "omega", "amplitude", "stiffness", "play", "contact", "acceleration",
     "force_input", "shake_input",

@@ -226,6 +226,10 @@ def does_nothing(t, x, v, u, p, s):
     return 0.0 * v
 
 
+def doubles_its_parameter(p, by):
+    return (2.0 * p[0],)
+
+
 def explodes_at_rest(t, x, v, u, p, s):
     return -p[0] * v / abs(v)
 
@@ -333,6 +337,7 @@ BAD = [
     ("force_is_zero_at_null", Drag, {"force": staticmethod(pushes_always)}, set()),
     ("force_is_zero_at_null", Memory, {"force": staticmethod(pushes_always)}, set()),
     ("force_does_something", Drag, {"force": staticmethod(does_nothing)}, set()),
+    ("shifted_moves_the_zero", Drag, {"shifted": staticmethod(doubles_its_parameter)}, set()),
     ("force_is_a_finite_number", Drag, {"force": staticmethod(explodes_at_rest)}, set()),
     ("force_and_rate_change_no_argument", Drag, {"force": staticmethod(eats_its_parameter)}, None),
     ("force_is_deterministic", Drag, {"force": staticmethod(trembles)}, RANDOM),

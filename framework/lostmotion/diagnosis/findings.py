@@ -24,6 +24,7 @@ from lostmotion.inference.fit import Fit
 from lostmotion.inference.late import estimate_onset
 from lostmotion.inference.mixture import draw_posterior
 from lostmotion.inference.natural import find_term
+from lostmotion.inference.origin import list_unlocated
 from lostmotion.inference.profile import stretch_draws
 from lostmotion.likelihood.predict import Horizon
 from lostmotion.quantities import unit_of
@@ -135,6 +136,10 @@ def _make_entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> Me
     sentence = term.physics.format(**numbers) + _name_sensor(d, term)
     if term.at in list_other_places(system.model):
         sentence += f" at the place {term.at!r}"
+    derived = _compute_derived(outcome, term, held)
+    if key in list_unlocated(d.after):
+        sizes = [f"{q.meaning}: {derived[q.name]}; " for q in term.further[:1]]
+        sentence += f" ({''.join(sizes)}the phase is unknown, because no sensor shows the position)"
     late = estimate_onset(d.after, key)
     if late:
         sentence += f", since {late}"
@@ -148,7 +153,7 @@ def _make_entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> Me
         probability=min(p, d.settings.name.simplest) if state == OPEN else p,
         state=state,
         doubts=tuple(doubts),
-        parameters=own | _compute_derived(outcome, term, held),
+        parameters=own | derived,
         share_of_drive=share,
         since=late,
         says=f"{sentence}{size}.",

@@ -16,6 +16,7 @@ from lostmotion.contracts import Array
 from lostmotion.diagnosis.findings import draw_parameters
 from lostmotion.diagnosis.search import SearchResult, list_physical_keys
 from lostmotion.inference.fit import Fit
+from lostmotion.inference.origin import shift_origin
 from lostmotion.inference.other_shapes import find_modes, refit_complete
 from lostmotion.inference.setup import polish_fit
 
@@ -38,7 +39,7 @@ def draw_mixture(diagnosis: SearchResult, rng: np.random.Generator, stretches: A
     made = draw_parameters(chosen, rng, stretches)
     if diagnosis.learned:
         return made
-    made = mix_modes(chosen, made, rng)
+    made = shift_origin(chosen, mix_modes(chosen, made, rng), list_physical_keys(chosen), rng)
     rivals = _list_rivals(diagnosis)
     keys = list_physical_keys(chosen)
     parts = _divide_rows(len(made), [share for _, share in rivals], rng)

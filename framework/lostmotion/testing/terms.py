@@ -6,7 +6,7 @@ import inspect
 import itertools
 import math
 import string
-from dataclasses import fields
+from dataclasses import fields, replace
 from functools import partial
 from typing import Any
 
@@ -20,6 +20,8 @@ from lostmotion.testing.rules import SNAKE, join_words, rule
 from lostmotion.testing.shared import find_repeated
 
 _STEPS = 5
+_BY, _SAME_FORCE = 0.37, 1e-9
+"""A shift of the zero of the position, and the relative difference of forces by rounding."""
 
 
 def compute_force(term: Term, point: Point, function: Any = None) -> Any:
@@ -145,6 +147,20 @@ def force_does_something(term: Term) -> str:
         return ""
     forces = [compute_force(term, _evolve_states(term, p)) for p in points_of_term(term)]
     return "" if any(f != 0.0 for f in forces) else f"the force was 0 at each of {len(forces)} points"
+
+
+@rule("term")
+def shifted_moves_the_zero(term: Term) -> str:
+    """Return from `shifted` the parameters with which the force at x - by is the one at x, if you override it."""
+    if type(term).shifted is Term.shifted:
+        return ""
+    for point in points_of_term(term):
+        own = len(term.params)
+        moved = np.array([*term.shifted(tuple(point.p[:own]), _BY), *point.p[own:]])
+        here, there = compute_force(term, point), compute_force(term, replace(point, x=point.x - _BY, p=moved))
+        if relative_difference(here, there) > _SAME_FORCE:
+            return f"the force is {here} at x = {point.x:.3g}, and {there} at x - {_BY} with the shifted parameters"
+    return ""
 
 
 @rule("term")

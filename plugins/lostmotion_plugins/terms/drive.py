@@ -77,7 +77,7 @@ class ExcitationDelay(DriveTerm):
     at: str = "drive"
     name: ClassVar[str] = "excitation_delay"
     usual: ClassVar[bool] = True
-    unlikely: ClassVar[float] = 3.0
+    unlikely: ClassVar[float] = 1.5
     physics: ClassVar[str] = "The drive acts {delay} after it was recorded"
     formula: ClassVar[str] = "u(t - delay)"
     paper: ClassVar[str] = "Ljung, System Identification: Theory for the User (1999), section 4.2"

@@ -23,6 +23,12 @@ PITCH = Param(
 )  # fmt: skip
 
 
+def turn_wave(cosine: float, sine: float, angle: float) -> tuple[float, float]:
+    """Return the cosine and sine parts of a wave whose zero is moved forward by an angle (rad)."""
+    c, s = math.cos(angle), math.sin(angle)
+    return cosine * c + sine * s, sine * c - cosine * s
+
+
 @dataclass(frozen=True)
 class Cogging(Term):
     """A force that is periodic in position: cogging torque of a motor, or the force of a bent screw."""
@@ -44,6 +50,10 @@ class Cogging(Term):
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
         angle = 2.0 * math.pi * x / p[2]
         return p[0] * math.cos(angle) + p[1] * math.sin(angle)
+
+    @staticmethod
+    def shifted(p: Values, by: float) -> Values:
+        return *turn_wave(p[0], p[1], 2.0 * math.pi * by / p[2]), p[2]
 
 
 @dataclass(frozen=True)
@@ -76,3 +86,7 @@ class PositionDependentFriction(Term):
         angle = 2.0 * math.pi * x / p[3]
         level = max(p[0] + p[1] * math.cos(angle) + p[2] * math.sin(angle), 0.0)
         return resist_sliding(v, level, (abs(p[0]) + abs(p[1]) + abs(p[2])) * p[4])
+
+    @staticmethod
+    def shifted(p: Values, by: float) -> Values:
+        return p[0], *turn_wave(p[1], p[2], 2.0 * math.pi * by / p[3]), p[3]

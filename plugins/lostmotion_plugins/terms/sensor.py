@@ -74,7 +74,7 @@ class SensorDelay(SensorTerm):
     at: str = "sensor"
     name: ClassVar[str] = "sensor_delay"
     usual: ClassVar[bool] = True
-    unlikely: ClassVar[float] = 3.0
+    unlikely: ClassVar[float] = 1.5
     physics: ClassVar[str] = "The sensor of the response is delayed by {delay}"
     formula: ClassVar[str] = "x(t - delay)"
     paper: ClassVar[str] = "Ljung, System Identification: Theory for the User (1999), section 4.2"
