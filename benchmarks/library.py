@@ -22,7 +22,7 @@ from pathlib import Path
 import click
 import numpy as np
 
-from library_rows import DRIVES, LATE, SENSORS, SIMPLER, explain_miss, print_summary
+from library_rows import DRIVES, LATE, SENSORS, SIMPLER, explain_miss, list_names, print_summary
 from lostmotion.case import dump_case
 from lostmotion.codec import to_plain
 from lostmotion.errors import LostMotionError
@@ -260,7 +260,7 @@ def run_task(task):
         row["ranking"] = diagnosis["ranking"][:6]
         row["nrmse"] = [diagnosis["fit"][k]["heldout_nrmse"] for k in ("before", "after")]
         row |= {"reached": reached} if effects else {}
-        if effects and explain_miss(row) == SIMPLER:
+        if effects and not list_names(row)[1] and explain_miss(row) == SIMPLER:
             row["lead"] = measure_lead(folder, effects[0], rig, noise)
     return row
 
