@@ -13,7 +13,13 @@ from lostmotion.diagnosis.findings import draw_parameters
 from lostmotion.diagnosis.mixed import mix_modes
 from lostmotion.inference.candidates import join_term
 from lostmotion.inference.fit import maximise, restart
-from lostmotion.inference.other_shapes import find_modes, has_other_shapes, list_scanned_shapes, refit_shapes
+from lostmotion.inference.other_shapes import (
+    compute_complete_gain,
+    find_modes,
+    has_other_shapes,
+    list_scanned_shapes,
+    refit_shapes,
+)
 from lostmotion.inference.refits import Refits
 from lostmotion.inference.term_sets import Selection, TermSet
 from lostmotion.likelihood.observation import Observation
@@ -120,6 +126,16 @@ def test_a_drive_that_saturates_completely_is_among_the_draws(share, complete):
     assert complete[0] <= np.mean(shares == 1.0) <= complete[1]
     low, high = np.quantile(shares, [0.025, 0.975])
     assert low < share <= high
+
+
+@pytest.mark.parametrize(("share", "low", "high"), [(1.0, 0.1, 5.0), (0.5, -0.7, -0.69)])
+def test_the_evidence_counts_the_half_of_the_prior_at_the_complete_law(share, low, high):
+    """Where half passes, only the other half of the prior counts: -log 2. Where all is cut, the evidence is larger."""
+    noise = 0.03 if share == 1.0 else 0.003
+    fit = driven(lambda x: 0.0, "drive_saturation", noise, lambda u: share * (u - min(max(u, -2.5), 2.5)))
+    assert compute_complete_gain(fit) == 0.0
+    best = refit_shapes(with_term(fit, "drive_saturation", {"share": 0.7, "limit": 2.0}))
+    assert low < compute_complete_gain(best) < high
 
 
 class Law(NamedTuple):

@@ -17,15 +17,13 @@ from lostmotion.diagnosis.findings import draw_parameters
 from lostmotion.diagnosis.search import SearchResult, list_physical_keys
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.origin import shift_origin
-from lostmotion.inference.other_shapes import find_modes, refit_complete
+from lostmotion.inference.other_shapes import LARGEST, find_modes, refit_complete
 from lostmotion.inference.setup import polish_fit
 
 REACH = 4.0
 """Maxima of the posterior with a log evidence lower than that of the best by no more than this are in the mixture."""
 MOST = 3
 """The largest number of alternative explanations in the mixture."""
-LARGEST = 30.0
-"""Log evidences above that of the fit are cut there: such a mode has all the draws."""
 
 
 def draw_mixture(diagnosis: SearchResult, rng: np.random.Generator, stretches: Array | None = None) -> Array:

@@ -24,6 +24,8 @@ BETTER = 2.0
 """It goes on only from a maximum whose log evidence is higher by more than this."""
 VARIED = 8.0
 """The widths of two maxima make their log evidences differ from their log posteriors by up to this."""
+LARGEST = 30.0
+"""Log evidences above that of a fit are cut there: such a mode has all the weight."""
 NEAR = 0.03
 """Maxima with shapes that differ by less, as a logarithm, are the same one."""
 
@@ -94,6 +96,16 @@ def refit_complete(fit: Fit) -> list[Fit]:
                 held = hold_free(problem, at, slot.param.high)
                 found.append(maximise(held, held.clip(np.delete(fit.theta, at))))
     return [one for one in found if one.status == "converged"]
+
+
+def compute_complete_gain(fit: Fit) -> float:
+    """Return what complete laws add to the log evidence of a fit; 0 where no law can be complete.
+
+    Half of the prior of an amplitude with a greatest value is at that value, and half is spread over the values below,
+    which the log evidence of the fit counts as a whole.
+    """
+    complete = [min(one.log_evidence - fit.log_evidence, LARGEST) for one in refit_complete(fit)]
+    return math.log(0.5 * (1.0 + sum(math.exp(gain) for gain in complete))) if complete else 0.0
 
 
 def _maximise_each(problems: Sequence[Problem], starts: Sequence[Array], fit: Fit, hopeless: float) -> list[Fit]:

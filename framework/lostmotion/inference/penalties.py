@@ -5,6 +5,9 @@ from __future__ import annotations
 import math
 
 from lostmotion.contracts import Term
+from lostmotion.inference.late import compute_onset_price
+from lostmotion.inference.natural import find_term
+from lostmotion.likelihood.problem import Problem
 from lostmotion.settings import DEFAULT, Settings
 
 
@@ -32,3 +35,9 @@ def compute_penalty(term: Term, many: int, settings: Settings = DEFAULT) -> floa
         + settings.select.further * further
         + sum(math.log(count) for count in choices)
     )
+
+
+def compute_price(problem: Problem, many: int) -> float:
+    """Return the log prior penalty of the active terms, out of `many`, and of their onsets."""
+    own = [compute_penalty(find_term(problem, key)[0], many, problem.settings) for key in sorted(problem.active)]
+    return sum(own) + compute_onset_price(problem)

@@ -21,14 +21,14 @@ from lostmotion.inference.candidates import (
 )
 from lostmotion.inference.commoner import rewrite_in_commoner_terms
 from lostmotion.inference.fit import HOPELESS, Fit, maximise, restart, use_cores, use_one_core
-from lostmotion.inference.late import compute_onset_price, drop_weak_onsets
+from lostmotion.inference.late import drop_weak_onsets
 from lostmotion.inference.natural import find_term
-from lostmotion.inference.other_shapes import refit_choices, refit_shapes
-from lostmotion.inference.penalties import are_related, compute_penalty
+from lostmotion.inference.other_shapes import compute_complete_gain, refit_choices, refit_shapes
+from lostmotion.inference.penalties import are_related, compute_price
 from lostmotion.inference.random_force import has_usual_random_force
 from lostmotion.inference.refits import Refits, refit_from, refit_with_terms, refit_without
 from lostmotion.inference.robustness import RobustChecks
-from lostmotion.inference.term_sets import Selection, TermSet
+from lostmotion.inference.term_sets import CLOSE, Selection, TermSet
 from lostmotion.kernels.threads import each
 
 MOST_FITTED, MOST_LATE = 6, 2
@@ -165,12 +165,10 @@ class Selector:
         if rewritten is not fit:
             self._rewritten.add(fit.problem.active)
             fit = rewritten
-        terms = fit.problem.active
-        price = sum(
-            compute_penalty(find_term(fit.problem, key)[0], len(self.candidates), fit.problem.settings) for key in terms
-        )
-        price += compute_onset_price(fit.problem)
-        term_set = TermSet(terms, fit, fit.log_evidence - price)
+        terms, weight = fit.problem.active, fit.log_evidence - compute_price(fit.problem, len(self.candidates))
+        if weight > max((v.weight for v in self.selection.fitted_sets.values()), default=weight) - CLOSE:
+            weight += compute_complete_gain(fit)
+        term_set = TermSet(terms, fit, weight)
         known = self.selection.fitted_sets.get(terms)
         if known is None or term_set.weight > known.weight:
             self.selection.fitted_sets[terms] = term_set
