@@ -22,7 +22,7 @@ from pathlib import Path
 import click
 import numpy as np
 
-from library_rows import DRIVES, LATE, SENSORS, SIMPLER, explain_miss, list_names, print_summary
+from library_rows import DRIVES, LATE, SENSORS, find_rival, print_summary
 from lostmotion.case import dump_case
 from lostmotion.codec import to_plain
 from lostmotion.errors import LostMotionError
@@ -218,13 +218,15 @@ def measure_gain(folder, effects, rig, noise):
         return f"not reached: {err}"
 
 
-def measure_lead(folder, effect, rig, noise):
-    """Return the lead in log-likelihood of the hidden law over the simpler one that it contains."""
-    law, p = default().load("term", effect.mechanism), effect.parameters
-    size = p.get("force", 0.5 * (p.get("forward", 0.0) + p.get("backward", 0.0)))
-    simpler = Effect(law.extends[0], effect.at, {"force": size})
+def measure_lead(folder, effect, rig, noise, entry):
+    """Return the lead in log-likelihood of the hidden law over the one of an entry of `found`, each alone."""
+    other = Effect(entry["mechanism"], entry["at"], {k: i["median"] for k, i in entry["parameters"].items()})
     machine = SealedMachine(**vars(rig), measurement_noise=noise)
-    return compute_lead(prepare(folder / "case.toml", default()), machine, effect, simpler)
+    try:
+        lead = compute_lead(prepare(folder / "case.toml", default()), machine, effect, other)
+        return None if math.isnan(lead) else lead
+    except (LostMotionError, ValueError, ArithmeticError) as err:
+        return f"not reached: {err}"
 
 
 def run_task(task):
@@ -260,8 +262,8 @@ def run_task(task):
         row["ranking"] = diagnosis["ranking"][:6]
         row["nrmse"] = [diagnosis["fit"][k]["heldout_nrmse"] for k in ("before", "after")]
         row |= {"reached": reached} if effects else {}
-        if effects and not list_names(row)[1] and explain_miss(row) == SIMPLER:
-            row["lead"] = measure_lead(folder, effects[0], rig, noise)
+        if effects and (wrong := find_rival(row)):
+            row["lead"] = measure_lead(folder, effects[0], rig, noise, wrong)
     return row
 
 

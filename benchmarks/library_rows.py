@@ -13,6 +13,7 @@ from lostmotion.registry import default
 from lostmotion.report.words import to_words
 from lostmotion.results import Interval
 from lostmotion_trials.blind.bound import are_equivalent, complete_parameters, is_covered
+from lostmotion_trials.blind.mechanisms import NOISY
 from lostmotion_trials.blind.simulator import BlindDrive
 
 SENSORS = ("position", "velocity", "acceleration")
@@ -26,6 +27,14 @@ def list_names(row):
     found = [f for f in row["found"] if f["mechanism"] not in unnamed]
     right = [are_equivalent(f["mechanism"], row["name"]) or is_short_delay(f, row) for f in found]
     return ["" if ok else f["mechanism"] for f, ok in zip(found, right, strict=True)], any(right)
+
+
+def find_rival(row):
+    """Return the entry that stands alone in place of the hidden term, without an onset; None where there is none."""
+    names, hit = list_names(row)
+    alone = not hit and len(names) == 1 and names[0] and row["name"] not in NOISY
+    entries = [f for f in row["found"] if alone and f["mechanism"] in names and not f.get("since")]
+    return entries[0] if entries else None
 
 
 def is_short_delay(entry, row):
@@ -67,7 +76,8 @@ def is_simpler_enough(row):
     """
     law = default().load("term", row["name"])
     further = len(law.params) - len(default().load("term", law.extends[0]).params)
-    return row.get("lead", math.inf) < 0.5 * float(chi2.isf(RARE, further))
+    lead = row.get("lead")
+    return isinstance(lead, float) and lead < 0.5 * float(chi2.isf(RARE, further))
 
 
 def explain_miss(row):
@@ -76,8 +86,8 @@ def explain_miss(row):
     simpler = default().load("term", row["name"]).extends if row["name"] != "random_force" else ()
     if any(f["mechanism"] in simpler for f in found):
         return SIMPLER
-    words = to_words(row["name"]).lower()
-    if any(words in doubt.lower() for f in found for doubt in f.get("doubts", ())):
+    stated = " ".join(doubt.lower() for f in found for doubt in f.get("doubts", ()))
+    if any(are_equivalent(name, row["name"]) and to_words(name).lower() in stated for name in default().names("term")):
         return "the hidden one is stated as an alternative"
     return ""
 
@@ -133,4 +143,5 @@ def print_summary(rows):
     for r, why in missed:
         found = ", ".join(f["mechanism"] for f in r["found"]) or "nothing"
         place = f"{r['name']}, {r['sensor']}, {r['drive']}, {r['model']}, gain {r['reached']:.0f}"
-        print(f"- {place}: {found}" + (f" ({why})" if why else ""))
+        lead = f"; lead of the hidden law {r['lead']:.1f}" if isinstance(r.get("lead"), float) else ""
+        print(f"- {place}: {found}" + (f" ({why})" if why else "") + lead)

@@ -316,7 +316,9 @@ def test_two_levels_of_friction_show_in_a_position_only(library, tmp_path, senso
     task = ("directional_friction", sensor, "multisine", 14, gain, 1500)
     draft = library.draft_machine(task)
     (effect,), noise = library.write_case(task, draft, 1.0, tmp_path)
-    row = {"name": effect.mechanism, "lead": library.measure_lead(tmp_path, effect, draft.rig, noise)}
+    mean = 0.5 * (effect.parameters["forward"] + effect.parameters["backward"])
+    entry = {"mechanism": "coulomb_friction", "at": effect.at, "parameters": {"force": {"median": mean}}}
+    row = {"name": effect.mechanism, "lead": library.measure_lead(tmp_path, effect, draft.rig, noise, entry)}
     assert draft.rig.model == "linear_oscillator"
     assert is_simpler_enough(row) is not distinct
 

@@ -18,6 +18,7 @@ from lostmotion.inference.fit import Fit, maximise, raise_random_force, restart
 from lostmotion.inference.natural import find_term
 from lostmotion.inference.random_force import compute_random_force_gain
 from lostmotion.inference.setup import choose_steps, make_problem, polish_fit, search_maximum, split_heldout
+from lostmotion.inference.unseen import refit_without_position
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import Horizon
 from lostmotion.likelihood.problem import NOISE, RANDOM, Problem
@@ -102,8 +103,10 @@ def compute_lead(prepared: Prepared, machine: SealedMachine, effect: Effect, oth
     gain of what it lacks.
     """
     problem = _pose_at_truth(prepared, machine)
-    keys = [(find_key(problem.system, law.mechanism, law.at), law) for law in (effect, other)]
-    first, second = (_fit_terms(problem, {key: law.parameters}) if key else None for key, law in keys)
+    laws = (add_library_names(effect, machine), other)
+    keys = [(find_key(problem.system, law.mechanism, law.at), law) for law in laws]
+    fits = (_fit_terms(problem, {key: law.parameters}) if key else None for key, law in keys)
+    first, second = (refit_without_position(fit) if fit else None for fit in fits)
     return first.log_likelihood - second.log_likelihood if first and second else math.nan
 
 
