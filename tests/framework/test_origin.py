@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from lostmotion.inference.fit import Fit, maximise
-from lostmotion.inference.origin import list_unlocated, shift_origin
+from lostmotion.inference.origin import list_shifted, list_unlocated, shift_origin
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import NOISE, RANDOM, FreeParameter, Problem, Scales
 from lostmotion.likelihood.system import System
@@ -57,3 +57,9 @@ def test_draws_have_any_phase_and_keep_their_size():
 def test_draws_with_a_known_zero_are_unchanged():
     keys, draws = list(WAVE), np.tile(list(WAVE.values()), (5, 1))
     assert np.array_equal(shift_origin(fit_drive("position"), draws, keys, np.random.default_rng(1)), draws)
+
+
+def test_the_parts_of_a_wave_depend_on_the_zero_and_its_pitch_does_not():
+    values = {"cosine": 0.03, "sine": -0.04, "pitch": 0.2}
+    assert list_shifted(Cogging(), values, 0.05) == ["cosine", "sine"]
+    assert list_shifted(LinearStiffness(), {"coefficient": 2.0}, 0.05) == []

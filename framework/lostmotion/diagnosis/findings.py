@@ -24,7 +24,7 @@ from lostmotion.inference.fit import Fit
 from lostmotion.inference.late import estimate_onset
 from lostmotion.inference.mixture import draw_posterior
 from lostmotion.inference.natural import find_term
-from lostmotion.inference.origin import list_unlocated
+from lostmotion.inference.origin import list_shifted, list_unlocated
 from lostmotion.inference.profile import stretch_draws
 from lostmotion.likelihood.predict import Horizon
 from lostmotion.quantities import unit_of
@@ -129,18 +129,8 @@ def _make_entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> Me
     system, known = d.after.problem.system, d.after.problem.known
     held = {s.key: float(known[system.index[s.key]]) for s in slots}
     own = {s.param.name: after.get(s.key) or _make_interval(np.full(1, held[s.key]), s.unit) for s in slots}
-    why = explain_withheld(outcome)
-    shown_own = {name: i.with_angles_in(outcome.angle) for name, i in own.items()}
-    numbers = {name: attach_unit(rounded(i.median, 3), i.unit) if why else str(i) for name, i in shown_own.items()}
-    numbers |= {q.name: q.words[q.choices.index(own[q.name].median)] for q in term.params if q.words}
-    sentence = term.physics.format(**numbers) + _name_sensor(d, term)
-    if term.at in list_other_places(system.model):
-        sentence += f" at the place {term.at!r}"
-    derived = _compute_derived(outcome, term, held)
-    if key in list_unlocated(d.after):
-        sizes = [f"{q.meaning}: {derived[q.name]}; " for q in term.further[:1]]
-        sentence += f" ({''.join(sizes)}the phase is unknown, because no sensor shows the position)"
-    late = estimate_onset(d.after, key)
+    parameters, why = own | _compute_derived(outcome, term, held), explain_withheld(outcome)
+    sentence, late = _describe_law(outcome, key, parameters), estimate_onset(d.after, key)
     if late:
         sentence += f", since {late}"
     share = float(np.max(np.abs(d.laws[key]))) / d.after.problem.scales.force
@@ -153,11 +143,30 @@ def _make_entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> Me
         probability=min(p, d.settings.name.simplest) if state == OPEN else p,
         state=state,
         doubts=tuple(doubts),
-        parameters=own | derived,
+        parameters=parameters,
         share_of_drive=share,
         since=late,
         says=f"{sentence}{size}.",
     )
+
+
+def _describe_law(outcome: Outcome, key: str, parameters: Mapping[str, Interval]) -> str:
+    """Return the sentence of a term with its numbers; without intervals where they are withheld."""
+    d, bare = outcome.diagnosis, bool(explain_withheld(outcome))
+    term, _ = find_term(d.after.problem, key)
+    shown = {name: i.with_angles_in(outcome.angle) for name, i in parameters.items()}
+    numbers = {name: attach_unit(rounded(i.median, 3), i.unit) if bare else str(i) for name, i in shown.items()}
+    words = {q.name: q.words[q.choices.index(parameters[q.name].median)] for q in term.params if q.words}
+    turned, phase = {}, ""
+    if key in list_unlocated(d.after):
+        medians = {name: i.median for name, i in parameters.items()}
+        turned = dict.fromkeys(list_shifted(term, medians, d.after.problem.scales.length), "an unknown part")
+        sizes = [f"{q.meaning}: {numbers[q.name]}; " for q in term.further[:1]]
+        phase = f" ({''.join(sizes)}the phase is unknown, because no sensor shows the position)"
+    sentence = term.physics.format(**(numbers | words | turned)) + _name_sensor(d, term)
+    if term.at in list_other_places(d.after.problem.system.model):
+        sentence += f" at the place {term.at!r}"
+    return sentence + phase
 
 
 def list_other_places(model: Model) -> set[str]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from lostmotion.contracts import Array, Term
@@ -27,6 +29,12 @@ def list_unlocated(fit: Fit) -> list[str]:
     waves = [key for key in sorted(problem.active) if type(find_term(problem, key)[0]).shifted is not Term.shifted]
     located = any(shows_place(observation) for observation in problem.observations)
     return waves if waves and not located and _is_free(fit, waves) else []
+
+
+def list_shifted(term: Term, values: Mapping[str, float], by: float) -> list[str]:
+    """Return the names of the parameters that depend on the zero of the position; `values` maps those of the term."""
+    p = tuple(values[q.name] for q in term.params)
+    return [q.name for q, old, new in zip(term.params, p, term.shifted(p, by), strict=True) if old != new]
 
 
 def _is_free(fit: Fit, waves: list[str]) -> bool:

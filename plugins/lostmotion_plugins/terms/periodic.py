@@ -78,6 +78,7 @@ class PositionDependentFriction(Term):
         Param("sine", "friction as sin(2 pi x / pitch)", FORCE, null=0.0, typical=0.3),
         PITCH,
     )
+    further = (Param("wave", "amplitude of the variation", FORCE), Param("phase", "phase in rad", NUMBER))
     needs = ("mobility",)
     resembles = ("coulomb_friction", "stribeck_friction")
 
@@ -86,6 +87,10 @@ class PositionDependentFriction(Term):
         angle = 2.0 * math.pi * x / p[3]
         level = max(p[0] + p[1] * math.cos(angle) + p[2] * math.sin(angle), 0.0)
         return resist_sliding(v, level, (abs(p[0]) + abs(p[1]) + abs(p[2])) * p[4])
+
+    @staticmethod
+    def derived(p: Values) -> Values:
+        return ParametricStiffness.derived(p[1:])
 
     @staticmethod
     def shifted(p: Values, by: float) -> Values:
