@@ -124,7 +124,7 @@ def test_its_term_is_found_in_its_model(ours, tmp_path):
 def test_its_own_tests_pass(fresh, tmp_path):
     source = renamed(tmp_path / "source")
     options = ("-q", "-p", "no:cacheprovider", "-k", "compiles or zero")
-    assert "3 passed" in run("-m", "pytest", *options, source / "tests", cwd=source, python=fresh)
+    assert "4 passed" in run("-m", "pytest", *options, source / "tests", cwd=source, python=fresh)
 
 
 def test_the_root_wheel_leaves_it_out(tmp_path):
