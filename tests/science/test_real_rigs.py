@@ -72,14 +72,22 @@ def test_no_rig_has_more_than_two_names(told, name):
 def test_the_carriage_has_one_friction_of_the_published_size(told):
     found, value = told("emps"), PUBLISHED[FRICTION][0]
     assert names(found) & FRICTIONS == {"coulomb_friction"}
-    assert names(found) <= {"coulomb_friction", "offset_force"}
+    assert names(found) <= {"coulomb_friction", "offset_force", "directional_damping"}
     friction = found["parameters"]["after"][FRICTION]
     assert friction["low"] < value < friction["high"]
     assert friction["median"] == pytest.approx(value, rel=0.05)
 
 
-def test_the_carriage_has_the_constant_force_of_its_reference(told):
-    assert "offset_force" in names(told("emps"))
+def test_the_carriage_moves_more_easily_one_way(told):
+    """The published model has a constant force of 3.16 N; on whole recordings (`test_emps.py`) a damping of -79 N s/m
+    by direction takes its place. Six seconds have to agree with either.
+    """
+    found = told("emps")
+    assert len(names(found) & {"offset_force", "directional_damping"}) == 1
+    after = found["parameters"]["after"]
+    expected = {"offset_force.force": 3.16, "directional_damping.difference": -79.0}
+    (key,) = expected.keys() & after.keys()
+    assert after[key]["median"] == pytest.approx(expected[key], rel=0.1)
 
 
 def test_the_silverbox_is_predicted_ten_times_better(told):
@@ -103,14 +111,13 @@ def test_the_motor_in_one_direction_has_the_torque_of_its_steady_speeds(told, sh
     assert not any(entry["state"] == "named" for entry in found["found"])
 
 
-def test_the_motor_in_both_directions_has_friction_and_a_constant_torque(told):
-    """0.026 and -0.009 N m by least squares; found as friction by direction beside a friction with elastic travel."""
+def test_the_motor_in_both_directions_has_no_law_that_predicts_its_last_run(told):
+    """Dry friction and a constant torque raise the likelihood (by least squares 0.026 and -0.009 N m); the friction
+    drifts, so a model with them predicts the held-out run worse. Friction by direction is open, and nothing is named.
+    """
     found = told("motor_drive")
-    after = {key: value["median"] for key, value in found["parameters"]["after"].items()}
-    forward, backward = after["directional_friction.forward"], after["directional_friction.backward"]
-    assert 0.5 * (forward + backward) + after["bouc_wen_hysteresis.force"] == pytest.approx(0.026, rel=0.1)
-    assert 0.5 * (backward - forward) == pytest.approx(-0.009, rel=0.2)
-    assert not any(entry["state"] == "named" for entry in found["found"])
+    assert not any(entry["state"] in {"named", "likely"} for entry in found["found"])
+    assert "directional_friction" in {entry["mechanism"] for entry in found["open"]}
 
 
 def test_no_law_is_named_for_a_band_with_play_at_30_lb(told):
