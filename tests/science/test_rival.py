@@ -11,6 +11,7 @@ from lostmotion.diagnosis.confirming import find_unconfirmed
 from lostmotion.diagnosis.search import list_fitted_keys
 from lostmotion.inference.candidates import compute_slopes, fit_term, run_score_test
 from lostmotion.inference.channel_correction import correct_channels
+from lostmotion.inference.discrepancy_fits import evaluate_alike, evaluate_fit
 from lostmotion.inference.rival import (
     compute_log_evidence,
     expand_fit,
@@ -186,6 +187,21 @@ def test_a_bent_sensor_is_put_right_and_wins_what_slopes_promise(tmp_path):
     square = 1  # scale, square and cube of the sensor come first
     assert twice.sizes[square] == pytest.approx(-0.008, rel=0.1)
     assert np.all(np.abs(np.delete(twice.sizes, square)) < 0.01)
+
+
+def test_corrections_of_one_set_serve_another(tmp_path):
+    """The set that is behind was fitted without corrections: with those of the one ahead it gains as much as by its
+    own, so the comparison does not depend on which of the two was corrected first.
+    """
+    nominal, _ = nominal_of(tmp_path, lambda x, v, t: 0.0, shown=bent)
+    own = evaluate_fit(fit_discrepancy(expand_fit(nominal)), nominal)
+    assert own.corrected
+    evidence, price = own.fit.log_evidence - nominal.log_evidence, own.price - own.corrected.price
+    bare = own._replace(evidence=evidence, price=price, corrected=None)
+    alike = evaluate_alike(bare, nominal, own.corrected)
+    assert alike.corrected.sizes == pytest.approx(own.corrected.sizes)
+    assert alike.compute_gain(1.0) == pytest.approx(own.compute_gain(1.0), rel=0.1)
+    assert alike.compute_gain(1.0) > bare.compute_gain(1.0) + 20.0
 
 
 def test_a_channel_is_put_right_as_far_as_flaws_are_usual(tmp_path):

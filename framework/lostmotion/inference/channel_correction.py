@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import reduce
 
 import numpy as np
@@ -15,6 +15,8 @@ from lostmotion.likelihood.observation import Observation
 
 ROUNDS = 4
 """Rounds of a fit to corrected recordings."""
+ROUNDS_ALIKE = 8
+"""Rounds of a fit to recordings with the corrections of another set: no expansion predicts where it starts."""
 
 
 @dataclass(frozen=True)
@@ -66,3 +68,10 @@ def correct_channels(expansion: DiscrepancyExpansion, before: CorrectedFit | Non
     inner = np.eye(count) + expansion.compute_channel_information() * np.outer(widths, widths)
     price = 0.5 * float(np.sum((sizes / widths) ** 2)) + 0.5 * float(np.linalg.slogdet(inner)[1])
     return CorrectedFit(better, sizes, wider, price, changes)
+
+
+def correct_alike(fit: Fit, corrected: CorrectedFit) -> CorrectedFit:
+    """Return a fit to recordings with the corrections that were made for another set of terms, at the same penalty."""
+    observations = tuple(map(corrected.correct, fit.problem.observations))
+    problem = restart(fit).on(observations)
+    return replace(corrected, fit=maximise(problem, problem.clip(fit.theta), rounds=ROUNDS_ALIKE, tolerance=0.3))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from lostmotion.inference.channel_correction import CorrectedFit, correct_channels
+from lostmotion.inference.channel_correction import CorrectedFit, correct_alike, correct_channels
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.rival import DiscrepancyExpansion, expand_fit, fit_discrepancy
 
@@ -61,6 +61,21 @@ def evaluate_fit(found: tuple[Fit, float] | None, fit: Fit) -> DiscrepancyFit | 
             break
         fitted = more
     return fitted
+
+
+def evaluate_alike(known: DiscrepancyFit, fit: Fit, corrected: CorrectedFit) -> DiscrepancyFit:
+    """Return the discrepancy fit of a set with the channel corrections of another set, if it is better than without.
+
+    A linear expansion predicts corrections. Far from its maximum it predicts absurd ones, which are not tried, so one
+    of two sets may be left without corrections that serve both.
+    """
+    right = correct_alike(known.fit, corrected)
+    if right.fit.status == "diverged":
+        return known
+    rest = expand_fit(right.fit)
+    evidence = right.fit.log_evidence + right.log_jacobian - fit.log_evidence
+    found = DiscrepancyFit(evidence, known.price + right.price, _limit_gain(rest), known.fit, right)
+    return max(known, found, key=lambda fitted: fitted.compute_gain(rest.inflation))
 
 
 def _add_smooth_forces(best: Fit, price: float) -> tuple[Fit, float, DiscrepancyExpansion]:

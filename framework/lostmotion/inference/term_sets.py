@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from lostmotion.inference.candidates import ScoreTest
-from lostmotion.inference.discrepancy_fits import DiscrepancyFit, evaluate_fit
+from lostmotion.inference.discrepancy_fits import DiscrepancyFit, evaluate_alike, evaluate_fit
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.natural import find_term
 from lostmotion.inference.rival import (
@@ -90,6 +90,7 @@ class Selection:
     discrepancy_fits: dict[frozenset[str], tuple[Fit, DiscrepancyFit | None]] = field(default_factory=dict)
     known_log_odds: dict[tuple[frozenset[str], frozenset[str]], KnownLogOdds] = field(default_factory=dict)
     imitations: dict[tuple[frozenset[str], frozenset[str]], tuple[Fit, Fit]] = field(default_factory=dict)
+    _alike: dict[frozenset[str], DiscrepancyFit] = field(default_factory=dict)
 
     @property
     def best_nominal(self) -> Fit:
@@ -179,6 +180,16 @@ class Selection:
             term_set, over
         ):
             self._fit_imitation(term_set, over)
+        self._correct_alike(term_set, over, needed)
+
+    def _correct_alike(self, term_set: TermSet, over: TermSet, needed: float) -> None:
+        """Correct the channels for both sets, if they were corrected only for the one that is ahead."""
+        ahead, behind = (term_set, over) if self.compute_log_odds(term_set, over) > needed else (over, term_set)
+        best, known = self.discrepancy_fit(ahead), self.discrepancy_fit(behind)
+        if best and best.corrected and known and not known.corrected and self._alike.get(behind.terms) is not known:
+            found = evaluate_alike(known, behind.fit, best.corrected)
+            self.discrepancy_fits[behind.terms] = (behind.fit, found)
+            self._alike[behind.terms] = found
 
     def _fit_imitation(self, term_set: TermSet, over: TermSet) -> None:
         """Fit smooth forces in place of the terms that a set has in addition to a subset, starting from its expansion.
