@@ -29,6 +29,12 @@ def list_names(row):
     return ["" if ok else f["mechanism"] for f, ok in zip(found, right, strict=True)], any(right)
 
 
+def count_certain(row):
+    """Return the number of wrong names that have the state `named`: neither a doubt nor an alternative is stated."""
+    entries = [f for f in row["found"] if f["mechanism"] in list_names(row)[0]]
+    return sum(f["state"] == "named" for f in entries)
+
+
 def find_rival(row):
     """Return the entry that stands alone in place of the hidden term, without an onset; None where there is none."""
     names, hit = list_names(row)
@@ -100,8 +106,8 @@ BINS = (0.0, 20.0, 50.0, 150.0, MOST, math.inf)
 def format_line(rows):
     """Return the numbers of named machines, intervals with the truth and wrong names, and the median time, as text.
 
-    The number in brackets is that of the wrong names that are a simpler law contained in the hidden one, from which the
-    data do not distinguish it.
+    The numbers in brackets are those of the wrong names that are a simpler law contained in the hidden one, from which
+    the data do not distinguish it, and of those that are stated without a doubt or an alternative.
     """
     hits = sum(list_names(r)[1] for r in rows)
     held = [ok for r in rows for ok in check_coverage(r)]
@@ -109,7 +115,8 @@ def format_line(rows):
     missed = [r for r in rows if not list_names(r)[1]]
     simpler = sum(explain_miss(r) == SIMPLER and is_simpler_enough(r) for r in missed)
     seconds = float(np.median([r["seconds"] for r in rows]))
-    return f"{hits} of {len(rows)} | {sum(held)} of {len(held)} | {extra} ({simpler}) | {seconds:.0f} |"
+    certain = sum(map(count_certain, rows))
+    return f"{hits} of {len(rows)} | {sum(held)} of {len(held)} | {extra} ({simpler}, {certain}) | {seconds:.0f} |"
 
 
 def print_summary(rows):
@@ -119,7 +126,7 @@ def print_summary(rows):
     """
     hidden = [r for r in rows if r.get("status") == 0 and r["name"] != "clean"]
     good = [r for r in hidden if isinstance(r.get("reached"), float)]
-    heads = "named | intervals that hold | names too many (a simpler law as good) | seconds (median)"
+    heads = "named | intervals that hold | names too many (a simpler law as good, without doubt) | seconds (median)"
     print(f"\n| gain | {heads} |\n|{'---|' * 5}")
     for low, high in itertools.pairwise(BINS):
         if own := [r for r in good if low <= r["reached"] < high]:
