@@ -130,6 +130,12 @@ def test_a_band_with_play_that_is_not_predicted_is_not_called_adequate(told):
     assert found["fit"]["before"]["heldout_nrmse"] < 0.3 or found["verdict"] == "mismatch"
 
 
+def test_no_mode_of_the_beam_is_above_half_the_sampling_rate(told):
+    """Seen before: a mode of 781 Hz, named with certainty, in a recording at 800 Hz."""
+    after = told("reuss_beam")["parameters"]["after"]
+    assert after.get("hidden_mode.frequency", {"median": 0.0})["median"] < 400.0
+
+
 def test_wells_that_differ_are_no_law_of_the_library(told):
     """A quadratic spring and a circuit are not in it: the answer is unknown, over the position."""
     found = told("bistable_beam")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,11 +12,13 @@ from truths import fit_oscillator
 
 from lostmotion.inference.candidates import compute_slopes, run_score_test
 from lostmotion.inference.fit import maximise, restart
+from lostmotion.inference.natural import compute_range, list_tried_values
 from lostmotion.inference.refits import Refits, refit_from, refit_with_terms
 from lostmotion.inference.resonance_scan import scan_resonances
 from lostmotion.inference.term_sets import Selection, TermSet
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import NOISE, RANDOM
+from lostmotion.registry import default
 
 BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
 
@@ -56,6 +59,16 @@ def test_a_resonance_between_the_usual_frequencies_is_scanned_for(ratio, damping
     slopes = compute_slopes(fit)
     usual, scanned = (run_score_test(fit, slopes, "hidden_mode", more) for more in ((), (shape,)))
     assert scanned.gain > usual.gain + 10.0
+
+
+def test_a_mode_is_below_half_the_sampling_rate():
+    """A mode at 781 Hz was named in a recording at 800 Hz: it appears at 19 Hz there."""
+    problem = shaken(0.0).problem
+    assert problem.scales.nyquist == pytest.approx(0.5 / problem.observations[0].dt)
+    slow = replace(problem.scales, nyquist=1.5 / problem.scales.time / (2.0 * math.pi))
+    frequency = default().load("term", "hidden_mode").params[1]
+    assert compute_range(frequency, slow)[1] == slow.nyquist < compute_range(frequency, problem.scales)[1]
+    assert max(list_tried_values(frequency, slow)) == pytest.approx(slow.nyquist)
 
 
 def test_without_a_hidden_mass_there_is_no_resonance():

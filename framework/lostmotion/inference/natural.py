@@ -11,7 +11,7 @@ import numpy as np
 from lostmotion.contracts import Param, Term
 from lostmotion.likelihood.problem import FreeParameter, Problem, Scales
 from lostmotion.likelihood.system import Slot
-from lostmotion.quantities import FORCE, LENGTH, SPEED, Dimension, quantity_of
+from lostmotion.quantities import FORCE, FREQUENCY, LENGTH, SPEED, Dimension, quantity_of
 
 SCANNED = 8
 """The number of values of a parameter with a scan that score tests try, evenly over the logarithm of its range."""
@@ -36,17 +36,26 @@ def compute_size(param: Param, scales: Scales) -> float:
 def make_free_parameters(slots: list[Slot], scales: Scales, start: Mapping[str, float]) -> tuple[FreeParameter, ...]:
     """Return the free parameters of a term: amplitudes by Student's t about zero, shapes lognormal."""
     open_ = [slot for slot in slots if not slot.param.choices]
-    return tuple(_make_free(slot, compute_size(slot.param, scales), start.get(slot.key)) for slot in open_)
+    return tuple(_make_free(slot, scales, start.get(slot.key)) for slot in open_)
 
 
-def _make_free(slot: Slot, size: float, start: float | None) -> FreeParameter:
+def compute_range(param: Param, scales: Scales) -> tuple[float, float]:
+    """Return the smallest and largest value of a shape parameter; a frequency is at most half the sampling rate.
+
+    A mode above it would appear as one below it (aliasing), and the filter of an acquisition system removes it.
+    """
+    low, high = (compute_size(param, scales) * end for end in param.scan or (math.exp(-REACH), math.exp(REACH)))
+    return low, max(min(high, scales.nyquist), low) if param.dimension == FREQUENCY else high
+
+
+def _make_free(slot: Slot, scales: Scales, start: float | None) -> FreeParameter:
+    size = compute_size(slot.param, scales)
     if slot.param.scale == "log":
-        middle = math.log(size)
-        low, high = (math.log(end) for end in slot.param.scan or (math.exp(-REACH), math.exp(REACH)))
-        begin = middle if start is None else min(max(math.log(start), middle + low), middle + high)
+        middle, (low, high) = math.log(size), map(math.log, compute_range(slot.param, scales))
+        begin = min(max(middle if start is None else math.log(start), low), high)
         if slot.param.scan and slot.param.dimension == LENGTH:
             low, high = low - BEYOND, high + BEYOND
-        return FreeParameter(slot.key, slot.unit, begin, middle + low, middle + high, log=True, mean=middle, sd=1.5)
+        return FreeParameter(slot.key, slot.unit, begin, low, high, log=True, mean=middle, sd=1.5)
     low = max(slot.param.low, -30.0 * size)
     high = min(slot.param.high, 30.0 * size)
     return FreeParameter(slot.key, slot.unit, start or 0.0, low, high, mean=0.0, sd=size, tail=TAIL)
@@ -98,5 +107,5 @@ def list_star_points(grids: Sequence[Sequence[float]]) -> list[tuple[float, ...]
 def list_tried_values(param: Param, scales: Scales) -> tuple[float, ...]:
     """Return the values at which a shape parameter is tried."""
     if param.scan:
-        return tuple((compute_size(param, scales) * np.geomspace(*param.scan, SCANNED)).tolist())
+        return tuple(np.geomspace(*compute_range(param, scales), SCANNED).tolist())
     return param.choices or tuple(f * compute_size(param, scales) for f in SHAPES)

@@ -15,7 +15,7 @@ import numpy as np
 
 from lostmotion.inference.candidates import compute_slopes, run_score_test
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.natural import compute_size, find_term, sort_slots
+from lostmotion.inference.natural import compute_range, compute_size, find_term, sort_slots
 from lostmotion.likelihood.problem import Problem
 from lostmotion.likelihood.system import Slot
 from lostmotion.quantities import FREQUENCY
@@ -60,7 +60,6 @@ def _list_shapes(problem: Problem, key: str) -> list[Mapping[str, float]]:
 
 def _make_grid(slot: Slot, problem: Problem) -> list[float]:
     """Return the frequencies (Hz) that are tried."""
-    size = compute_size(slot.param, problem.scales)
-    low, high = (size * end for end in slot.param.scan or ())
+    low, high = compute_range(slot.param, problem.scales)
     values: list[float] = np.geomspace(low, high, math.ceil(math.log(high / low) / APART) + 1).tolist()
     return values

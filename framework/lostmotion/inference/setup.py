@@ -86,7 +86,8 @@ def count_lasting_samples(observation: Observation, limits: HeldOutSettings = DE
 
 def compute_scales(system: System, observations: Sequence[Observation], known: Array) -> Scales:
     """Return the natural sizes of force, length and time of the recorded motion."""
-    return replace(_compute_sizes(system, observations, known), span=max(t.samples * t.dt for t in observations))
+    span, nyquist = max(t.samples * t.dt for t in observations), 0.5 / max(t.dt for t in observations)
+    return replace(_compute_sizes(system, observations, known), span=span, nyquist=nyquist)
 
 
 def _compute_sizes(system: System, observations: Sequence[Observation], known: Array) -> Scales:

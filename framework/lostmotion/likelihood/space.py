@@ -168,7 +168,7 @@ class Scales:
     """The natural sizes of a recorded motion, as amplitudes: generalised force, length, time.
 
     `usual` is the log intensity (N^2 s) of the random force that the usual noise of a measured excitation makes; `span`
-    is the length of the recording, in s.
+    is the length of the recording, in s, and `nyquist` half its sampling rate, in Hz.
     """
 
     force: float
@@ -176,6 +176,7 @@ class Scales:
     time: float
     usual: float = 0.0
     span: float = 1.0
+    nyquist: float = math.inf
 
     @property
     def velocity(self) -> float:
