@@ -47,9 +47,8 @@ from lostmotion.quantities import FORCE, TIME
 CREEP, FINEST = 0.02, 32
 SHARES = (1.0, 0.3, 0.01)
 """Fits begin with these shares of the amplitude that a score test predicts."""
-CALM, LARGE = 0.05, 0.7
-"""The noise of a refit without random force, in amplitudes of the response, and a large force in amplitudes of the
-measured one."""
+CALM = 0.05
+"""The noise of a refit without random force, in amplitudes of the response."""
 SPREAD = (0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0)
 """Starting values of the shape of a law that replaces a simpler related law, in units of its typical value."""
 RAISED = 2.0
@@ -344,15 +343,6 @@ def refit_with_noise(fit: Fit) -> Fit:
         elif free.parameter == RANDOM:
             theta[i] = problem.scales.usual
     return maximise(problem, theta)
-
-
-def guess_large_force(problem: Problem, key: str) -> ScoreTest | None:
-    """Return a start at which a term is most of the measured force; None for one that is no force of one amplitude."""
-    amplitudes, shapes = sort_slots(problem, key)
-    if len(amplitudes) != 1 or amplitudes[0].param.dimension != FORCE or amplitudes[0].param.low < 0.0:
-        return None
-    usual = {s.key: compute_size(s.param, problem.scales) for s in shapes}
-    return ScoreTest(key, 0.0, {amplitudes[0].key: LARGE * problem.scales.force, **usual}, 1.0)
 
 
 def replace_term(fit: Fit, key: str, hint: ScoreTest, *, hopeless: float = -math.inf) -> Fit:

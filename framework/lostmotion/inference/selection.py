@@ -10,17 +10,16 @@ from lostmotion.inference.beam import list_beam, list_near_sets
 from lostmotion.inference.candidates import (
     ScoreTest,
     Shapes,
-    add_term,
     compute_slopes,
     fit_term,
-    guess_large_force,
     refit_with_noise,
     replace_term,
     run_score_test,
     run_score_tests,
 )
 from lostmotion.inference.commoner import rewrite_in_commoner_terms
-from lostmotion.inference.fit import HOPELESS, Fit, maximise, restart, use_cores, use_one_core
+from lostmotion.inference.fit import HOPELESS, Fit, use_cores, use_one_core
+from lostmotion.inference.large_forces import fit_large_force, guess_large_force
 from lostmotion.inference.late import drop_weak_onsets
 from lostmotion.inference.natural import find_term
 from lostmotion.inference.other_shapes import compute_complete_gain, refit_choices, refit_shapes
@@ -329,7 +328,7 @@ class Selector:
             hint = guess_large_force(fit.problem, key)
             if hint and calm.status != "diverged":
                 self.say(f"fit with a large {key}")
-                self._add_set(maximise(add_term(restart(calm), hint, hint.start)))
+                self._add_set(fit_large_force(fit, calm, hint))
 
     def _fit_hint(self, fit: Fit, hopeless: float, hint: ScoreTest) -> Fit:
         """Return the fit with one more term, starting from the fit with a simpler related term if there is one."""
