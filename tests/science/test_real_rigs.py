@@ -126,7 +126,8 @@ def test_the_band_with_play_at_30_lb_has_friction_behind_its_gap(told):
     Seen before: a pulsating stiffness and a spring below zero, which the damper does not have, or nothing.
     """
     found = told("damper")
-    assert names(found) and names(found) <= FRICTIONS
+    assert names(found)
+    assert names(found) <= FRICTIONS
     (force,) = (v for key, v in found["parameters"]["after"].items() if key.endswith("hysteresis.force"))
     assert force["median"] == pytest.approx(9.4e3, rel=0.15)
     assert 1.5e-3 < found["parameters"]["after"]["x0"]["median"] < 2.7e-3
