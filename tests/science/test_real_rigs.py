@@ -139,6 +139,16 @@ def test_a_band_with_play_that_is_not_predicted_is_not_called_adequate(told):
     assert found["fit"]["before"]["heldout_nrmse"] < 0.3 or found["verdict"] == "mismatch"
 
 
+def test_the_band_at_36_lb_has_more_friction_behind_the_same_gap(told):
+    """A tighter band: at 30 lb the diagnosis has 10.4 kN behind a half gap of 1.7 mm."""
+    found = told("damper_36lb")
+    assert "bouc_wen_hysteresis" in {entry["mechanism"] for entry in found["found"] if entry["state"] == "named"}
+    after = found["parameters"]["after"]
+    assert after["bouc_wen_hysteresis.force"]["median"] > 12e3
+    assert after["x0"]["median"] == pytest.approx(1.7e-3, rel=0.15)
+    assert found["fit"]["after"]["heldout_nrmse"] < 0.2
+
+
 def test_no_mode_of_the_beam_is_above_half_the_sampling_rate(told):
     """Seen before: a mode of 781 Hz, named with certainty, in a recording at 800 Hz."""
     after = told("reuss_beam")["parameters"]["after"]
