@@ -208,25 +208,25 @@ def write_sized_case(task, draft, folder):
     return effects, noise, reached
 
 
-def measure_gain(folder, effects, rig, noise):
-    """Return the gain in log-likelihood of the true term on the fitted data, by our own likelihood from the truth."""
+def measure(folder, rig, noise, compute):
+    """Return what `compute` returns for the prepared case and its machine; None for nan, or why there is no value."""
     machine = SealedMachine(**vars(rig), measurement_noise=noise)
     try:
-        gain = compute_bound(prepare(folder / "case.toml", default()), machine, effects, None).gains[0]
-        return None if math.isnan(gain) else gain
+        value = compute(prepare(folder / "case.toml", default()), machine)
+        return None if math.isnan(value) else value
     except (LostMotionError, ValueError, ArithmeticError) as err:
         return f"not reached: {err}"
+
+
+def measure_gain(folder, effects, rig, noise):
+    """Return the gain in log-likelihood of the true term on the fitted data, by our own likelihood from the truth."""
+    return measure(folder, rig, noise, lambda case, machine: compute_bound(case, machine, effects, None).gains[0])
 
 
 def measure_lead(folder, effect, rig, noise, entry):
     """Return the lead in log-likelihood of the hidden law over the one of an entry of `found`, each alone."""
     other = Effect(entry["mechanism"], entry["at"], {k: i["median"] for k, i in entry["parameters"].items()})
-    machine = SealedMachine(**vars(rig), measurement_noise=noise)
-    try:
-        lead = compute_lead(prepare(folder / "case.toml", default()), machine, effect, other)
-        return None if math.isnan(lead) else lead
-    except (LostMotionError, ValueError, ArithmeticError) as err:
-        return f"not reached: {err}"
+    return measure(folder, rig, noise, lambda case, machine: compute_lead(case, machine, effect, other))
 
 
 def run_task(task):

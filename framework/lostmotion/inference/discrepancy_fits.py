@@ -47,7 +47,7 @@ def evaluate_fit(found: tuple[Fit, float] | None, fit: Fit) -> DiscrepancyFit | 
         return None
     best, price, rest = _add_smooth_forces(*found)
     right = None
-    fitted = DiscrepancyFit(best.log_evidence - fit.log_evidence, price, _limit_gain(rest), best)
+    fitted = bare = DiscrepancyFit(best.log_evidence - fit.log_evidence, price, _limit_gain(rest), best)
     for _ in range(MOST_CORRECTIONS):
         if not rest.compute_fixed_gain(rest.inflation) > rest.fit.problem.settings.rival.much:
             break
@@ -55,8 +55,7 @@ def evaluate_fit(found: tuple[Fit, float] | None, fit: Fit) -> DiscrepancyFit | 
         if right is None or right.fit.status == "diverged":
             break
         rest = expand_fit(right.fit)
-        evidence = right.fit.log_evidence + right.log_jacobian - fit.log_evidence
-        more = DiscrepancyFit(evidence, price + right.price, _limit_gain(rest), best, right)
+        more = _add_corrections(bare, right, rest, fit)
         if not more.compute_gain(rest.inflation) > fitted.compute_gain(rest.inflation):
             break
         fitted = more
@@ -73,9 +72,14 @@ def evaluate_alike(known: DiscrepancyFit, fit: Fit, corrected: CorrectedFit) -> 
     if right.fit.status == "diverged":
         return known
     rest = expand_fit(right.fit)
-    evidence = right.fit.log_evidence + right.log_jacobian - fit.log_evidence
-    found = DiscrepancyFit(evidence, known.price + right.price, _limit_gain(rest), known.fit, right)
+    found = _add_corrections(known, right, rest, fit)
     return max(known, found, key=lambda fitted: fitted.compute_gain(rest.inflation))
+
+
+def _add_corrections(bare: DiscrepancyFit, right: CorrectedFit, rest: DiscrepancyExpansion, fit: Fit) -> DiscrepancyFit:
+    """Return the evaluated fit to corrected recordings; `bare` is the one without, `rest` the expansion of `right`."""
+    evidence = right.fit.log_evidence + right.log_jacobian - fit.log_evidence
+    return DiscrepancyFit(evidence, bare.price + right.price, _limit_gain(rest), bare.fit, right)
 
 
 def _add_smooth_forces(best: Fit, price: float) -> tuple[Fit, float, DiscrepancyExpansion]:

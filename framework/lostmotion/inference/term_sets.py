@@ -73,6 +73,7 @@ class Selection:
     probabilities if the chosen set is only the simplest explanation. `discrepancy_fits` has the fit of the discrepancy
     of each set for which one was made, `known_log_odds` the log odds that were computed, and `imitations` the pairs of
     sets, one a part of the other, for which smooth forces were fitted in place of the additional terms.
+    `corrected_alike` has the discrepancy fits of sets for which the channel corrections of another set were tried.
     """
 
     nominal: Fit
@@ -90,7 +91,7 @@ class Selection:
     discrepancy_fits: dict[frozenset[str], tuple[Fit, DiscrepancyFit | None]] = field(default_factory=dict)
     known_log_odds: dict[tuple[frozenset[str], frozenset[str]], KnownLogOdds] = field(default_factory=dict)
     imitations: dict[tuple[frozenset[str], frozenset[str]], tuple[Fit, Fit]] = field(default_factory=dict)
-    _alike: dict[frozenset[str], DiscrepancyFit] = field(default_factory=dict)
+    corrected_alike: dict[frozenset[str], DiscrepancyFit] = field(default_factory=dict)
 
     @property
     def best_nominal(self) -> Fit:
@@ -186,10 +187,12 @@ class Selection:
         """Correct the channels for both sets, if they were corrected only for the one that is ahead."""
         ahead, behind = (term_set, over) if self.compute_log_odds(term_set, over) > needed else (over, term_set)
         best, known = self.discrepancy_fit(ahead), self.discrepancy_fit(behind)
-        if best and best.corrected and known and not known.corrected and self._alike.get(behind.terms) is not known:
+        if not (best and best.corrected and known) or known.corrected:
+            return
+        if self.corrected_alike.get(behind.terms) is not known:
             found = evaluate_alike(known, behind.fit, best.corrected)
             self.discrepancy_fits[behind.terms] = (behind.fit, found)
-            self._alike[behind.terms] = found
+            self.corrected_alike[behind.terms] = found
 
     def _fit_imitation(self, term_set: TermSet, over: TermSet) -> None:
         """Fit smooth forces in place of the terms that a set has in addition to a subset, starting from its expansion.
