@@ -337,7 +337,7 @@ def carry_step(work, ar1, sources, many, paced, h, wide, place, keep, lanes):  #
         if keep:
             multiply(work, F, G, T, o)
             for a in range(N * N):
-                store(work, T + a, o, load(work, F + a, o))
+                store(work, T + a, o, select(taken, load(work, F + a, o), load(work, T + a, o)))
 
 
 @jit

@@ -362,7 +362,8 @@ def run_filter(functions, blocks, wiring, inputs, drives, z, sensors, unsure, dt
                 seen_states[k, a] = value(work, Y + a, 0)
                 for b in range(N):
                     seen_cov[k, a, b] = value(work, P + a * N + b, 0)
-                    assign(work, T + a * N + b, 0, 1.0 if a == b else 0.0)
+                    for o in range(0, lanes, WIDTH):
+                        store(work, T + a * N + b, o, 1.0 if a == b else 0.0)
         if k == samples - 1:
             break
         add_input_uncertainty(work, noise, sources, drawn, unsure[k], lanes)

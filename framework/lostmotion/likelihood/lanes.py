@@ -42,13 +42,19 @@ class Lanes(Engine):
         "Norgaard, Poulsen, Ravn, Automatica 36 (2000) 1627-1638, with steps halved where a force bends"
     )
 
-    def filter(self, dynamics: Dynamics, observation: Observation, points: Points) -> Innovations:
-        """Return one-step errors and their variances, (points, samples, sensors)."""
+    def filter(
+        self, dynamics: Dynamics, observation: Observation, points: Points, kept: Kept | None = None
+    ) -> Innovations:
+        """Return one-step errors and their variances, (points, samples, sensors).
+
+        What a smoother needs of the first point is written into `kept` (`make_kept`), where it is given.
+        """
         shape = (len(points), observation.samples, len(observation.sensors))
         errors, variances, reached = np.zeros(shape), np.ones(shape), np.zeros(len(points), dtype=np.int64)
-        for rows in _group_points(points):
+        for number, rows in enumerate(_group_points(points)):
             written = (errors[rows], variances[rows], reached[rows])
-            self._run_filter(dynamics, observation, points.select(rows), written, _NONE)
+            wanted = kept if kept is not None and number == 0 else _NONE
+            self._run_filter(dynamics, observation, points.select(rows), written, wanted)
             if not isinstance(rows, slice):
                 errors[rows], variances[rows], reached[rows] = written
         return Innovations.of(errors, variances, reached)
@@ -63,13 +69,8 @@ class Lanes(Engine):
         self, dynamics: Dynamics, observation: Observation, points: Points
     ) -> tuple[Kept, Innovations]:
         """Return the input of a smoother at one point, and its innovations."""
-        rows, n = observation.samples, dynamics.states + dynamics.forces
-        square = (rows, n, n)
-        kept = (np.zeros((rows, n)), np.zeros(square), np.zeros((rows, n)), np.zeros(square), np.zeros(square))
-        shape = (1, rows, len(observation.sensors))
-        written = (np.zeros(shape), np.ones(shape), np.zeros(1, dtype=np.int64))
-        self._run_filter(dynamics, observation, points.select(slice(0, 1)), written, kept)
-        return kept, Innovations.of(*written)
+        kept = make_kept(dynamics, observation.samples)
+        return kept, self.filter(dynamics, observation, points.select(slice(0, 1)), kept)
 
     def simulate(
         self, dynamics: Dynamics, points: Points, start: Array, steps: int, kicks: Array | None = None
@@ -135,6 +136,13 @@ class Lanes(Engine):
         for mine, theirs in zip(written, padded, strict=True):
             if mine is not theirs:
                 mine[:] = theirs[: len(mine)]
+
+
+def make_kept(dynamics: Dynamics, samples: int) -> Kept:
+    """Return the arrays in which a filter keeps what a smoother needs of one point."""
+    n = dynamics.states + dynamics.forces
+    square = (samples, n, n)
+    return np.zeros((samples, n)), np.zeros(square), np.zeros((samples, n)), np.zeros(square), np.zeros(square)
 
 
 def find_input_variance(dynamics: Dynamics, observation: Observation) -> Array:

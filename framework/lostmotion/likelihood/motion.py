@@ -170,14 +170,16 @@ def compute_each(
     times: Any = None,
     *,
     muted: str | None = None,
+    latent: tuple[int, ...] = (),
 ) -> tuple[Array, Array]:
     """Return for each set of parameters `packed` (sets, params) what `compute_derivatives` returns for one.
 
-    The derivatives are (sets, points, n), the channels (sets, points, channels).
+    The derivatives are (sets, points, n), the channels (sets, points, channels). `latent` are the numbers of states
+    that are random forces.
     """
     shape = (len(packed), len(states))
     rates, seen = np.zeros((*shape, states.shape[1])), np.zeros((*shape, len(system.model.channels)))
-    made, wires = system.functions(), make_model_wires(system, active, muted=muted)
+    made, wires = system.functions(), make_model_wires(system, active, latent, muted=muted)
     rows, kernel = system.blueprint.rows, build_motion()["evaluate"]
     told: list[Any] = [
         np.ascontiguousarray(a, dtype=float)

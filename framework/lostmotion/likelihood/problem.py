@@ -122,6 +122,10 @@ class Problem:
             self._views[index, late] = shift_sensors(view, late or (0,) * len(sensors), most) if most else view
         return self._views[index, late]
 
+    def view(self, index: int = 0) -> Observation:
+        """Return a recording as an engine sees it, where no sensor is late."""
+        return self._make_view(index, self.count_delays(self.start[None], index)[0])
+
     @cached_property
     def _views(self) -> dict[tuple[int, tuple[int, ...]], Observation]:
         """The recordings as an engine has seen them, so that their cached properties are computed once."""

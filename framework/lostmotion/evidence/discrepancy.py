@@ -1,0 +1,325 @@
+"""The model discrepancy that every hypothesis contains: smooth forces, wrong known values, errors of channels.
+
+No model of a real machine is exact. A likelihood that ignores this accepts any term that resembles the model error, and
+becomes more certain with the length of the recording (Kennedy, O'Hagan, J. R. Stat. Soc. B 63 (2001) 425-464). The
+discrepancy consists of
+
+- smooth forces over position, velocity, time and drive phase: Gaussian processes of reduced rank (`learned.py`), each
+  of one of `SIZES` and `LENGTHS`, or absent;
+- known values that are wrong by `rival.known`;
+- errors of the channels: scale and bend of each sensor, scale and delay of each drive (`channel_errors.py`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lostmotion.contracts import Array
+from lostmotion.evidence.channels import ChannelError
+from lostmotion.evidence.expansion import Expansion, compute_log_evidence
+from lostmotion.evidence.slopes import CHANNEL_STEP, list_channel_slopes, list_force_slopes
+from lostmotion.inference.curves import compute_coefficient_size
+from lostmotion.inference.fit import list_stencil_points, make_stencil
+from lostmotion.inference.learned import OverPhase, OverPosition, OverTime, OverVelocity, compute_spread
+from lostmotion.likelihood.engine import Innovations
+from lostmotion.likelihood.problem import FreeParameter, Problem
+from lostmotion.likelihood.system import key_of
+from lostmotion.likelihood.tangents import Tangents, join_recordings, linearise_filter
+
+SMOOTH = (OverPosition, OverVelocity, OverTime, OverPhase)
+SIZES = (0.005, 0.015, 0.05, 0.15)
+"""Standard deviations of a smooth force, in units of the drive, as real machines have."""
+LARGE = (*SIZES, 0.5, 1.5)
+"""Those of an unknown force, which is larger than the usual discrepancy."""
+LENGTHS = (0.15, 0.3, 0.6, 1.2)
+"""Correlation lengths of a smooth force, in half widths of the range."""
+MOST_WAVES = 20
+"""The largest number of waves of a smooth force: shorter waves have no weight at these correlation lengths."""
+NUDGE, KNOWN_STEP = 3e-4, 1e-3
+"""Finite-difference steps of a coefficient in units of the drive, and of the logarithm of a known value."""
+SWEEPS = 4
+"""The largest number of passes in which each smooth force in turn gets its best size and length."""
+
+
+@dataclass(frozen=True)
+class SmoothForce:
+    """The coefficients of one smooth force: its key, its coordinates, and the prior widths (options, count)."""
+
+    key: str
+    columns: slice
+    options: Array
+
+
+Choice = tuple[int, ...]
+"""The option of each smooth force; -1 where it is absent."""
+
+
+@dataclass(frozen=True)
+class Frame:
+    """The coordinates of a hypothesis: own parameters, known values, coefficients of smooth forces, channel errors.
+
+    `problem` has the first three as free parameters. Channel errors are applied to the recordings.
+    """
+
+    problem: Problem
+    own: int
+    known: slice
+    forces: tuple[SmoothForce, ...]
+    errors: tuple[ChannelError, ...]
+
+    @cached_property
+    def count(self) -> int:
+        """The number of all coordinates."""
+        return len(self.problem.free) + len(self.errors)
+
+    @cached_property
+    def channels(self) -> slice:
+        """The coordinates of the channel errors."""
+        return slice(len(self.problem.free), self.count)
+
+    @cached_property
+    def start(self) -> Array:
+        """The coordinates to start from (count,): no discrepancy."""
+        return np.concatenate([self.problem.start, np.zeros(len(self.errors))])
+
+    @cached_property
+    def terms(self) -> frozenset[str]:
+        """The keys of the active terms of the library."""
+        return self.problem.active - {force.key for force in self.forces}
+
+    @property
+    def more(self) -> NDArray[np.intp]:
+        """The indices of the coordinates of the discrepancy."""
+        return np.arange(self.own, self.count)
+
+    @property
+    def none(self) -> Choice:
+        """The choice without any smooth force."""
+        return (-1,) * len(self.forces)
+
+    @cached_property
+    def middle(self) -> Array:
+        """The prior means (count - own,) of the discrepancy."""
+        found = np.zeros(self.count - self.own)
+        found[: self.known.stop - self.known.start] = [f.mean for f in self.problem.free[self.known]]
+        return found
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """The name of each coordinate."""
+        return (*self.problem.keys, *(f"channel error {i}" for i in range(len(self.errors))))
+
+    def transfer(self, values: Mapping[str, float]) -> Array:
+        """Return coordinates (count,) from those of another frame by name; others are at their start."""
+        return np.array([values.get(name, first) for name, first in zip(self.names, self.start, strict=True)])
+
+    def widths(self, choice: Choice) -> Array:
+        """Return the prior standard deviations (count - own,) of the discrepancy; zero where a force is absent."""
+        found = np.zeros(self.count)
+        found[self.known] = self.problem.settings.rival.known
+        found[self.channels] = [error.width for error in self.errors]
+        for force, option in zip(self.forces, choice, strict=True):
+            if option >= 0:
+                found[force.columns] = force.options[option]
+        return found[self.own :]
+
+    def price(self, choice: Choice) -> float:
+        """Return the log penalty of a choice: each force that is present has one of its sizes and lengths."""
+        return sum(
+            math.log(len(force.options)) for force, option in zip(self.forces, choice, strict=True) if option >= 0
+        )
+
+    def place(self, at: Array) -> Problem:
+        """Return the problem on recordings with the channel errors of coordinates (count,) removed."""
+        observations = self.problem.observations
+        for error, size in zip(self.errors, at[self.channels], strict=True):
+            if size:
+                observations = tuple(error.correct(o, float(size)) for o in observations)
+        return self.problem if observations is self.problem.observations else self.problem.on(observations)
+
+    def log_likelihood(self, at: Array, choice: Choice) -> float:
+        """Return the log-likelihood of the filter at some coordinates (count,)."""
+        return float(self._wake(self.place(at), choice).log_likelihoods(at[None, : len(self.problem.free)])[0])
+
+    def expand(self, at: Array, steps: Array, choice: Choice) -> Expansion:
+        """Return one-step errors and their derivatives at some coordinates; `steps` (own,) are those of own ones.
+
+        Own parameters and known values are changed by differences. The derivatives over forces and errors of channels
+        are those of the linearised filter (`Tangents`), or differences where a sensor needs them.
+        """
+        problem, n = self.bare(at, choice), len(self.problem.free)
+        points, ends = self._make_stencil(at, steps, self.known.stop)
+        made = [linearise_filter(problem, points, i) for i in range(len(problem.observations))]
+        linear = [one for one in made if one is not None]
+        if len(linear) == len(made):
+            seen = join_recordings([innovations for _, innovations in linear])
+            errors, variances = _compute_differences(*ends, seen)
+            rows = np.concatenate([self._list_slopes(one) for one, _ in linear], axis=1)
+            errors, variances = np.vstack([errors, rows]), np.vstack([variances, np.zeros_like(rows)])
+        else:
+            problem = self.place(at)
+            points, ends = self._make_stencil(at, steps, n)
+            seen = problem.filter_many(points)
+            errors, variances = self._add_channels(problem, at[:n], seen[0], _compute_differences(*ends, seen))
+        middle, precision = np.zeros(self.count), np.zeros(self.count)
+        for i, f in enumerate(problem.free):
+            middle[i] = f.mean if math.isfinite(f.sd) else at[i]
+            precision[i] = f.evidence_information(float(at[i])) if i < self.own else 0.0
+        blocks = {"own": slice(0, self.own), "known": self.known, "channels": self.channels}
+        blocks |= {force.key: force.columns for force in self.forces}
+        return Expansion(seen[0], at, errors, variances, middle, precision, blocks)
+
+    def _make_stencil(self, at: Array, steps: Array, width: int) -> tuple[Array, tuple[Array, Array, Array]]:
+        """Return points at which the first `width` coordinates are changed, and these coordinates: at, up and down.
+
+        Differences over own coordinates are central.
+        """
+        n = len(self.problem.free)
+        up, down = make_stencil(self.problem, at[:n], np.concatenate([steps, self._steps]))
+        down = np.where(np.arange(n) < self.own, down, at[:n])
+        points = list_stencil_points(at[:n], up, down)
+        ends = (at[:width], up[:width], down[:width])
+        return np.vstack([points[: 1 + width], points[1 + n :]]), ends
+
+    def bare(self, at: Array, choice: Choice) -> Problem:
+        """Return the problem at coordinates (count,): corrected recordings, and the smooth forces that are present."""
+        return self._wake(self.place(at), choice)
+
+    def _wake(self, problem: Problem, choice: Choice) -> Problem:
+        """Return the problem with the smooth forces that are present: the others would only cost time."""
+        absent = {force.key for force, option in zip(self.forces, choice, strict=True) if option < 0}
+        return replace(problem, active=problem.active - absent)
+
+    def _list_slopes(self, filtered: Tangents) -> Array:
+        """Return the derivatives (coefficients and channel errors, readings) of the errors in one recording."""
+        forces = [(force.key, force.columns.stop - force.columns.start) for force in self.forces]
+        rows = list_force_slopes(filtered, forces) + list_channel_slopes(filtered, self.errors)
+        return np.vstack(rows) if rows else np.zeros((0, filtered.spread.size))
+
+    def _add_channels(
+        self, problem: Problem, theta: Array, here: Innovations, rows: tuple[Array, Array]
+    ) -> tuple[Array, Array]:
+        """Return derivatives of errors and variances, those over the errors of channels by differences after `rows`."""
+        errors, variances = [rows[0]], [rows[1]]
+        for error in self.errors:
+            moved = tuple(error.correct(o, CHANNEL_STEP) for o in problem.observations)
+            changed = problem.on(moved).innovations(theta)
+            errors.append((changed.errors - here.errors)[None] / CHANNEL_STEP)
+            variances.append((changed.variances - here.variances)[None] / CHANNEL_STEP)
+        return np.vstack(errors), np.vstack(variances)
+
+    @cached_property
+    def _steps(self) -> Array:
+        """The finite-difference steps of known values and of coefficients."""
+        found = np.full(len(self.problem.free) - self.own, KNOWN_STEP)
+        for force in self.forces:
+            found[force.columns.start - self.own : force.columns.stop - self.own] = NUDGE * float(
+                compute_coefficient_size(self._terms[force.key], self.problem)
+            )
+        return found
+
+    @cached_property
+    def _terms(self) -> dict[str, OverPosition]:
+        return {key_of(t): t for t in self.problem.system.terms if isinstance(t, SMOOTH)}  # type: ignore[misc]
+
+
+def make_frame(
+    problem: Problem, theta: Array, errors: tuple[ChannelError, ...], sizes: Sequence[float] = SIZES
+) -> Frame:
+    """Return the coordinates of the hypothesis with the terms of a problem, begun at its own coordinates `theta`.
+
+    The system of the problem has every curve (`add_all_curves`), none of which is active.
+    """
+    curves = [(key_of(t), t) for t in problem.system.terms if isinstance(t, SMOOTH)]
+    own, known = len(theta), list_known_values(problem)
+    frees = [replace(f, start=float(c)) for f, c in zip(problem.free, theta, strict=True)] + known
+    forces = []
+    for key, term in curves:
+        size, count = compute_coefficient_size(term, problem), min(term.count, MOST_WAVES)
+        options = np.array([s * size * compute_spread(term, length)[:count] for s in sizes for length in LENGTHS])
+        forces.append(SmoothForce(key, slice(len(frees), len(frees) + count), options))
+        frees += [FreeParameter(f"{key}.v{i}", "", 0.0, -1e3 * size, 1e3 * size, linear=True) for i in range(count)]
+    wide = replace(problem, free=tuple(frees), active=problem.active | {key for key, _ in curves})
+    return Frame(wide, own, slice(own, own + len(known)), tuple(forces), errors)
+
+
+def list_known_values(problem: Problem) -> list[FreeParameter]:
+    """Return the positive known values of the model as free parameters (in their logarithm)."""
+    estimated, found = {f.parameter for f in problem.free}, []
+    for param in problem.system.model.params:
+        value = float(problem.known[problem.system.index[param.name]])
+        if param.name not in estimated and 0.0 < value < math.inf:
+            at, sd = math.log(value), problem.settings.rival.known
+            found.append(FreeParameter(param.name, "", at, at - 1.0, at + 1.0, log=True, mean=at, sd=sd))
+    return found
+
+
+@dataclass(frozen=True)
+class Quadratic:
+    """The log-likelihood over the discrepancy, with own coordinates re-optimised: gradient and information at zero.
+
+    Coordinates beyond those of the discrepancy are amplitudes of terms, with prior standard deviations `beside`.
+    """
+
+    frame: Frame
+    gradient: Array
+    information: Array
+    beside: Array
+
+    @classmethod
+    def of(cls, frame: Frame, expansion: Expansion, beside: Array | None = None) -> Quadratic:
+        """Return the quadratic of an expansion, whose last coordinates are those of terms, with these widths."""
+        widths = np.zeros(0) if beside is None else beside
+        more = np.arange(frame.own, frame.count + len(widths))
+        gradient, information = expansion.profile(np.arange(frame.own), more)
+        shift = np.concatenate([frame.middle, np.zeros(len(widths))])
+        return cls(frame, gradient - information @ shift, information, widths)
+
+    def evaluate(self, choice: Choice) -> float:
+        """Return the log evidence that the discrepancy and the terms add, with some smooth forces."""
+        widths = np.concatenate([self.frame.widths(choice), self.beside])
+        return compute_log_evidence(self.gradient, self.information, widths) - self.frame.price(choice)
+
+    def choose(self, begin: Choice) -> tuple[Choice, float]:
+        """Return the option of each smooth force with the largest evidence, and this log evidence.
+
+        Coordinate search: each smooth force in turn gets its best size and length, or none, starting from `begin`.
+        """
+        best, chosen = self.evaluate(begin), list(begin)
+        for _ in range(SWEEPS):
+            before = best
+            for k, force in enumerate(self.frame.forces):
+                for option in range(-1, len(force.options)):
+                    trial = (*chosen[:k], option, *chosen[k + 1 :])
+                    if option != chosen[k] and (value := self.evaluate(trial)) > best:
+                        best, chosen = value, list(trial)
+            if best <= before:
+                break
+        return tuple(chosen), best
+
+    def choose_anew(self, begin: Choice) -> tuple[Choice, float]:
+        """Return the best of the searches from `begin` and from no smooth force."""
+        found = [self.choose(one) for one in dict.fromkeys((begin, self.frame.none))]
+        return max(found, key=lambda pair: pair[1])
+
+
+def _compute_differences(theta: Array, up: Array, down: Array, seen: Innovations) -> tuple[Array, Array]:
+    """Return the derivatives (n, readings) of errors and variances from the points of a stencil.
+
+    Where the filter diverges on one side, the difference is one-sided.
+    """
+    count = len(theta)
+    below = np.zeros(count, dtype=np.intp)
+    below[down != theta] = np.arange(1 + count, len(seen))
+    above = np.arange(1, 1 + count)
+    above, below = (np.where(seen.finite[rows], rows, 0) for rows in (above, below))
+    widths = np.where(above > 0, up, theta) - np.where(below > 0, down, theta)
+    safe = np.where(widths > 0, widths, 1.0)[:, None]
+    errors = (seen.errors[above] - seen.errors[below]) / safe
+    return errors, (seen.variances[above] - seen.variances[below]) / safe

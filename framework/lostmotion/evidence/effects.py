@@ -1,0 +1,192 @@
+"""The effect of each candidate term on the one-step errors of a hypothesis, and what it promises.
+
+A term is proposed by slopes: the derivatives of the errors over its amplitudes, at several values of its shape. Together
+with the expansion of the hypothesis they predict the evidence of the larger set, in which the term may take the place of
+a smooth force. A prediction costs time at most, never a name: every proposal is fitted.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from lostmotion.contracts import Array
+from lostmotion.evidence.discrepancy import Choice, Quadratic
+from lostmotion.evidence.expansion import Expansion
+from lostmotion.evidence.hypothesis import Hypothesis, solve_posterior
+from lostmotion.inference.candidates import make_term_parameters
+from lostmotion.inference.far_values import hold_shape
+from lostmotion.inference.natural import compute_size, find_term, list_star_points, list_tried_values, sort_slots
+from lostmotion.inference.rounding import drop_rounding
+from lostmotion.kernels.threads import each
+from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.system import Slot
+from lostmotion.likelihood.tangents import Tangents, linearise_filter
+
+SMALL = 0.01
+"""Derivatives are taken over this share of the typical size of an amplitude."""
+MUTE = 1e-6
+"""An amplitude of typical size with less information than this has no effect."""
+
+
+@dataclass(frozen=True)
+class Effect:
+    """The derivatives (amplitudes, readings) of the errors over the amplitudes of a term at one shape."""
+
+    key: str
+    shape: Mapping[str, float]
+    amplitudes: tuple[Slot, ...]
+    widths: Array
+    errors: Array
+    variances: Array
+
+
+@dataclass(frozen=True)
+class Promise:
+    """A term that a hypothesis may lack: its predicted gain in score, and values from which its fit begins.
+
+    `step` (count,) is the predicted change of the coordinates of the hypothesis.
+    """
+
+    key: str
+    gain: float
+    start: Mapping[str, float]
+    step: Array
+    choice: Choice
+
+
+Shapes = Mapping[str, Sequence[Mapping[str, float]]]
+
+
+def list_promises(found: Hypothesis, keys: Sequence[str], shapes: Shapes, prices: Mapping[str, float]) -> list[Promise]:
+    """Return what each term promises beside a hypothesis, best first; `shapes` are tried beside the usual ones."""
+    problem = found.frame.bare(found.at, found.choice)
+    theta = found.at[: len(problem.free)]
+    tangents = [linearise_filter(problem, theta[None], i) for i in range(len(problem.observations))]
+    filtered = [one[0] for one in tangents if one is not None]
+    filtered = filtered if len(filtered) == len(tangents) else []
+    before = Quadratic.of(found.frame, found.expansion).evaluate(found.choice)
+
+    def test(key: str) -> Promise | None:
+        effects = _list_effects(problem, theta, filtered, key, shapes.get(key, ()))
+        tested = [_predict(found, effect, before + prices[key]) for effect in effects]
+        return max(tested, key=lambda one: one.gain, default=None)
+
+    promises = [one for one in each(test, list(keys), problem.jobs) if one is not None and math.isfinite(one.gain)]
+    return sorted(promises, key=lambda one: -one.gain)
+
+
+def _list_effects(
+    problem: Problem, theta: Array, filtered: Sequence[Tangents], key: str, more: Sequence[Mapping[str, float]]
+) -> Iterator[Effect]:
+    """Yield the effect of a term at each shape."""
+    amplitudes, shapes = sort_slots(problem, key)
+    grids = [list_tried_values(s.param, problem.scales) for s in shapes]
+    usual = [dict(zip((s.key for s in shapes), values, strict=True)) for values in list_star_points(grids)]
+    tried = drop_rounding(problem, key, (*usual, *more)) if shapes else usual
+    if not tried:
+        return
+    term = find_term(problem, key)[0]
+    widths = np.array([f.sd for f in make_term_parameters(problem, key, amplitudes, {})])
+    sizes = np.array([compute_size(s.param, problem.scales) for s in amplitudes])
+    static = filtered and not term.states and term.acts in ("motion", "drive")
+    if static:
+        errors = np.concatenate([_respond(one, key, tried, amplitudes, SMALL * sizes) for one in filtered], axis=2)
+        variances = np.zeros_like(errors)
+    else:
+        errors, variances = _compute_differences(problem, theta, key, tried, SMALL * sizes)
+    for shape, e, v in zip(tried, errors, variances, strict=True):
+        if np.all(np.isfinite(e)) and np.all(np.isfinite(v)):
+            yield Effect(key, shape, tuple(amplitudes), widths, e, v)
+
+
+def _respond(
+    filtered: Tangents, key: str, shapes: Sequence[Mapping[str, float]], amplitudes: Sequence[Slot], sizes: Array
+) -> Array:
+    """Return the derivatives (shapes, amplitudes, readings) of the errors over the amplitudes of a static term."""
+    problem, index = filtered.problem, filtered.problem.system.index
+    fulls = np.tile(filtered.full, (len(shapes) * len(sizes), 1))
+    rows = [(shape, a) for shape in shapes for a in range(len(sizes))]
+    for full, (shape, a) in zip(fulls, rows, strict=True):
+        for slot in amplitudes:
+            full[index[slot.key]] = float(slot.param.null or 0.0)
+        for name, value in shape.items():
+            full[index[name]] = value
+        full[index[amplitudes[a].key]] += sizes[a]
+    scale = np.array([sizes[a] for _, a in rows])
+    if find_term(problem, key)[0].acts == "drive":
+        acting = replace(problem, active=problem.active | {key})
+        moved = [(acting.drive_at(full, 0).inputs[: len(filtered.states)] - filtered.inputs) for full in fulls]
+        found = np.concatenate([filtered.respond_to_input(m / s) for m, s in zip(moved, scale, strict=True)])
+    else:
+        rates, channels = filtered.compute_effects(fulls, problem.active | {key})
+        here = filtered.here
+        found = filtered.respond_to_forces(
+            (rates - here[0]) / scale[:, None, None], (channels - here[1]) / scale[:, None, None]
+        )
+    return np.asarray(found.reshape(len(shapes), len(sizes), -1))
+
+
+def _compute_differences(
+    problem: Problem, theta: Array, key: str, shapes: Sequence[Mapping[str, float]], sizes: Array
+) -> tuple[Array, Array]:
+    """Return the derivatives (shapes, amplitudes, readings) of errors and variances by runs of the filter."""
+    amplitudes, fixed = sort_slots(problem, key)
+    frees = (*make_term_parameters(problem, key, amplitudes, {}), *(hold_shape(slot) for slot in fixed))
+    wider, own, count = problem.extend(frees, {key}), len(theta), len(sizes)
+    points = []
+    for shape in shapes:
+        zero = np.concatenate([theta, np.zeros(count), [shape[s.key] for s in fixed]])
+        points += [zero, *(zero + np.eye(len(zero))[own + a] * sizes[a] for a in range(count))]
+    seen = wider.filter_many(np.array(points))
+    errors = seen.errors.reshape(len(shapes), 1 + count, -1)
+    variances = seen.variances.reshape(len(shapes), 1 + count, -1)
+    finite = np.repeat(seen.finite.reshape(len(shapes), 1 + count).all(axis=1)[:, None, None], count, axis=1)
+    with np.errstate(invalid="ignore"):
+        slopes = [np.where(finite, (e[:, 1:] - e[:, :1]) / sizes[:, None], np.nan) for e in (errors, variances)]
+    return slopes[0], slopes[1]
+
+
+def _join(found: Hypothesis, effect: Effect) -> Expansion:
+    """Return the expansion of a hypothesis with the amplitudes of a term as its last coordinates."""
+    expansion, count = found.expansion, len(effect.amplitudes)
+    joined = replace(
+        expansion,
+        at=np.append(expansion.at, np.zeros(count)),
+        errors=np.vstack([expansion.errors, effect.errors]),
+        variances=np.vstack([expansion.variances, effect.variances]),
+        middle=np.append(expansion.middle, np.zeros(count)),
+        precision=np.append(expansion.precision, 1.0 / effect.widths**2),
+        blocks={**expansion.blocks, effect.key: slice(len(expansion.at), len(expansion.at) + count)},
+    )
+    # the large block is known already: only the rows of the term are computed
+    new, v = slice(len(expansion.at), None), expansion.here.variances
+    cross = (effect.errors / v) @ joined.errors.T + 0.5 * (effect.variances / v**2) @ joined.variances.T
+    information = np.zeros((len(joined.at), len(joined.at)))
+    information[: len(expansion.at), : len(expansion.at)] = expansion.information
+    information[new], information[:, new] = cross, cross.T
+    joined.__dict__["information"] = information
+    e = expansion.here.errors
+    scores = effect.errors @ (-e / v) + effect.variances @ (0.5 * (e * e / v - 1.0) / v)
+    joined.__dict__["gradient"] = np.append(expansion.gradient, scores)
+    return joined
+
+
+def _predict(found: Hypothesis, effect: Effect, less: float) -> Promise:
+    """Return what a term promises at one shape, beside the present smooth forces or in their place; `less` is paid."""
+    joined, frame, n = _join(found, effect), found.frame, len(found.at)
+    told = np.diag(joined.information)[n:] * effect.widths**2
+    lost = Promise(effect.key, -math.inf, effect.shape, np.zeros(n), found.choice)
+    if not np.any(told > MUTE):
+        return lost
+    quadratic = Quadratic.of(frame, joined, effect.widths)
+    choice = max(dict.fromkeys((frame.none, found.choice)), key=quadratic.evaluate)
+    step = solve_posterior(frame, joined, choice)
+    sizes, low = step[n:], np.array([slot.param.low for slot in effect.amplitudes])
+    if np.all(sizes < low):
+        return lost
+    start = {s.key: float(a) for s, a in zip(effect.amplitudes, np.maximum(sizes, low), strict=True)}
+    return Promise(effect.key, quadratic.evaluate(choice) - less, {**effect.shape, **start}, step[:n], choice)

@@ -1,0 +1,128 @@
+"""The linearised model: one-step errors and their derivatives with respect to named blocks of coordinates.
+
+Around a point the log-likelihood of a filter is quadratic in everything that a model may lack, because one-step errors
+are nearly linear in it. Each block of coordinates has a Gaussian prior. What a block adds to the evidence, how much two
+blocks resemble each other on this recording, and how far scores scatter beyond their information then have closed forms
+(Kennedy, O'Hagan, J. R. Stat. Soc. B 63 (2001) 425-464; Rasmussen, Williams, Gaussian Processes (2006), eq. 2.43).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg.lapack import dpotrf, dtrtrs
+
+from lostmotion.contracts import Array
+from lostmotion.inference.fit import solve_scaled
+from lostmotion.likelihood.engine import Innovations
+
+BLOCKS = 40
+"""Parts of the recordings over which scores are summed."""
+
+
+@dataclass(frozen=True)
+class Expansion:
+    """One-step errors at a point and their derivatives with respect to n coordinates, which stand in named blocks.
+
+    `at` (n,) are the coordinates; `errors` and `variances` (n, readings) the derivatives of one-step errors and of
+    their variances; `middle` and `precision` (n,) are mean and inverse variance of the Gaussian prior of each
+    coordinate.
+    """
+
+    here: Innovations
+    at: Array
+    errors: Array
+    variances: Array
+    middle: Array
+    precision: Array
+    blocks: Mapping[str, slice]
+
+    @cached_property
+    def scores(self) -> Array:
+        """The score of each reading, (n, readings): its contribution to the gradient of the log-likelihood."""
+        e, v = self.here.errors, self.here.variances
+        return np.asarray(self.errors * (-e / v) + self.variances * (0.5 * (e * e / v - 1.0) / v))
+
+    @cached_property
+    def gradient(self) -> Array:
+        """The gradient (n,) of the log-likelihood."""
+        return np.asarray(self.scores.sum(axis=1))
+
+    @cached_property
+    def information(self) -> Array:
+        """The expected information (n, n) of the log-likelihood."""
+        v = self.here.variances
+        return np.asarray((self.errors / v) @ self.errors.T + 0.5 * (self.variances / v**2) @ self.variances.T)
+
+    def list_indices(self, *names: str) -> NDArray[np.intp]:
+        """Return the indices of the coordinates of some blocks."""
+        parts = [np.arange(self.blocks[name].start, self.blocks[name].stop) for name in names]
+        return np.concatenate(parts) if parts else np.zeros(0, dtype=np.intp)
+
+    def profile(self, own: NDArray[np.intp], more: NDArray[np.intp]) -> tuple[Array, Array]:
+        """Return gradient and information of the coordinates `more` at zero, with the `own` ones re-optimised.
+
+        The prior of the own coordinates counts; that of the others does not. Shapes (count,) and (count, count).
+        """
+        gradient = self.gradient + self.information[:, more] @ self.at[more]
+        gradient[own] -= self.precision[own] * (self.at[own] - self.middle[own])
+        inner = self.information[np.ix_(own, own)] + np.diag(self.precision[own])
+        cross = self.information[np.ix_(own, more)]
+        pulled = solve_scaled(inner, np.column_stack([cross, gradient[own]]))
+        left = self.information[np.ix_(more, more)] - cross.T @ pulled[:, :-1]
+        return gradient[more] - cross.T @ pulled[:, -1], 0.5 * (left + left.T)
+
+    def measure_scatter(self, names: tuple[str, ...]) -> float:
+        """Return the factor by which scores of some blocks, summed over time, scatter beyond their information.
+
+        It is the median over the coordinates of the blocks, at least 1: 1 for independent one-step errors (Huber 1967;
+        White, Econometrica 50 (1982) 1-25).
+        """
+        rows = self.list_indices(*names)
+        sums = np.array([part.sum(axis=1) for part in np.array_split(self.scores[rows], BLOCKS, axis=1)])
+        stated = np.diag(self.information)[rows]
+        told = stated > 0.0
+        if not told.any():
+            return 1.0
+        return max(1.0, float(np.median(sums.var(axis=0)[told] * BLOCKS / stated[told])))
+
+    def compute_cosine(self, one: str, other: str) -> float:
+        """Return the cosine between the effects of two blocks on one-step errors: 1 where no data can tell them apart.
+
+        It is the largest canonical correlation of the two blocks in the metric of the information.
+        """
+        rows, columns = self.list_indices(one), self.list_indices(other)
+        whitened = [_compute_inverse_root(self.information[np.ix_(i, i)]) for i in (rows, columns)]
+        cross = whitened[0].T @ self.information[np.ix_(rows, columns)] @ whitened[1]
+        return float(min(np.linalg.svd(cross, compute_uv=False)[0], 1.0)) if cross.size else 0.0
+
+
+def compute_log_evidence(gradient: Array, information: Array, widths: Array) -> float:
+    """Return the log evidence that normal coefficients add, from gradient (n,) and information (n, n) at zero.
+
+    With D the prior `widths` (n,): (g'D (I + D H D)^-1 D g - log det(I + D H D)) / 2. A width of zero leaves the
+    coefficient out.
+    """
+    used = widths > 0.0
+    if not used.any():
+        return 0.0
+    d = widths[used]
+    inner = information[np.ix_(used, used)] * d * d[:, None]
+    inner.flat[:: len(d) + 1] += 1.0
+    lower, failed = dpotrf(inner, lower=1)
+    if failed:
+        return -math.inf
+    pulled = dtrtrs(lower, d * gradient[used], lower=1)[0]
+    return 0.5 * float(pulled @ pulled) - float(np.sum(np.log(np.diag(lower))))
+
+
+def _compute_inverse_root(information: Array) -> Array:
+    """Return a matrix R (n, k) with R' H R = I on the directions in which there is information."""
+    values, vectors = np.linalg.eigh(information)
+    kept = values > 1e-10 * max(values[-1], 1e-300)
+    return np.asarray(vectors[:, kept] / np.sqrt(values[kept]))

@@ -1,0 +1,243 @@
+"""A hypothesis: a set of terms with its discrepancy, fitted together, and one number for it.
+
+    score = [log Z(fitted data | model + terms + discrepancy) + log p(held-out data | fitted data)] / temper - price
+
+The fit is Gauss-Newton on own parameters, known values, coefficients of smooth forces and errors of channels together.
+One-step errors are nearly linear in all but the first, so a few rounds suffice. In each round the size and the length
+of each smooth force are those of the largest evidence.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lostmotion.contracts import Array
+from lostmotion.evidence.discrepancy import Choice, Frame, Quadratic
+from lostmotion.evidence.expansion import Expansion
+from lostmotion.inference.fit import STRIDE, choose_first_steps, solve_scaled
+from lostmotion.likelihood.space import LEVELS
+
+ROUNDS, TOLERANCE = 10, 0.4
+"""The largest number of rounds, and the gain in log posterior below which a fit has converged."""
+SHARES = (0.4, 0.1, 0.02)
+"""Shares of a Gauss-Newton step that are tried where the whole step does not gain."""
+MOST_LOG, MOST_LEVEL = 1.5, 4.0
+"""The largest change of a logarithm in one step: of a parameter, and of a noise level."""
+
+
+@dataclass(frozen=True)
+class Hypothesis:
+    """The fit of a set of terms with its discrepancy, in the coordinates of a `frame`.
+
+    `at` (count,) is the maximum of the posterior, `choice` the option of each smooth force there, `log_evidence` the
+    log marginal likelihood of the fitted data, and `smooth` the part of it that smooth forces add. `price` are the log
+    prior odds against the set, `heldout` is the log density of the held-out data.
+    """
+
+    frame: Frame
+    expansion: Expansion
+    choice: Choice
+    log_evidence: float
+    smooth: float
+    price: float
+    heldout: float = 0.0
+    converged: bool = True
+
+    @property
+    def at(self) -> Array:
+        """The coordinates (count,) of the maximum."""
+        return self.expansion.at
+
+    @property
+    def terms(self) -> frozenset[str]:
+        """The keys of the terms of the library."""
+        return self.frame.terms
+
+    @cached_property
+    def scatter(self) -> float:
+        """The factor by which block sums of scores scatter beyond their information; at least 1."""
+        return self.expansion.measure_scatter(tuple(force.key for force in self.frame.forces))
+
+    def score(self, temper: float = 1.0) -> float:
+        """Return the log posterior weight: the log evidence of all data over the temper, less the price."""
+        return (self.log_evidence + self.heldout) / temper - self.price
+
+    @property
+    def theta(self) -> Array:
+        """The own coordinates at the maximum."""
+        return self.at[: self.frame.own]
+
+    @property
+    def values(self) -> dict[str, float]:
+        """The coordinates by name."""
+        return dict(zip(self.frame.names, map(float, self.at), strict=True))
+
+    @cached_property
+    def covariance(self) -> Array:
+        """The posterior covariance (own, own) of the own coordinates, with the discrepancy integrated."""
+        own = self.frame.own
+        return np.asarray(solve_scaled(self.precision, np.eye(len(self.used)))[:own, :own])
+
+    @property
+    def used(self) -> NDArray[np.intp]:
+        """The indices of the coordinates that are free."""
+        return _list_used(self.frame, self.choice)
+
+    @cached_property
+    def precision(self) -> Array:
+        """The posterior precision (used, used) of the free coordinates."""
+        prior = _compute_precision(self.frame, self.expansion, self.choice)
+        return np.asarray(self.expansion.information[np.ix_(self.used, self.used)] + np.diag(prior[self.used]))
+
+
+def fit_hypothesis(frame: Frame, begin: Array, price: float, choice: Choice | None = None) -> Hypothesis:
+    """Return the hypothesis of a frame, fitted from coordinates `begin` (count,) with the smooth forces of `choice`.
+
+    Without a choice, errors of channels and known values are fitted first, and then smooth forces beside them: what
+    both explain is not left to the more flexible one because of the point where the fit began.
+    """
+    steps = choose_first_steps(replace(frame.problem, free=frame.problem.free[: frame.own]))
+    expansion = frame.expand(begin, steps, choice or frame.none)
+    if choice is None:
+        expansion, choice, _ = _maximise(frame, expansion, frame.none, free=False)
+    expansion, choice, converged = _maximise(frame, expansion, choice, free=True)
+    quadratic = Quadratic.of(frame, expansion)
+    smooth = quadratic.evaluate(choice) - quadratic.evaluate(frame.none)
+    evidence = _compute_log_evidence(frame, expansion, choice)
+    return Hypothesis(frame, expansion, choice, evidence, smooth, price, converged=converged)
+
+
+def _maximise(frame: Frame, expansion: Expansion, choice: Choice, *, free: bool) -> tuple[Expansion, Choice, bool]:
+    """Return the maximum of the log posterior near a point, its smooth forces, and whether the fit converged.
+
+    With `free` the smooth forces are chosen in each round, otherwise they stay as they are.
+    """
+    for turn in range(ROUNDS):
+        if free:
+            quadratic = Quadratic.of(frame, expansion)
+            choice, _ = quadratic.choose(choice) if turn else quadratic.choose_anew(choice)
+        step, promise = compute_step(frame, expansion, choice)
+        value = _compute_log_posterior(frame, expansion, choice)
+        if promise < TOLERANCE:
+            return expansion, choice, True
+        better = _climb(frame, expansion, step, choice)
+        if TRACE: print("   ", turn, choice, "promise", round(promise,1), "value", round(value,1), None if better is None else round(_compute_log_posterior(frame, better, choice)-value,2), step[:frame.own].round(3))
+        if better is None:
+            return expansion, choice, promise < 4.0 * TOLERANCE
+        expansion = better
+        if _compute_log_posterior(frame, better, choice) - value < TOLERANCE:
+            return expansion, choice, True
+    return expansion, choice, False
+
+
+TRACE = False
+
+
+def _tune_steps(frame: Frame, expansion: Expansion) -> Array:
+    """Return finite-difference steps (own,) of a share of conditional standard deviations, within bounds."""
+    free = frame.problem.free[: frame.own]
+    widths = np.array([min(f.sd, f.high - f.low) for f in free])
+    curvature = np.maximum(np.diag(expansion.information)[: frame.own], 1e-300)
+    return np.clip(STRIDE / np.sqrt(curvature), 1e-9 * widths, 0.05 * widths)
+
+
+def _list_used(frame: Frame, choice: Choice) -> NDArray[np.intp]:
+    """Return the indices of the coordinates that are free: own ones, and those of the discrepancy with a width."""
+    return np.concatenate([np.arange(frame.own), frame.more[frame.widths(choice) > 0.0]])
+
+
+def _compute_precision(frame: Frame, expansion: Expansion, choice: Choice) -> Array:
+    """Return the prior precision (count,) of all coordinates; zero where a coordinate is not used."""
+    widths, found = frame.widths(choice), expansion.precision[: frame.count].copy()
+    found[frame.own :] = np.where(widths > 0.0, 1.0 / np.where(widths > 0.0, widths, 1.0) ** 2, 0.0)
+    return found
+
+
+def solve_posterior(frame: Frame, expansion: Expansion, choice: Choice, held: Sequence[int] = ()) -> Array:
+    """Return the step (n,) to the maximum of the quadratic posterior; `held` coordinates stay.
+
+    Coefficients of smooth forces that are absent go to zero. Coordinates beyond those of the frame are amplitudes of
+    terms with the prior of the expansion.
+    """
+    at, n = expansion.at, len(expansion.at)
+    precision, middle = expansion.precision.copy(), expansion.middle.copy()
+    precision[: frame.count] = _compute_precision(frame, expansion, choice)
+    middle[frame.own : frame.count] = frame.middle
+    used = np.setdiff1d(np.append(_list_used(frame, choice), np.arange(frame.count, n)), held)
+    gone = np.setdiff1d(np.arange(frame.own, n), used)
+    step = np.zeros(n)
+    step[gone] = -at[gone]
+    pulled = (expansion.gradient - precision * (at - middle))[used] - expansion.information[np.ix_(used, gone)] @ step[gone]
+    inner = expansion.information[np.ix_(used, used)] + np.diag(precision[used])
+    step[used] = solve_scaled(inner + 1e-6 * np.diag(np.diag(inner)), pulled)
+    return step
+
+
+def compute_step(frame: Frame, expansion: Expansion, choice: Choice) -> tuple[Array, float]:
+    """Return the step (count,) to the maximum of the quadratic posterior within the bounds, and its predicted gain.
+
+    Own coordinates that are pressed against a bound stay, and logarithms change by a limited amount.
+    """
+    free, at = frame.problem.free[: frame.own], expansion.at
+    precision = _compute_precision(frame, expansion, choice)
+    gradient = expansion.gradient - precision * (at - np.concatenate([expansion.middle[: frame.own], frame.middle]))
+    low = [i for i, f in enumerate(free) if at[i] <= f.low and gradient[i] < 0.0]
+    high = [i for i, f in enumerate(free) if at[i] >= f.high and gradient[i] > 0.0]
+    step = solve_posterior(frame, expansion, choice, low + high)
+    for i, f in enumerate(free):
+        if f.log or f.key.startswith("log_"):
+            most = MOST_LEVEL if f.level in LEVELS else MOST_LOG
+            step[i] = min(max(step[i], -most), most)
+        step[i] = min(max(at[i] + step[i], f.low), f.high) - at[i]
+    curved = float(step @ expansion.information @ step) + float(np.sum(precision * step**2))
+    return step, float(gradient @ step) - 0.5 * curved
+
+
+def _compute_log_posterior(frame: Frame, expansion: Expansion, choice: Choice) -> float:
+    """Return the log posterior up to a constant, at the point of an expansion."""
+    return _add_priors(frame, expansion.at, choice, float(expansion.here.log_likelihood))
+
+
+def _add_priors(frame: Frame, at: Array, choice: Choice, log_likelihood: float) -> float:
+    """Return a log-likelihood of the filter with the log prior of all coordinates."""
+    widths = frame.widths(choice)
+    used = widths > 0.0
+    away = (at[frame.own :] - frame.middle)[used] / widths[used]
+    own = sum(f.log_prior(float(c)) for f, c in zip(frame.problem.free[: frame.own], at, strict=False))
+    return log_likelihood + own - 0.5 * float(away @ away)
+
+
+def _climb(frame: Frame, expansion: Expansion, step: Array, choice: Choice) -> Expansion | None:
+    """Return the expansion after the largest share of a step that gains; None where none gains.
+
+    The whole step is expanded at once, because it usually gains.
+    """
+    steps, value = _tune_steps(frame, expansion), _compute_log_posterior(frame, expansion, choice)
+    whole = frame.expand(expansion.at + step, steps, choice)
+    if _compute_log_posterior(frame, whole, choice) > value:
+        return whole
+    for share in SHARES:
+        trial = expansion.at + share * step
+        if _add_priors(frame, trial, choice, frame.log_likelihood(trial, choice)) > value:
+            return frame.expand(trial, steps, choice)
+    return None
+
+
+def _compute_log_evidence(frame: Frame, expansion: Expansion, choice: Choice) -> float:
+    """Return the log marginal likelihood by Laplace's method, all coordinates of the discrepancy integrated."""
+    widths = frame.widths(choice)
+    used = _list_used(frame, choice)
+    precision = _compute_precision(frame, expansion, choice)
+    inner = expansion.information[np.ix_(used, used)] + np.diag(precision[used])
+    sign, logdet = np.linalg.slogdet(inner)
+    if sign <= 0:
+        return -math.inf
+    value = _compute_log_posterior(frame, expansion, choice)
+    occam = 0.5 * frame.own * math.log(2.0 * math.pi) - 0.5 * float(logdet)
+    return value + occam - float(np.sum(np.log(widths[widths > 0.0]))) - frame.price(choice)

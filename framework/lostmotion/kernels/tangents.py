@@ -1,0 +1,79 @@
+"""The linear response of the errors of a filter to small forces and to small changes of its readings."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numba
+import numpy as np
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def respond(steps, ahead, slopes, spread, shares, fresh, dt, rates, seen):  # type: ignore[no-untyped-def]
+    """Return the derivatives (count, samples, sensors) of one-step errors with respect to some small changes.
+
+    `steps` and `ahead` (samples, n, n) are the transition matrices of a filter and its covariances before each sample;
+    `slopes` (samples, sensors, n + a) the derivatives of the readings over the states, with one column for each of the
+    `a` states of autocorrelated noise; `spread` (samples, sensors) the variances of the errors, infinite where nothing
+    was read. `shares` and `fresh` (a,) are coefficient per sample and stationary variance of autocorrelated noise.
+    `rates` (count, samples, n) are the changes of the derivatives of the states, `seen` (count, samples, sensors) those
+    of the readings less those of their predictions by a direct effect.
+    """
+    count, samples, sensors = seen.shape
+    n, whole = steps.shape[1], slopes.shape[2]
+    out = np.zeros((count, samples, sensors))
+    moved, next_moved = np.zeros((count, whole)), np.zeros(n)
+    cov, cross, pulled = np.zeros((whole, whole)), np.zeros((n, whole - n)), np.zeros(whole)
+    for j in range(whole - n):
+        cov[n + j, n + j] = fresh[j]
+    for k in range(samples):
+        for a in range(n):
+            for b in range(n):
+                cov[a, b] = ahead[k, a, b]
+        for s in range(sensors):
+            if not np.isfinite(spread[k, s]):
+                continue
+            for a in range(whole):
+                pulled[a] = 0.0
+                for b in range(whole):
+                    pulled[a] += cov[a, b] * slopes[k, s, b]
+            for i in range(count):
+                miss = seen[i, k, s]
+                for a in range(whole):
+                    miss -= slopes[k, s, a] * moved[i, a]
+                out[i, k, s] = miss
+                for a in range(whole):
+                    moved[i, a] += pulled[a] * (miss / spread[k, s])
+            for a in range(whole):
+                for b in range(whole):
+                    cov[a, b] -= pulled[a] * pulled[b] / spread[k, s]
+        if k == samples - 1:
+            break
+        for i in range(count):
+            for a in range(n):
+                total = 0.5 * dt * rates[i, k + 1, a]
+                for b in range(n):
+                    total += steps[k, a, b] * (moved[i, b] + 0.5 * dt * rates[i, k, b])
+                next_moved[a] = total
+            for a in range(n):
+                moved[i, a] = next_moved[a]
+            for j in range(whole - n):
+                moved[i, n + j] *= shares[j]
+        for j in range(whole - n):
+            for a in range(n):
+                cross[a, j] = 0.0
+                for b in range(n):
+                    cross[a, j] += steps[k, a, b] * cov[b, n + j] * shares[j]
+        for j in range(whole - n):
+            for a in range(n):
+                cov[a, n + j] = cross[a, j]
+                cov[n + j, a] = cross[a, j]
+            for i in range(whole - n):
+                cov[n + j, n + i] *= shares[j] * shares[i]
+            cov[n + j, n + j] += (1.0 - shares[j] * shares[j]) * fresh[j]
+    return out
+
+
+def respond_plainly(*told: Any) -> Any:
+    """Return the same as `respond`, in plain Python: its slow twin."""
+    return respond.py_func(*told)

@@ -1,0 +1,172 @@
+"""Derivatives of one-step errors with respect to small forces and small changes of the channels, all in one pass.
+
+A filter along a recording is linear in a small additional force: its errors respond through the transition matrices and
+the gains that the filter computed at the point. One run of the filter for a smoother gives both. The response to a
+hundred forces then costs as much as one further run, where differences would take a hundred (the slow twin, which the
+tests compare).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from lostmotion.contracts import Array, Interface
+from lostmotion.kernels.tangents import respond
+from lostmotion.likelihood.engine import Innovations
+from lostmotion.likelihood.lanes import Lanes, make_kept
+from lostmotion.likelihood.motion import compute_each
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.problem import Problem
+
+REACH = 1e-3
+"""Differences of channels are taken over this share of the deviation of a state."""
+UNIT = 1e-4
+"""The inputs are changed by this share for their derivatives."""
+
+
+@dataclass(frozen=True)
+class Tangents:
+    """The filter of one recording at one point: filtered `states` (samples, n), transitions, gains and variances.
+
+    `problem` has this recording alone; `full` is its parameter vector. `slopes` (samples, sensors, states + AR(1)
+    sensors) are the derivatives of the readings, `spread` (samples, sensors) the variances of the errors.
+    """
+
+    problem: Problem
+    full: Array
+    states: Array
+    steps: Array
+    ahead: Array
+    slopes: Array
+    spread: Array
+    shares: Array
+    fresh: Array
+    gain: Array
+
+    @property
+    def observation(self) -> Observation:
+        """The recording."""
+        return self.problem.observations[0]
+
+    def respond_to_forces(self, rates: Array, channels: Array) -> Array:
+        """Return the derivatives (count, samples * sensors) of errors over forces.
+
+        `rates` (count, samples, model and term states) are the accelerations that each force of unit size gives, and
+        `channels` (count, samples, channels) what it adds to the channels at once.
+        """
+        columns = [self.problem.system.channel(s.channel)[0] for s in self.observation.sensors]
+        wide = np.zeros((len(rates), *self.steps.shape[:2]))
+        wide[:, :, : rates.shape[2]] = rates
+        return self._run(wide, -channels[:, :, columns] * self.gain)
+
+    def respond_to_readings(self, changes: Array) -> Array:
+        """Return the derivatives (count, samples * sensors) of errors over `changes` (count, samples, sensors)."""
+        still = np.zeros((len(changes), *self.steps.shape[:2]))
+        return self._run(still, np.nan_to_num(changes))
+
+    def _run(self, rates: Array, seen: Array) -> Array:
+        dt = self.observation.dt
+        told = (self.steps, self.ahead, self.slopes, self.spread, self.shares, self.fresh, dt)
+        found = respond(*told, np.ascontiguousarray(rates), np.ascontiguousarray(seen))
+        return np.asarray(found.reshape(len(seen), -1))
+
+    def compute_effects(self, fulls: Array, active: frozenset[str]) -> tuple[Array, Array]:
+        """Return derivatives of states (sets, samples, n) and channels along the states, for some parameter vectors."""
+        system, observation = self.problem.system, self.observation
+        packed = system.pack(fulls, observation.dt / self.problem.nsub, observation.harmonic)
+        return compute_each(system, active, packed, self.states, self.inputs, observation.time)
+
+    @cached_property
+    def inputs(self) -> Array:
+        """The inputs (samples, inputs) that act, with the terms of the drive."""
+        return self.problem.drive_at(self.full, 0).inputs[: len(self.states)]
+
+    @cached_property
+    def here(self) -> tuple[Array, Array]:
+        """Derivatives of states (samples, n) and channels (samples, channels) along the states, as the filter has them."""
+        rates, seen = self.compute_effects(self.full[None], self.problem.active)
+        return rates[0], seen[0]
+
+    def respond_to_input(self, change: Array) -> Array:
+        """Return the derivative (1, samples * sensors) of errors over a `change` (samples, inputs) of the inputs."""
+        system, observation = self.problem.system, self.observation
+        packed = system.pack(self.full[None], observation.dt / self.problem.nsub, observation.harmonic)
+        moved = self.inputs + UNIT * change
+        rates, seen = compute_each(system, self.problem.active, packed, self.states, moved, observation.time)
+        return self.respond_to_forces((rates - self.here[0]) / UNIT, (seen - self.here[1]) / UNIT)
+
+    def move(self, place: Interface) -> Array:
+        """Return relative position and velocity (2, samples) at a place."""
+        n = len(self.problem.system.model.states)
+        lever = self.problem.system.lever(self.full, place)
+        return self.observation.motion_at(place, self.states[:, :n], lever)
+
+
+def linearise_filter(problem: Problem, thetas: Array, index: int = 0) -> tuple[Tangents, Innovations] | None:
+    """Return the linearised filter of a recording at the first of some coordinates, and the innovations at all.
+
+    `thetas` are (points, n). None where a sensor is late, bent or changes, or where the filter diverged.
+    """
+    single = replace(problem.on((problem.observations[index],)), jobs=1)
+    changing = single.active & {*single.system.bending_terms, *single.system.rescaling, *single.system.lagging_terms}
+    if changing or not isinstance(single.engine, Lanes) or any(map(any, single.count_delays(thetas))):
+        return None
+    points, view = single.points(thetas), single.view()
+    if np.any(points.lag != 0.0):
+        return None
+    kept = make_kept(single.dynamics, view.samples)
+    innovations = single.engine.filter(single.dynamics, view, points, kept)
+    if not innovations.finite[0]:
+        return None
+    seen, _, before, ahead, steps = kept
+    single, full, gain = single.on((view,)), points.params[0], points.gain[0]
+    n = single.dynamics.states
+    own = [i for i, s in enumerate(view.sensors) if s.noise.kind == "ar1"]
+    slopes = np.zeros((*innovations.errors.shape[1:], seen.shape[1] + len(own)))
+    slopes[:, :, : seen.shape[1]] = _compute_slopes(single, full, before, ahead)
+    slopes *= gain[:, None]
+    for j, sensor in enumerate(own):
+        slopes[:, sensor, seen.shape[1] + j] = 1.0
+    spread = np.where(np.isfinite(view.readings), innovations.variances[0], math.inf)
+    noise = (points.ar1_share[0][own], points.ar1[0][own])
+    return Tangents(single, full, seen[:, :n], steps, ahead, slopes, spread, *noise, gain), innovations
+
+
+def join_recordings(parts: Sequence[Innovations]) -> Innovations:
+    """Return the innovations (points, readings) of several recordings in a row."""
+    errors, variances = (
+        np.concatenate([getattr(p, name).reshape(len(p), -1) for p in parts], axis=1) for name in ("errors", "variances")
+    )
+    return Innovations(errors, variances, np.all([p.finite for p in parts], axis=0))
+
+
+def _compute_slopes(problem: Problem, full: Array, states: Array, covariance: Array) -> Array:
+    """Return the derivatives (samples, sensors, n) of the channels of the sensors over the states of the filter."""
+    dynamics, observation = problem.dynamics, problem.observations[0]
+    found = np.zeros((len(states), len(observation.sensors), states.shape[1]))
+    shown = [dynamics.system.shown(sensor, dynamics.active) for sensor in observation.sensors]
+    for s, (_, direct) in enumerate(shown):
+        if direct >= 0:
+            found[:, s, direct] = 1.0
+    others = [(s, channel) for s, (channel, direct) in enumerate(shown) if direct < 0]
+    if not others:
+        return found
+    packed = dynamics.system.pack(full[None], observation.dt / problem.nsub, observation.harmonic)
+    inputs = problem.drive_at(full, 0).inputs[: len(states)]
+    forces = tuple(dynamics.states + i for i in range(dynamics.forces))
+    for c in range(states.shape[1]):
+        reach = np.sqrt(np.maximum(covariance[:, c, c], 0.0)) + 1e-9 * (1e-300 + np.max(np.abs(states[:, c])))
+        ends = []
+        for side in (1.0, -1.0):
+            moved = states.copy()
+            moved[:, c] += side * reach
+            run = (dynamics.system, dynamics.active, packed, moved, inputs, observation.time)
+            ends.append(compute_each(*run, latent=forces)[1][0])
+        for s, channel in others:
+            found[:, s, c] = (ends[0][:, channel] - ends[1][:, channel]) / np.where(reach > 0.0, 2.0 * reach, 1.0)
+    return found
