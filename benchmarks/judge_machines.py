@@ -1,5 +1,7 @@
 """Twelve recordings with known truth for `benchmarks/judge.py`: easy cases, two effects, and laws without a name.
 
+Two more (13, 14) are easy cases with more noise, in which friction gains about 800 and 500 in log-likelihood.
+
 They are like those on which earlier versions failed (one name in place of two simple laws, false names for a contact
 law that the library lacks, long searches). All but the pendulum are `lin_backlash` under one frequency with 24,000
 samples. Integrators that share no code with the framework simulate them with at least ten times finer steps than a fit.
@@ -109,6 +111,14 @@ ROWS = (
     Row(
         "12_left_over", "a smooth force over position without a term", (1.0, 7.5, 4e4, 5e-3, 100.0, 42.0), 0.004,
         (hide("two humps over position", ("unknown",), size=1.5, length=5e-3),), law=Law(HUMPS, 1.5, 5e-3),
+    ),
+    Row(
+        "13_friction_in_noise", "friction of 2 % of the drive, more noise", (1.0, 5.1, 4e4, 5e-3, 65.0, 40.0), 0.025,
+        (hide("coulomb_friction", DRY, force=1.3),), Hidden(friction=1.3),
+    ),
+    Row(
+        "14_weak_friction_in_noise", "friction of 0.5 N, more noise", (1.0, 8.0, 4e4, 5e-3, 100.0, 40.0), 0.0125,
+        (hide("coulomb_friction", DRY, force=0.5),), Hidden(friction=0.5),
     ),
 )  # fmt: skip
 MGL = 1.2

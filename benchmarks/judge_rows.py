@@ -19,11 +19,11 @@ VAGUE = ("unknown", "random_force")
 FLAWS = ("sensor_quantisation",)
 """Names that are right in every machine of the imperfect world."""
 BINS = (0.0, 0.05, 0.2, 0.5, 0.8, 0.95, 0.99, 1.0001)
-CLEAR = ("02_friction", "03_weak_friction")
+CLEAR = ("02_friction", "03_weak_friction", "13_friction_in_noise", "14_weak_friction_in_noise")
 """The clear cases among the twelve."""
 TIMED = {
     "clean": ("01_nothing",),
-    "friction": ("02_friction", "03_weak_friction"),
+    "friction": CLEAR,
     "two effects": ("05_three_simple", "11_friction_and_wear"),
     "hysteresis": ("08_bouc_wen",),
     "left-over force": ("12_left_over", "06_contact_law"),
