@@ -1,10 +1,9 @@
 """Twelve recordings with known truth for `benchmarks/judge.py`: easy cases, two effects, and laws without a name.
 
-Two more (13, 14) are easy cases with more noise, in which friction gains about 800 and 500 in log-likelihood.
-
 They are like those on which earlier versions failed (one name in place of two simple laws, false names for a contact
 law that the library lacks, long searches). All but the pendulum are `lin_backlash` under one frequency with 24,000
 samples. Integrators that share no code with the framework simulate them with at least ten times finer steps than a fit.
+Two more (13, 14) are easy cases with more noise, in which friction gains about 800 and 500 in log-likelihood.
 """
 
 from __future__ import annotations
