@@ -5,6 +5,7 @@
     python benchmarks/judge.py compare ROWS_OLD ROWS_NEW
     python benchmarks/judge.py reliability ROWS [ROWS ...]
     python benchmarks/judge.py oracle --machines MACHINES --out ROWS
+    python benchmarks/judge.py recall ROWS_WITH_ORACLE ROWS [ROWS ...]
 
 `make` writes machines once, as folders with a case and a recording, so that all versions see the same bytes. `run`
 diagnoses them through the command line of the checkout CHECKOUT, each in a process of its own with a limit of
@@ -27,7 +28,7 @@ import threading
 import time
 from pathlib import Path
 
-from judge_rows import print_comparison, print_reliability, read_rows
+from judge_rows import print_comparison, print_oracle, print_reliability, read_rows
 from judge_truth import load_truth
 
 SETS = ("twelve", "foreign", "library", "imperfect", "clean")
@@ -189,6 +190,9 @@ def parse_options() -> argparse.Namespace:
     one = commands.add_parser("compare")
     one.add_argument("old", type=Path)
     one.add_argument("new", type=Path)
+    one = commands.add_parser("recall")
+    one.add_argument("oracle", type=Path, help="folder with the rows of the oracle")
+    one.add_argument("rows", type=Path, nargs="*")
     one = commands.add_parser("reliability")
     one.add_argument("rows", type=Path, nargs="+")
     return parser.parse_args()
@@ -206,6 +210,8 @@ def main() -> None:
         run_oracle(args)
     elif args.command == "compare":
         print_comparison(args.old, args.new)
+    elif args.command == "recall":
+        print_oracle(args.oracle, args.rows)
     else:
         print_reliability(args.rows)
 

@@ -183,6 +183,48 @@ def measure_imperfect(rows: dict[str, dict]) -> list[tuple[str, str]]:
     return [("imperfect world, above 0.95", count_recall(rows.values()))]
 
 
+def find_best_recall(told: Sequence[tuple[float, bool]]) -> tuple[float, int]:
+    """Return the least stated probability above which 95 % of the names are right, and how many of them are right."""
+    order = sorted(told, key=lambda one: -one[0])
+    best = (math.nan, 0)
+    for count, (stated, _) in enumerate(order, start=1):
+        right = sum(ok for _, ok in order[:count])
+        if right >= SURE * count:
+            best = (stated, right)
+    return best
+
+
+def print_oracle(folder: Path, others: Sequence[Path]) -> None:
+    """Print what the oracle names of the imperfect world, beside what versions of the code name of the same machines.
+
+    A machine counts if it hides an effect that has a name and a force.
+    """
+    oracle = {r["key"]: r for r in read_set(folder, "oracle").values() if r["status"] == "ok"}
+    oracle = {k: r for k, r in oracle.items() if any(e["accept"] for e in r["truth"]["effects"])}
+    print("| who | machines | named above 0.95, right | recall at 95 % precision, above |\n|---|---|---|---|")
+    for other in others:
+        rows = {k: r for k, r in read_set(other, "imperfect").items() if k in oracle and r["status"] == "ok"}
+        told = [(e["probability"], is_right(e, r["truth"])) for r in rows.values() for e in list_names(r)]
+        print_recall(f"{other.name}: all names", told, len(rows))
+        sure = [(e["probability"], is_right(e, r["truth"])) for r in rows.values() for e in list_names(r) if is_sure(e)]
+        print_recall(f"{other.name}: state named", sure, len(rows))
+        print_recall("oracle, the same machines", list_oracle([oracle[k] for k in rows]), len(rows))
+    print_recall("oracle", list_oracle(oracle.values()), len(oracle))
+
+
+def list_oracle(rows: Iterable[dict]) -> list[tuple[float, bool]]:
+    """Return the names of the oracle: each group with its probability, and whether it is right."""
+    groups = [one for row in rows for one in row["best"].items()]
+    return [(share, name == "true") for name, share in groups if name not in ("nothing_missing", *VAGUE)]
+
+
+def print_recall(who: str, told: Sequence[tuple[float, bool]], machines: int) -> None:
+    """Print a line of the table of the oracle."""
+    sure = [ok for stated, ok in told if stated > SURE]
+    stated, right = find_best_recall(told)
+    print(f"| {who} | {machines} | {sum(sure)} of {len(sure)} | {format_share(right, machines)}, {stated:.3f} |")
+
+
 def measure_clean(rows: dict[str, dict]) -> list[tuple[str, str]]:
     """Return the lines of the machines that hide nothing."""
     lines = []

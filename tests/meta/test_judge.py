@@ -75,6 +75,13 @@ def test_names_that_are_right_for_one_effect_share_one_statement():
     assert sorted((round(p, 2), ok) for _, p, ok, _ in told) == [(0.3, False), (0.99, True)]
 
 
+def test_recall_is_counted_down_to_the_probability_above_which_95_percent_are_right():
+    rows = load("judge_rows")
+    told = [(0.9 - 0.01 * k, True) for k in range(19)] + [(0.6, False), (0.5, True), (0.4, False)]
+    assert rows.find_best_recall(told) == (0.5, 20)
+    assert rows.find_best_recall([(0.9, False), (0.8, True)])[1] == 0
+
+
 def test_the_comparison_is_on_the_machines_that_both_versions_have(tmp_path, capsys):
     rows = load("judge_rows")
     for name, keys in (("old", "ab"), ("new", "a")):
