@@ -2,7 +2,6 @@
 
 import importlib
 import json
-import math
 import signal
 import sys
 from pathlib import Path
@@ -153,4 +152,4 @@ def test_the_oracle_names_a_large_effect_and_says_nothing_of_a_clean_machine(tmp
     rub, none = (oracle.judge_machine(tmp_path / name) for name in ("rub", "none"))
     assert rub["probability_of_truth"] > 0.9
     assert none["best"].get("nothing_missing", 0.0) > 0.3
-    assert math.isclose(sum(none["best"].values()), 1.0, abs_tol=0.1)
+    assert max(share for name, share in none["best"].items() if name != "nothing_missing") < 0.5
