@@ -9,13 +9,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
+from lostmotion.analysis.source import WantedChannel, load_source
+from lostmotion.cli import main
 from lostmotion.errors import DataError
+from lostmotion.notebook.doors import make_case
 from lostmotion.preparation.beginning import write_first_case
-from lostmotion.recording import Table, read_table
+from lostmotion.recording import Recording, Table, read_table
 from lostmotion.recording.clock import find_time
 from lostmotion.recording.outline import GivenRoles, Outline, outline_table
-from lostmotion.registry import Registry
+from lostmotion.registry import Registry, default
 
 CASES = Path(__file__).resolve().parents[2].parent / "shared" / "cases"
 N = 300
@@ -379,3 +383,53 @@ def test_full_names_are_kept(tmp_path: Path) -> None:
     got: Table = read_table(write(tmp_path, "time_s,force_N\n" + "".join(f"{t:.2f},{t}\n" for t in T)))
     assert got.full_names == ("time_s", "force_N")
     assert got.columns["force"] is got.columns["force_N"]
+
+
+# -- one door
+
+
+def test_analyse_finds_the_time_and_the_unit_that_init_finds(tmp_path: Path) -> None:
+    source = load_source(case("r15_german"), WantedChannel(columns=("Weg",)), Registry())
+    assert (source.dt, source.unit) == (pytest.approx(0.01), "mm")
+    draft = write_first_case(case("r15_german"), tmp_path / "case.toml", GivenRoles(), Registry.discover())
+    assert source.notes[0] == draft.found[0]
+
+
+@pytest.mark.parametrize("name", ["r05_dup_rows", "r05_swapped_rows", "r04_whole_seconds"])
+def test_every_door_gives_the_same_reason(tmp_path: Path, name: str) -> None:
+    path, said = case(name), set()
+    which = {"inputs": {"force": "force"}, "sensors": {"position": "position"}}
+    for door in (
+        lambda: outline(path),
+        lambda: load_source(path, WantedChannel(columns=("position",)), Registry()),
+        lambda: Recording.read(path, **which),
+        lambda: Recording.read(path, time=outline_time(path), **which),
+    ):
+        with pytest.raises(DataError) as caught:
+            door()
+        said.add(str(caught.value))
+    assert len(said) == 1, said
+
+
+def outline_time(path: Path) -> str:
+    return next(name for name in read_table(path).full_names if name.startswith("time"))
+
+
+def test_a_recording_in_a_file_is_a_case_for_the_notebook(tmp_path: Path) -> None:
+    rows = "".join(f"{10 * k},{FORCE[k]:.5f},{PLACE[k]:.5f}\n" for k in range(N))
+    path = write(tmp_path, "t_ms,force_N,position_mm\n" + rows)
+    made = make_case(path, "linear_oscillator", {"m": 2.0}, None, default())
+    assert made.known == {"m": 2.0}
+    assert "m" not in made.estimate
+    assert made.recordings[0].rate == pytest.approx(100.0)
+    assert made.recordings[0].notes[0].startswith("run.csv: 300 rows at 100 Hz, time in the column 't_ms' (ms)")
+
+
+def test_identify_and_diagnose_take_a_recording(tmp_path: Path) -> None:
+    path = write(tmp_path, "n,force\n" + "".join(f"{k},{FORCE[k]:.5f}\n" for k in range(N)))
+    said = {
+        CliRunner().invoke(main, [command, str(path), "--out", str(tmp_path / command)]).stderr.strip()
+        for command in ("diagnose", "identify", "analyse")
+    }
+    assert len(said) == 1
+    assert "'n' counts rows, and not seconds" in said.pop()

@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class WantedChannel:
-    """The requested channel: columns or the name of a recording, the rate (Hz) where there is no time column.
+    """The requested channel: columns or the name of a recording; the column of time or the rate (Hz), where given.
 
     Several columns are pieces of one motion and are joined in this order; one sample of `every` is kept.
     """
@@ -32,6 +32,7 @@ class WantedChannel:
     columns: tuple[str, ...] = ()
     rate: float | None = None
     every: int = 1
+    time: str | None = None
 
     @property
     def column(self) -> str | None:
@@ -151,7 +152,7 @@ def _check_missing(x: Array, kept: int) -> None:
 def _load_from_file(path: Path, wanted: WantedChannel) -> Source:
     """Return the requested columns of a recording file as one channel."""
     table = read_table(path)
-    found = find_time(table, path.name, rate=wanted.rate)
+    found = find_time(table, path.name, None if wanted.rate else wanted.time, wanted.rate)
     names = _choose_columns(table, wanted.columns, found.column, path.name)
     if found.column and table.columns[names[0]].size != found.time.size:
         raise DataError(

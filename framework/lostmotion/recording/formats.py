@@ -67,6 +67,11 @@ def table_of(path: Path) -> Table:
     return table
 
 
+def is_recording(path: str | Path) -> bool:
+    """Return whether the ending of a file is that of a recording, and not of a case."""
+    return Path(path).suffix[1:].lower() in ENDINGS
+
+
 def _find_reader(path: Path) -> Callable[[Path], Table]:
     ending = path.suffix[1:].lower()
     if ending not in ENDINGS:
