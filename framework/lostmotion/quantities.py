@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+import unicodedata
 from functools import lru_cache
 from typing import Any, NamedTuple
 
@@ -121,10 +122,40 @@ NUMBER = Dimension(0, 0, 0)
 FREQUENCY = Dimension(0, 0, -1)
 
 
-_NEWTON_METRE = re.compile(r"(?<![^\W\d_])([kmM]?N)m(?!\w)")
+_NEWTON_METRE = re.compile(r"(?<![^\W\d_])([kmM]?N)([cm]?m)(?!\w)")
 """Units of torque such as Nm, which pint would not read as newton metre."""
 _GRAVITY = {"g": "g_0", "mg": "mg_0", "G": "g_0"}
 """Units of acceleration on accelerometers: g is the acceleration of gravity, where pint would read gram."""
+
+
+_WORDS = {
+    "degC": "degC", "°C": "degC", "g_n": "g_0", "gn": "g_0", "g0": "g_0", "Grad": "deg", "град": "deg", "рад": "rad",
+    "U/min": "rpm", "1/min": "rpm", "min-1": "rpm", "min^-1": "rpm", "r/min": "rpm", "rev/min": "rpm", "RPM": "rpm",
+    "об/мин": "rpm", "Umdr./min": "rpm", "秒": "s", "ミリ秒": "ms", "マイクロ秒": "us", "分": "min", "度": "deg",
+    "сек": "s", "В": "V", "А": "A", "Н*м": "N m", "Нм": "N m", "Н м": "N m", "sec": "s", "msec": "ms", "usec": "us",
+    "Volt": "V", "Volts": "V", "Newton": "N", "Newtons": "N", "Amp": "A", "Amps": "A", "Sekunde": "s", "Sekunden": "s",
+    "mils": "mil", "gee": "g", "in.": "inch", "m/s/s": "m/s^2", "mm/s/s": "mm/s^2", "rad/s/s": "rad/s^2",
+    "rps": "rev/s", "dps": "deg/s", "deg/sec": "deg/s", "rad/sec": "rad/s", "m/sec": "m/s", "mm/sec": "mm/s",
+}  # fmt: skip
+_CYRILLIC = str.maketrans({"м": "m", "к": "k", "с": "s", "Н": "N", "н": "n", "г": "g"})
+_POWERS = re.compile(r"(?<=[a-zA-Zµ])(-?\d)(?!\w)")
+
+
+@lru_cache(maxsize=512)
+def spell_unit(unit: str) -> str:
+    """Return a unit in the spelling of this module: `m/s2`, `m/s²` and `м/с²` become `m/s^2`, `U/min` becomes `rpm`."""
+    text = unit.strip()
+    for sign, plain in (("²", "^2"), ("³", "^3"), ("⁻¹", "^-1"), ("⋅", "*"), ("·", "*"), ("∙", "*"), ("μ", "µ")):
+        text = text.replace(sign, plain)
+    text = unicodedata.normalize("NFKC", text).replace("μ", "µ")
+    text = _WORDS.get(text, text)
+    text = text.replace("мк", "µ").translate(_CYRILLIC) if not text.isascii() and _is_cyrillic(text) else text
+    text = text if text.startswith("g_0") else _POWERS.sub(r"^\1", text)
+    return _WORDS.get(text, _NEWTON_METRE.sub(r"\1 \2", text))
+
+
+def _is_cyrillic(text: str) -> bool:
+    return any("\u0400" <= sign <= "\u04ff" for sign in text)
 
 
 @lru_cache(maxsize=1)
@@ -142,7 +173,7 @@ def unit_powers(unit: str, motion: str) -> tuple[float, float, float, float]:
     if len(unit) > LONGEST or len(_POWER.findall(unit)) < len(_RAISED.findall(unit)):
         raise DataError(f"{unit[:LONGEST]!r} is no unit: write for instance 'N/m'")
     try:
-        base = _registry().Quantity(1.0, _NEWTON_METRE.sub(r"\1 m", unit)).to_base_units()
+        base = _registry().Quantity(1.0, spell_unit(unit)).to_base_units()
     except Exception as err:  # pint raises many types of error
         raise DataError(f"{unit!r} is not known as a unit: write for instance 'N/m'") from err
     powers = {name.strip("[]"): float(power) for name, power in base.dimensionality.items()}
@@ -167,7 +198,7 @@ def si_factor(unit: str, quantity: str) -> tuple[float, str]:
     if unit in targets:
         return 1.0, unit
     registry = _registry()
-    unit = _NEWTON_METRE.sub(r"\1 m", unit)
+    unit = spell_unit(unit)
     if quantity.endswith("acceleration"):
         unit = _GRAVITY.get(unit, unit)
     try:

@@ -13,7 +13,7 @@ import scipy.io
 import xarray as xr
 
 from lostmotion.errors import DataError
-from lostmotion.recording.formats import columns_of
+from lostmotion.recording.formats import columns_of, table_of
 
 N = 150
 TIME = np.arange(N) / 1000
@@ -145,7 +145,7 @@ def test_garbage_is_told_so(tmp_path: Path, ending: str) -> None:
         ("time,x\n0,001,1,5\n0,002,1,6\n", ["line 2", "decimal commas", "';'"]),
         ("time,x\n0,1\n\n1,oops\n", ["line 4", "'x'", "'oops'", "not a number"]),
         ("time,x\nlow,1\n0,1\n", ["line 2", "'time'", "'low'"]),
-        ("time;x\n0,5;1.000,5\n", ["line 2", "'x'"]),
+        ("time;x\n0,5;1.000.5\n", ["line 2", "'x'"]),
         ("time,x,x\n0,1,2\n", ["two columns named 'x'"]),
         ("one,two\na,b\n", ["no column of numbers"]),
     ],
@@ -154,7 +154,7 @@ def test_bad_csv(tmp_path: Path, text: str, words: list[str]) -> None:
     path = tmp_path / "run.csv"
     path.write_text(text)
     with pytest.raises(DataError) as caught:
-        columns_of(path)
+        [table_of(path).column(name, path.name) for name in ("time", "x")]
     message = str(caught.value)
     assert [w for w in ["run.csv", *words] if w not in message] == [], message
 

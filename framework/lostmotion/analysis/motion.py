@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -13,10 +13,15 @@ from lostmotion.contracts import Series
 from lostmotion.defaults import SURROGATE_OF_CYCLES
 from lostmotion.results import decimals_of, percent
 from lostmotion.results.analysis import MotionKind, Sign, State, Strength
+from lostmotion.signals import base_line
 
 MEASURED_SIGNS = ("exponent", "dimension", "entropy")
 """The keys of the signs that are measured quantities."""
 TEST_PREFIX = "surrogates_"
+DRIFT_PERIODS = 20
+"""Fewest periods of a recording from which a drift of the zero is removed: it is then slow beside the motion."""
+FINE = 100
+"""With fewer different values, a missing exponent or dimension is blamed on the coarse sensor first."""
 CYCLE_TEST = TEST_PREFIX + SURROGATE_OF_CYCLES
 
 
@@ -68,6 +73,7 @@ def judge_motion(evidence: MotionEvidence) -> Verdict:
     for rule in (
         _judge_unsteady,
         _judge_periodic,
+        _judge_drifting,
         _judge_quasiperiodic,
         _judge_coarse,
         _judge_regular,
@@ -112,6 +118,38 @@ def _judge_periodic(it: SignedEvidence) -> Verdict | None:
     says = f"The motion repeats {cycle} of {period:.4g} s; {noise} of it does not repeat, which is within the noise."
     rests = f"return after {times} periods: {noise}, noise at most {percent(it.evidence.noise)}"
     return it.make_verdict("periodic", says + _note_contradiction(it), _rate_strength(it), (rests,))
+
+
+def _judge_drifting(it: SignedEvidence) -> Verdict | None:
+    """Return periodic if the motion repeats to within its noise after removal of a slow drift of its zero.
+
+    The drift is a cubic over the whole recording, which cannot follow a second frequency.
+    """
+    evidence, period = it.evidence, it.evidence.base.period
+    if period is None or evidence.raw.n * evidence.raw.dt < DRIFT_PERIODS * period:
+        return None
+    x, time = evidence.raw.x, np.linspace(-1.0, 1.0, evidence.raw.n)
+    zero = np.polynomial.Polynomial.fit(time, x, 3)(time)
+    rest = x - zero
+    if not np.std(rest) > 0.0:
+        return None
+    noise = evidence.noise * float(np.std(x) / np.std(rest))
+    steady = replace(evidence.raw, x=rest)
+    line = base_line(rest, steady.dt)
+    for found in (period, *((line.period,) if line else ())):
+        times, left = find_return(steady, found, noise, evidence.limits)
+        if times:
+            break
+    if not times:
+        return None
+    cycle = "each period" if times == 1 else f"every {times} periods"
+    says = (
+        f"The motion repeats {cycle} of {found:.4g} s about a zero that drifts by {np.ptp(zero):.3g} over the "
+        f"recording; {percent(left)} of it does not repeat, which is within the noise. The drift may be that of the "
+        "sensor."
+    )
+    rests = f"return after {times} periods beside the drift: {percent(left)}, noise at most {percent(noise)}"
+    return it.make_verdict("periodic", says, "likely", (rests,))
 
 
 def _judge_quasiperiodic(it: SignedEvidence) -> Verdict | None:
@@ -244,11 +282,25 @@ def _judge_short(it: SignedEvidence) -> Verdict | None:
     known = "for" in (it.get_state("exponent"), it.get_state("dimension"))
     if known or not any(s.state == "for" for s in it.linear) or _is_long_enough(evidence):
         return None
-    says = (
-        "The motion is not linear noise, but the recording is too short for an exponent or a dimension: "
-        f"at least {limits.enough_periods:g} periods are needed."
-    )
-    return it.make_verdict("undecided", says, "open")
+    return it.make_verdict("undecided", f"The motion is not linear noise, but {_why_silent(it)}", "open")
+
+
+def _why_silent(it: SignedEvidence) -> str:
+    """Return why there is neither an exponent nor a dimension: a coarse sensor, few periods, or what both say."""
+    evidence, limits = it.evidence, it.evidence.limits
+    values, periods = len(np.unique(evidence.raw.x)), evidence.raw.n * evidence.raw.dt / measure_turn(evidence)
+    if values < FINE:
+        return (
+            f"its {values} different values are too coarse for an exponent or a dimension: use a finer sensor or a "
+            "larger motion."
+        )
+    if periods < limits.enough_periods:
+        return (
+            f"the recording is too short for an exponent or a dimension: it has {periods:.0f} periods, and at least "
+            f"{limits.enough_periods:g} are needed."
+        )
+    reasons = dict.fromkeys(one.says for one in (evidence.exponent, evidence.dimension) if one.says)
+    return f"neither an exponent nor a dimension could be measured. {' '.join(reasons)}"
 
 
 def _is_long_enough(evidence: MotionEvidence) -> bool:

@@ -72,6 +72,7 @@ class AnalysisRequest:
     seed: int = 0
     jobs: int = 2
     settings: Settings = DEFAULT
+    time: str | None = None
 
     def make_rng(self, stream: str) -> np.random.Generator:
         """Return the random generator of one stage; the stages do not depend on each other's draws."""
@@ -108,7 +109,7 @@ def run_analysis(
 ) -> Analysis:
     """Return the result after writing `analysis.json`, the arrays and the report into the folder `out`."""
     say("reading")
-    wanted = WantedChannel(request.columns, request.rate, request.every)
+    wanted = WantedChannel(request.columns, request.rate, request.every, request.time)
     source = load_source(path, wanted, registry, request.settings.recording)
     _require_known(registry, request)
     folder = folder_for(out)

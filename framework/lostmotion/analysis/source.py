@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -14,20 +13,18 @@ from lostmotion.errors import CaseError, DataError, nearest
 from lostmotion.preparation.prepare import case_of
 from lostmotion.provenance import digest
 from lostmotion.recording import Recording, Table, load_recording, read_table
-from lostmotion.recording.timing import EvenClock, check_step, even_clock, resample_channel
-from lostmotion.recording.units import seconds, time_unit
+from lostmotion.recording.clock import FoundTime, find_time
+from lostmotion.recording.timing import resample_channel
 from lostmotion.registry import Registry
 from lostmotion.settings import DEFAULT, RecordingSettings
 from lostmotion.signals.series import LEAST
 
 Array = NDArray[np.float64]
-TIME_COLUMNS = ("time", "t", "Time", "time_s")
-"""Names of columns that are read as time in a recording file."""
 
 
 @dataclass(frozen=True)
 class WantedChannel:
-    """The requested channel: columns or the name of a recording, the rate (Hz) where there is no time column.
+    """The requested channel: columns or the name of a recording; the column of time or the rate (Hz), where given.
 
     Several columns are pieces of one motion and are joined in this order; one sample of `every` is kept.
     """
@@ -35,6 +32,7 @@ class WantedChannel:
     columns: tuple[str, ...] = ()
     rate: float | None = None
     every: int = 1
+    time: str | None = None
 
     @property
     def column(self) -> str | None:
@@ -154,11 +152,17 @@ def _check_missing(x: Array, kept: int) -> None:
 def _load_from_file(path: Path, wanted: WantedChannel) -> Source:
     """Return the requested columns of a recording file as one channel."""
     table = read_table(path)
-    column = next((name for name in TIME_COLUMNS if name in table.columns), None)
-    names = _choose_columns(table, wanted.columns, column, path.name)
-    clock, time = _read_clock(table, column, wanted, len(table.columns[names[0]]), path.name)
-    notes = list(clock.notes)
-    series = [_resample(table.columns[name], clock, time) for name in names]
+    found = find_time(table, path.name, None if wanted.rate else wanted.time, wanted.rate)
+    names = _choose_columns(table, wanted.columns, found.column, path.name)
+    if found.column and table.columns[names[0]].size != found.time.size:
+        raise DataError(
+            f"{path.name}: {found.column!r} has {found.time.size} values and the column {names[0]!r} "
+            f"{table.columns[names[0]].size}: make them equally long"
+        )
+    unit = table.units.get(names[0], "")
+    first = f"{path.name}: {table.columns[names[0]].size} rows at {1.0 / found.clock.dt:.6g} Hz, {found.says}"
+    notes = [first, *found.notes]
+    series = [_resample(table.columns[name], found) for name in names]
     pieces = [values[_find_longest_stretch(values, notes)] for values in series]
     if len(pieces) == 1:
         _check_missing(series[0], len(pieces[0]))
@@ -170,8 +174,8 @@ def _load_from_file(path: Path, wanted: WantedChannel) -> Source:
     return Source(
         title=path.stem,
         x=np.concatenate(pieces),
-        dt=clock.dt,
-        unit="",
+        dt=found.clock.dt,
+        unit=unit,
         label=names[0] if len(names) == 1 else names[0].partition("[")[0],
         excitation=None,
         inputs={path.name: digest(path)},
@@ -179,15 +183,16 @@ def _load_from_file(path: Path, wanted: WantedChannel) -> Source:
     )
 
 
-def _resample(values: Array, clock: EvenClock, time: Array) -> Array:
+def _resample(values: Array, found: FoundTime) -> Array:
     """Return a channel (n,) on the uniform time grid of its recording; infinite values count as missing."""
-    return resample_channel(time, values, clock) if clock.uneven and values.size == time.size else values
+    uneven = found.clock.uneven and values.size == found.time.size
+    return resample_channel(found.time, values, found.clock) if uneven else values
 
 
 def _choose_columns(table: Table, asked: tuple[str, ...], clock: str | None, source: str) -> tuple[str, ...]:
     """Return the names of the requested columns; `name[*]` means name[0], name[1], ..."""
     if asked:
-        return tuple(found for name in asked for found in _match_columns(table.columns, name, source))
+        return tuple(found for name in asked for found in _match_columns(table, name, source))
     time = table.columns[clock] if clock else None
     others = [name for name in table.full_names if table.columns[name] is not time]
     if len(others) != 1:
@@ -197,33 +202,17 @@ def _choose_columns(table: Table, asked: tuple[str, ...], clock: str | None, sou
     return (others[0],)
 
 
-def _match_columns(columns: Mapping[str, Array], name: str, source: str) -> list[str]:
+def _match_columns(table: Table, name: str, source: str) -> list[str]:
     stem = name.removesuffix("[*]")
-    found = [c for c in columns if c == name or (stem != name and c.startswith(f"{stem}["))]
+    found = [c for c in table.columns if c == name or (stem != name and c.startswith(f"{stem}["))]
+    if not found and name in table.refused:
+        raise DataError(table.refused[name])
     if not found:
-        raise DataError(f"{source} has no column {name!r}{nearest(name, columns)}: it has {_list_names(list(columns))}")
+        listed = _list_names(list(table.columns))
+        raise DataError(f"{source} has no column {name!r}{nearest(name, table.columns)}: it has {listed}")
     return found
 
 
 def _list_names(names: list[str], most: int = 12) -> str:
     more = f" and {len(names) - most} more" if len(names) > most else ""
     return (", ".join(names[:most]) or "none") + more
-
-
-def _read_clock(
-    table: Table, column: str | None, wanted: WantedChannel, n: int, source: str
-) -> tuple[EvenClock, Array]:
-    """Return the uniform time grid and the time column (s), which is empty where a rate was given."""
-    if wanted.rate is not None:
-        if not 0.0 < wanted.rate < np.inf:
-            raise DataError(f"the rate is {wanted.rate:g} Hz: give a positive number")
-        return EvenClock(check_step(1.0 / wanted.rate, source), False, (), 0.0), np.empty(0)
-    if column is None:
-        raise DataError(f"{source} has no column 'time': add one in seconds, or give --rate HZ")
-    if len(table.columns[column]) != n:
-        found = len(table.columns[column])
-        raise DataError(f"{source}: {column!r} has {found} values and the column {n}: make them equally long")
-    unit, notes = time_unit(column, table.units.get(column), None)
-    time = seconds(table.columns[column], unit, source)
-    clock = even_clock(time, source)
-    return replace(clock, notes=(*notes, *clock.notes)), time

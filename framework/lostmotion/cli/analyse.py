@@ -34,7 +34,8 @@ RATES = ("1/s", "bit/s", "1/period", "bit/period")
     metavar="NAME",
     help="Column of the recording, or recording or sensor of the case. Several, or NAME[*], are joined in order.",
 )
-@click.option("--rate", type=float, metavar="HZ", help="Sampling rate, if there is no column 'time'.")
+@click.option("--time", metavar="COLUMN", help="Column of time, if the automatic choice is wrong.")
+@click.option("--rate", type=float, metavar="HZ", help="Samples per second, instead of a time column.")
 @click.option("--every", default=1, show_default=True, type=click.IntRange(1), help="Keep every n-th sample.")
 @click.option("--period", type=float, metavar="S", help="Period of the drive, if the drive was not recorded.")
 @click.option(

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from lostmotion.cli._lazy import PluginName, examples, flatten_text, registry_of
-from lostmotion.cli.options import add_common_options, add_settings_option
+from lostmotion.cli._lazy import examples, flatten_text, registry_of
+from lostmotion.cli.options import add_common_options, add_model_option, add_settings_option, prepare_case
 from lostmotion.cli.progress import show_count, show_progress
 
 if TYPE_CHECKING:
@@ -26,8 +26,7 @@ if TYPE_CHECKING:
     )
 )
 @click.argument("cases", metavar="CASE.toml...", nargs=-1, required=True, type=click.Path(path_type=Path))
-@click.option("--model", type=PluginName("model"), default="", help="The model, or equations of"
-              " motion, if a recording is given.")  # fmt: skip
+@add_model_option
 @add_settings_option
 @add_common_options
 @click.pass_context
@@ -50,26 +49,7 @@ def command(ctx: click.Context, /, cases: tuple[Path, ...], out: Path, model: st
     if len(cases) > 1:
         _diagnose_many(ctx, cases, out, **given)
     else:
-        _diagnose_one(ctx, _prepare_case(ctx, cases[0], out, model), out, **given)
-
-
-def _prepare_case(ctx: click.Context, case: Path, out: Path, model: str) -> Path:
-    """Return the path of the case; for a recording, a case is written into the folder of the results first."""
-    from lostmotion.preparation.beginning import write_first_case
-    from lostmotion.recording import ENDINGS
-    from lostmotion.recording.outline import GivenRoles
-
-    if case.suffix[1:].lower() not in ENDINGS:
-        if model:
-            raise click.UsageError(f"--model needs a recording: {case.name} is a case and has its own [model]")
-        return case
-    out.mkdir(parents=True, exist_ok=True)
-    draft = write_first_case(
-        case, out / "case.toml", GivenRoles(None, None, None, None, {}), registry_of(ctx), model, {}
-    )
-    for line in (*draft.found, *(f"please check: {note}" for note in draft.notes)):
-        click.echo(flatten_text(line), err=True)
-    return out / "case.toml"
+        _diagnose_one(ctx, prepare_case(ctx, cases[0], out, model), out, **given)
 
 
 def _diagnose_one(

@@ -10,7 +10,14 @@ from typing import TYPE_CHECKING
 import click
 
 from lostmotion.cli._lazy import examples, registry_of
-from lostmotion.cli.options import add_case_options, add_maps_option, add_settings_option, add_terms_option
+from lostmotion.cli.options import (
+    add_case_options,
+    add_maps_option,
+    add_model_option,
+    add_settings_option,
+    add_terms_option,
+    prepare_case,
+)
 
 if TYPE_CHECKING:
     from lostmotion.identification.run import Identified
@@ -27,6 +34,7 @@ if TYPE_CHECKING:
     )
 )
 @add_settings_option
+@add_model_option
 @add_case_options
 @click.option(
     "--route",
@@ -43,12 +51,16 @@ if TYPE_CHECKING:
 @click.option("--fresh", is_flag=True, help="Discard the chain of an earlier run in DIR.")
 @click.pass_context
 def command(
-    ctx: click.Context, /, case: Path, out: Path, seed: int, jobs: int, quiet: bool, settings: Settings, **given: object
-) -> None:
+    ctx: click.Context, /, case: Path, out: Path, model: str, seed: int, jobs: int, quiet: bool, settings: Settings,
+    **given: object,
+) -> None:  # fmt: skip
     """Estimate the parameters of a case jointly: posterior draws and 95 % intervals.
 
     The route "trajectory" fits all recordings together. The route "quantifiers" inverts exponents and dimensions at
     several levels of the drive, read from recordings or given as [[levels]], through maps of the model.
+
+    Instead of a case, a recording with clear column names can be given, as for `diagnose`: DIR/case.toml is then
+    written first. Check this file.
 
     Writes identification.json, posterior.nc (for ArviZ), chain.h5 (for emcee) and report.html into DIR. An interrupted
     run continues where it stopped. Exit status 0 when the sampling has ended, converged or not (a chain that has not
@@ -59,6 +71,7 @@ def command(
 
     plan = SamplingPlan(**{key: given.pop(key) for key in ("ess", "max_steps", "walkers")}, limits=settings.chain)  # type: ignore[arg-type]
     order = IdentificationRequest(seed=seed, jobs=jobs, plan=plan, settings=settings, **given)  # type: ignore[arg-type]
+    case = prepare_case(ctx, case, out, model)
     with _show_bar(plan.max_steps, quiet=quiet) as watch:
         done = run_identification(case, out, registry_of(ctx), order, watch)
     if done.posterior.replaced:

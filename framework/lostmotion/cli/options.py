@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-from lostmotion.cli._lazy import PluginName
+from lostmotion.cli._lazy import PluginName, flatten_text, registry_of
 from lostmotion.settings import DEFAULT, Settings
 
 Command = Callable[..., Any]
@@ -82,6 +82,33 @@ def add_maps_option(command: Command) -> Command:
         type=click.Path(exists=True, path_type=Path),
         help="A map from `lostmotion map` for the quantifier route; made in DIR if not given.",
     )(command)
+
+
+def add_model_option(command: Command) -> Command:
+    """Return the command with the option --model for a recording that is given in place of a case."""
+    return click.option(
+        "--model",
+        type=PluginName("model"),
+        default="",
+        help="The model, or equations of motion, if a recording is given.",
+    )(command)
+
+
+def prepare_case(ctx: click.Context, case: Path, out: Path, model: str) -> Path:
+    """Return the path of the case; for a recording, a case is written into the folder of the results first."""
+    from lostmotion.preparation.beginning import write_first_case
+    from lostmotion.recording.formats import is_recording
+    from lostmotion.recording.outline import GivenRoles
+
+    if not is_recording(case):
+        if model:
+            raise click.UsageError(f"--model needs a recording: {case.name} is a case and has its own [model]")
+        return case
+    out.mkdir(parents=True, exist_ok=True)
+    draft = write_first_case(case, out / "case.toml", GivenRoles(), registry_of(ctx), model)
+    for line in (*draft.found, *(f"please check: {note}" for note in draft.notes)):
+        click.echo(flatten_text(line), err=True)
+    return out / "case.toml"
 
 
 def add_case_options(command: Command) -> Command:

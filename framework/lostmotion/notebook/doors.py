@@ -23,8 +23,10 @@ from lostmotion.notebook.analysis import AnalysisResult, load_analysis
 from lostmotion.notebook.case import Case, model
 from lostmotion.notebook.diagnosis import DiagnosisResult, load_diagnosis
 from lostmotion.notebook.posterior import IdentificationResult, load_identification
+from lostmotion.notebook.recorded import read_recorded_case
 from lostmotion.recording import Recording
 from lostmotion.recording.checks import fill_lost
+from lostmotion.recording.formats import is_recording
 from lostmotion.registry import Registry, default
 from lostmotion.settings import DEFAULT, Settings, read
 from lostmotion.simulation import simulate as _simulate
@@ -56,11 +58,11 @@ def diagnose(
 ) -> DiagnosisResult:
     """Return the diagnosis of a case: the physics that its model does not include.
 
-    `case` is a `Case`, the path of a `case.toml`, or a `Recording` together with a `model`: then `known` and `estimate`
-    hold values and priors, and all other parameters have wide priors about the natural scales of the recording. `terms`
-    is "all", or the names of the candidate terms. The same `seed` gives the same result. `settings` changes thresholds,
-    such as `{"select.decisive": 4.0}` (`lostmotion.settings` lists them). Raises `CaseError` or `DataError` where the
-    case cannot be used, with the message of the command line.
+    `case` is a `Case`, the path of a `case.toml`, or a `Recording` or the path of one, together with a `model`: then
+    `known` and `estimate` hold values and priors, and all other parameters have wide priors about the natural scales of
+    the recording. `terms` is "all", or the names of the candidate terms. The same `seed` gives the same result.
+    `settings` changes thresholds, such as `{"select.decisive": 4.0}` (`lostmotion.settings` lists them). Raises
+    `CaseError` or `DataError` where the case cannot be used, with the message of the command line.
     """
     from lostmotion.diagnosis.run import diagnose_prepared
 
@@ -138,6 +140,7 @@ def analyse(
     out: str | Path | None = None,
     registry: Registry | None = None,
     columns: str | Iterable[str] = (),
+    time: str | None = None,
     rate: float | None = None,
     every: int = 1,
     period: float | None = None,
@@ -153,11 +156,12 @@ def analyse(
 ) -> AnalysisResult:
     """Return the kind of motion in a recording, with exponents, dimensions and surrogate tests.
 
-    `channel` names a sensor of a `Recording`; for a file, `columns` names its columns, and `rate` (Hz) is needed where
-    it has no time. One sample of `every` is kept. `period` (s) is the period of the drive, if it is known. Plugins are
-    given by name: `embedder`, `denoiser` ("none" for no reduction; with None the noise level decides), further
-    `quantifiers`, and `surrogates` with the number of their `draws`. `unit` is the unit of exponents: "1/s", "bit/s",
-    "1/period" or "bit/period". `settings` are as for `diagnose`.
+    `channel` names a sensor of a `Recording`; for a file, `columns` names its columns, `time` that of time where the
+    automatic choice is wrong, and `rate` (Hz) is needed where it has no time. One sample of `every` is kept. `period`
+    (s) is the period of the drive, if it is known. Plugins are given by name: `embedder`, `denoiser` ("none" for no
+    reduction; with None the noise level decides), further `quantifiers`, and `surrogates` with the number of their
+    `draws`. `unit` is the unit of exponents: "1/s", "bit/s", "1/period" or "bit/period". `settings` are as for
+    `diagnose`.
     """
     from lostmotion.analysis.run import AnalysisRequest, analyse_source
     from lostmotion.analysis.source import WantedChannel, extract_source, load_source
@@ -176,12 +180,13 @@ def analyse(
         seed=seed,
         jobs=jobs,
         settings=read(settings),
+        time=time,
     )
     known_to = registry or default()
     if isinstance(recording, Recording):
         source = extract_source(recording, _find_sensor(recording, channel))
     else:
-        wanted = WantedChannel(request.columns or _to_texts(channel or ()), request.rate, request.every)
+        wanted = WantedChannel(request.columns or _to_texts(channel or ()), request.rate, request.every, time)
         source = load_source(Path(recording), wanted, known_to, request.settings.recording)
     with show_progress("analyse", progress) as say:
         result, arrays = analyse_source(source, known_to, request, say)
@@ -301,6 +306,8 @@ def make_case(
         if given is None:
             raise CaseError("a recording alone is no case: give a model beside it, such as lm.model('lin_backlash')")
         return _guess_case(case, given, known or {}, estimate or {})
+    if not isinstance(case, Case) and is_recording(case):
+        return read_recorded_case(Path(case), given, known or {}, estimate or {}, registry, limits)
     if given is not None or known or estimate:
         raise CaseError("the case has a model, known values and priors: change them there, or give a recording")
     return case if isinstance(case, Case) else Case.read(case, registry, limits)

@@ -302,8 +302,8 @@ def _round(value: float) -> str:
 
 def _list_findings(outline: Outline, machine: Model, factors: Mapping[str, float]) -> Iterator[str]:
     """Yield the findings in the table, one sentence each."""
-    clock = f"time in the column {outline.time!r} ({outline.time_unit})" if outline.time else "no column of time"
-    yield f"{outline.file}: {outline.samples} rows at {1.0 / outline.dt:.6g} Hz, {clock}"
+    yield f"{outline.file}: {outline.samples} rows at {1.0 / outline.dt:.6g} Hz, {outline.clock.says}"
+    yield from (f"  {note}" for note in outline.clock.notes)
     for column in outline.columns:
         yield _describe_column(column, outline)
     if outline.drive is not None:

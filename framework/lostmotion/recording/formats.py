@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from lostmotion.errors import DataError, nearest
 from lostmotion.recording.limits import TEXT, check_bytes
 from lostmotion.recording.subprocess_reader import read_in_subprocess
-from lostmotion.recording.table import Table
+from lostmotion.recording.table import Table, make_table
 from lostmotion.recording.text import read_text
 from lostmotion.recording.unpacked import check_hdf5, check_mat, check_npz
 
@@ -65,6 +65,11 @@ def table_of(path: Path) -> Table:
     if not table.columns:
         raise DataError(f"{path.name} holds no column of numbers: expected at least one series of samples")
     return table
+
+
+def is_recording(path: str | Path) -> bool:
+    """Return whether the ending of a file is that of a recording, and not of a case."""
+    return Path(path).suffix[1:].lower() in ENDINGS
 
 
 def _find_reader(path: Path) -> Callable[[Path], Table]:
@@ -216,7 +221,7 @@ def _make_table(content: Mapping[str, object], units: Mapping[str, str] | None =
     """Return the table of some arrays; the unit of a two-dimensional array is that of its columns."""
     columns = dict(_flatten_all(content))
     known = {name: (units or {}).get(name) or (units or {}).get(name.rpartition("[")[0], "") for name in columns}
-    return Table(columns, {name: unit for name, unit in known.items() if unit})
+    return make_table(columns, known)
 
 
 def _flatten_all(content: Mapping[str, object]) -> Iterator[tuple[str, Array]]:

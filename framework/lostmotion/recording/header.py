@@ -1,21 +1,24 @@
 """Detection of the header of a text file: the line of names, the line of units, and the separator of the cells.
 
 Loggers often write other lines first. The names are in the first line of text that has as many cells as the rows below
-and is followed by a row of numbers, with at most a line of units between them.
+and is followed by a row of numbers, with at most a line of units between them. Lines that begin with `#`, `%` or `//`
+are comments, of which the last one above the numbers may hold the names.
 """
 
 from __future__ import annotations
 
 import csv
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from lostmotion.errors import DataError
-from lostmotion.recording.stamps import is_stamp
-from lostmotion.recording.units import split_name, unit_line
+from lostmotion.recording.numbers import is_missing, read_number
+from lostmotion.recording.stamps import is_date, is_stamp
+from lostmotion.recording.units import is_unit, split_name, unit_line
 
-MISSING = {"", "nan", "na", "n/a", "null", "none", "-"}
+COMMENTS = ("#", "%", "//")
+"""How a comment line begins."""
 HEAD = 1000
 """The number of lines among which the line of names is searched."""
 LAST = 50
@@ -30,6 +33,7 @@ class Header:
     """The names and units of the columns, the separator of cells (None: blanks), and the line of the first row.
 
     `trailing` tells that rows end with a separator after the last cell; `stamped` names the columns of time stamps.
+    `dated` is the number of the column of dates that belong to the times of day in the column `stamped`, -1 for none.
     """
 
     names: list[str]
@@ -38,12 +42,20 @@ class Header:
     first: int
     trailing: bool
     stamped: frozenset[str]
+    dated: int = -1
+
+
+def is_comment(line: str) -> bool:
+    """Return whether a line of a file is a comment."""
+    return line.lstrip().startswith(COMMENTS)
 
 
 def find_header(file: str, lines: list[str]) -> Header:
     """Return the header of a table from the first lines of its file; `DataError` if there is none."""
-    rows = [(i, line) for i, line in enumerate(lines) if line.strip() and not line.lstrip().startswith("#")]
-    notes = [(i, line) for i, line in enumerate(lines) if line.lstrip().startswith("#")]
+    rows = [(i, line) for i, line in enumerate(lines) if line.strip() and not is_comment(line)]
+    notes = [(i, line) for i, line in enumerate(lines) if is_comment(line)]
+    if rows and (beside := _read_beside(rows)):
+        return beside
     if rows and _has_only_values(rows[0][1]):
         return _read_comment(file, [note for note in notes if note[0] < rows[0][0]], rows)
     if not rows:
@@ -53,6 +65,21 @@ def find_header(file: str, lines: list[str]) -> Header:
     return next(_find_candidates(rows), None) or _use_first_line(file, rows)
 
 
+def _read_beside(rows: list[Line]) -> Header | None:
+    """Return the header of a table of Tektronix, whose settings stand in the first rows, beside time and readings."""
+    cells = [cells_of(line, ",") for _, line in rows[:LAST]]
+    if not all(len(row) >= 5 and _is_filled(row[3]) and _is_filled(row[4]) for row in cells) or not cells[0][0]:
+        return None
+    stated = {row[0].strip().lower(): row[1].strip() for row in cells}
+    if "record length" not in stated:
+        return None
+    name = stated.get("source") or "reading"
+    units = {"time": stated.get("horizontal units", ""), name: stated.get("vertical units", "")}
+    names = ["", "", "", "time", name, *[""] * (len(cells[0]) - 5)]
+    kept = {key: unit for key, unit in units.items() if is_unit(unit)}
+    return Header(names, kept, ",", rows[0][0] + 1, trailing=False, stamped=frozenset())
+
+
 def _no_numbers(file: str) -> DataError:
     return DataError(f"{file} has a header line and no numbers below it: record or export it again")
 
@@ -60,16 +87,33 @@ def _no_numbers(file: str) -> DataError:
 def _find_candidates(rows: list[Line]) -> Iterator[Header]:
     """Yield the possible headers with rows of numbers below them, in the order of the file."""
     for k, ((_, line), (_, below)) in enumerate(pairwise(rows)):
-        if any(_is_value(cell) for cell in _split_cells(line) if cell.strip().lower() not in MISSING):
+        filled = [cell for cell in _split_cells(line) if not is_missing(cell)]
+        if any(_is_value(cell) for cell in filled) and not (filled and _is_unit_line(below, len(filled))):
             continue
         header = _try_header(line, below, rows[k + 1 :])
         if header is not None:
-            yield header
+            yield _with_units_above(header, rows[:k])
+
+
+def _is_unit_line(line: str, count: int) -> bool:
+    """Return whether a line holds so many units and nothing else; the names above it may then be numbers."""
+    cells = [cell.strip() for cell in _split_cells(line) if cell.strip()]
+    return len(cells) == count > 1 and all(is_unit(cell) for cell in cells)
+
+
+def _with_units_above(header: Header, above: list[Line]) -> Header:
+    """Return the header with units that lines above it state, such as `Vertical Units,V,A` of an oscilloscope."""
+    units = dict(header.units)
+    for cells in (cells_of(line, header.separator) for _, line in above):
+        key, stated = cells[0].strip().lower() if cells else "", [cell.strip() for cell in cells[1:]]
+        columns = {"horizontal units": header.names[:1], "vertical units": header.names[1:]}.get(key.rstrip(":"), [])
+        units = {name: unit for name, unit in zip(columns, stated, strict=False) if is_unit(unit)} | units
+    return replace(header, units=units)
 
 
 def _try_header(line: str, below: str, rows: list[Line]) -> Header | None:
     """Return the header in a line of text, or None when no table with these names follows."""
-    text = line.lstrip("# \t")
+    text = strip_comment(line)
     separator = separator_of(text, below)
     names = [name.strip() for name in cells_of(text, separator)]
     units = unit_line(cells_of(below, separator)) if len(cells_of(below, separator)) >= len(names) - 1 else None
@@ -105,7 +149,7 @@ def _find_shape(rows: list[Line], separator: str | None, names: list[str]) -> tu
 
 def _is_numeric(cells: list[str]) -> bool:
     """Return whether a column mostly holds numbers or time stamps."""
-    filled = [_is_filled(cell) for cell in cells if not _is_missing(cell)]
+    filled = [_is_filled(cell) for cell in cells if not is_missing(cell)]
     return bool(filled) and 2 * sum(filled) > len(filled)
 
 
@@ -121,9 +165,22 @@ def _make_header(names: list[str], units: Sequence[str], separator: str | None, 
     stamped = {
         name
         for j, name in enumerate(names)
-        if name and next((is_stamp(c[j]) for c in split if j < len(c) and not _is_missing(c[j])), False)
+        if name and next((is_stamp(c[j]) for c in split if j < len(c) and not is_missing(c[j])), False)
     }
-    return Header(names, _collect_units(names, units), separator, rows[0][0] + 1, trailing, frozenset(stamped))
+    dated = _find_dates(split, [names.index(name) for name in stamped])
+    return Header(names, _collect_units(names, units), separator, rows[0][0] + 1, trailing, frozenset(stamped), dated)
+
+
+def _find_dates(rows: list[list[str]], stamped: list[int]) -> int:
+    """Return the only column of dates where one column holds times of day without a date; else -1."""
+    width = min(map(len, rows), default=0)
+    dates = [j for j in range(width) if all(is_date(cells[j]) for cells in rows)]
+    bare = len(stamped) == 1 and stamped[0] < width and not any(_has_date(cells[stamped[0]]) for cells in rows)
+    return dates[0] if len(dates) == 1 and bare else -1
+
+
+def _has_date(cell: str) -> bool:
+    return is_date(cell.strip().partition(" ")[0].partition("T")[0])
 
 
 def _collect_units(names: list[str], line: Sequence[str]) -> dict[str, str]:
@@ -136,7 +193,7 @@ def _read_comment(file: str, notes: list[Line], rows: list[Line]) -> Header:
     """Return the header from the last comment line, or from the line before it if the last one holds units."""
     if not notes:
         raise DataError(f"{file} starts with numbers: expected a header line that names the columns, as time,force,x")
-    below, texts = rows[0][1], [line.lstrip("# \t") for _, line in notes]
+    below, texts = rows[0][1], [strip_comment(line) for _, line in notes]
     separator = separator_of(texts[-1], below)
     names, units = [name.strip() for name in cells_of(texts[-1], separator)], None
     above = [name.strip() for name in cells_of(texts[-2], separator)] if len(texts) > 1 else []
@@ -148,7 +205,7 @@ def _read_comment(file: str, notes: list[Line], rows: list[Line]) -> Header:
 
 def _use_first_line(file: str, rows: list[Line]) -> Header:
     """Return the first line of text as the header; cells below it that do not fit are reported later."""
-    text = rows[0][1].lstrip("# \t")
+    text = strip_comment(rows[0][1])
     if len(rows) == 1:
         raise _no_numbers(file)
     separator = separator_of(text, rows[1][1])
@@ -156,10 +213,17 @@ def _use_first_line(file: str, rows: list[Line]) -> Header:
     return _make_header(names, [], separator, rows[1:], len(names))
 
 
+def strip_comment(line: str) -> str:
+    """Return a line without the marks of a comment at its beginning."""
+    text = line.strip("\r\n ")
+    return text.lstrip("#%/ \t") if is_comment(text) else text
+
+
 def separator_of(header: str, row: str) -> str | None:
     """Return the separator of the cells of a table; None means blanks."""
-    for separator in (";", "\t", ","):
-        if separator in header:
+    found = [separator for separator in (";", "\t", ",") if separator in header]
+    for separator in (*(one for one in found if one in row), *found):
+        if separator in row or len(_split_words(header)) != len(row.split()):
             return separator
     return None if len(_split_words(header)) == len(row.split()) else ";"
 
@@ -183,7 +247,7 @@ def _split_words(line: str) -> list[str]:
 
 def _split_cells(line: str) -> list[str]:
     """Return the cells of a line with an unknown separator."""
-    text = line.lstrip("# \t")
+    text = strip_comment(line)
     return cells_of(text, next((s for s in (";", "\t", ",") if s in text), None))
 
 
@@ -194,23 +258,18 @@ def _has_only_values(line: str) -> bool:
     return all(_is_value(cell) for cell in line.replace(";", " ").replace(",", " ").split())
 
 
-def _is_missing(cell: str) -> bool:
-    return cell.strip().lower() in MISSING
-
-
 def _is_number(cell: str) -> bool:
-    try:
-        float(cell)
-    except ValueError:
-        return False
-    return True
+    return not is_missing(cell) and (read_number(cell) is not None or read_number(cell, "comma") is not None)
 
 
 def _is_value(cell: str) -> bool:
-    """Return whether a cell is a number, a time stamp or empty."""
-    return _is_missing(cell) or _is_filled(cell)
+    """Return whether a cell is a number, a time stamp, a date or empty."""
+    return is_missing(cell) or _is_filled(cell)
 
 
 def _is_filled(cell: str) -> bool:
-    text = cell.strip().replace(",", ".", 1)
-    return not _is_missing(cell) and (_is_number(text) or is_stamp(text))
+    text = cell.strip()
+    if is_missing(text):
+        return False
+    number, _, unit = text.partition(" ")
+    return _is_number(text) or is_stamp(text) or is_date(text) or (is_unit(unit) and _is_number(number))

@@ -10,15 +10,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from lostmotion.errors import DataError, nearest
+from lostmotion.errors import DataError
 from lostmotion.provenance import digest
 from lostmotion.quantities import si_factor
 from lostmotion.recording.checks import check_finite, check_length, check_sensor, check_values, fill_input, note_stuck
+from lostmotion.recording.clock import checked_clock, note_repeated_rows, read_time
 from lostmotion.recording.formats import read_table
 from lostmotion.recording.spec import Channel, Hold, RecordingSpec
 from lostmotion.recording.table import Table
-from lostmotion.recording.timing import EvenClock, check_step, even_clock, resample_channel
-from lostmotion.recording.units import note_unit, seconds, time_unit
+from lostmotion.recording.timing import EvenClock, check_step, resample_channel
+from lostmotion.recording.units import note_unit
 from lostmotion.recording.warnings import CheckedChannel, warnings_of
 from lostmotion.settings import DEFAULT, RecordingSettings, Settings
 
@@ -27,7 +28,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
-SHOWN = 12
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,7 +135,7 @@ class Recording:
         *,
         sensors: Mapping[str, str],
         inputs: Mapping[str, str] | None = None,
-        units: Mapping[str, str],
+        units: Mapping[str, str] | None = None,
         time: str | None = None,
         rate: float | None = None,
         noise: Mapping[str, str] | None = None,
@@ -145,16 +145,20 @@ class Recording:
     ) -> Recording:
         """Return a recording of columns of a data frame; `inputs` and `sensors` map names of the model to columns.
 
-        `units` has one entry for each column; the time column is in s by default. Without `time` and `rate` the index
-        is the time, in s.
+        `frame` is of pandas or polars. `units` default to those in the names of the columns, `force_N`, or in
+        `frame.attrs["units"]`. Without `time` and `rate` an index of dates, durations or numbers with a fraction is the
+        time (s), or else the column that holds it; an index that counts rows is none. Missing readings become NaN.
         """
-        from lostmotion.recording.made import RecordingLayout, make_recording
+        from lostmotion.recording.made import RecordingLayout, make_recording, time_index
 
-        columns = {str(column): frame[column].to_numpy() for column in frame.columns}
-        if time is None and rate is None:
-            time = str(frame.index.name or "index")
-            columns[time] = frame.index.to_numpy()
-        layout = RecordingLayout((inputs or {}, sensors), units, time, rate, noise or {}, hold, name)
+        columns = {str(column): frame[column] for column in frame.columns}
+        if time is None and rate is None and (index := time_index(frame)) is not None:
+            time = str(index.name or "index")
+            columns[time] = index
+        stated = getattr(frame, "attrs", {}).get("units", {})
+        layout = RecordingLayout(
+            (inputs or {}, sensors), units or {}, time, rate, noise or {}, hold, name, dict(stated)
+        )
         return make_recording(columns, layout, settings)
 
     @classmethod
@@ -171,15 +175,20 @@ class Recording:
         name: str = "recording",
         settings: Settings | Mapping[str, float] | None = None,
     ) -> Recording:
-        """Return a recording of variables of a dataset; `units` default to the attributes of the variables."""
+        """Return a recording of variables of a dataset; `units` default to the attributes of the variables.
+
+        Fill values and missing values that the attributes name become NaN.
+        """
+        import xarray as xr
+
         from lostmotion.recording.made import RecordingLayout, make_recording
 
-        columns = {str(key): np.asarray(value) for key, value in dataset.variables.items() if value.ndim == 1}
+        decoded = xr.decode_cf(dataset, decode_times=False)  # fill values become NaN, packed numbers are unpacked
+        columns = {str(key): value.values for key, value in decoded.variables.items() if value.ndim == 1}
         stated = {
-            str(key): str(value.attrs["units"]) for key, value in dataset.variables.items() if "units" in value.attrs
+            str(key): str(value.attrs["units"]) for key, value in decoded.variables.items() if "units" in value.attrs
         }
-        both = {**stated, **(units or {})}
-        layout = RecordingLayout((inputs or {}, sensors), both, time, None, noise or {}, hold, name)
+        layout = RecordingLayout((inputs or {}, sensors), units or {}, time, None, noise or {}, hold, name, stated)
         return make_recording(columns, layout, settings)
 
     @classmethod
@@ -200,7 +209,7 @@ class Recording:
         """Return a recording from a file in one of the supported formats: .csv, .mat, .nc, .uff, ...
 
         `inputs` and `sensors` map names of the model to columns. `units` are needed for columns for which the file
-        gives none.
+        gives none. Without `time` and `rate` the time is found in the file, and a note says how.
         """
         from lostmotion.recording.made import RecordingLayout, read_recording
 
@@ -225,9 +234,13 @@ def recording_of(
     """Return the recording that `spec` describes in a table of columns; `source` is its name in messages."""
     time, values, notes = _pick_samples(spec, table, source)
     check_length(time.size, source)
-    time, values = _cut_samples(spec, time, values)
+    inside = _find_inside(spec, time)
+    time, values = time[inside], [column[inside] for column in values]
     check_length(time.size, source)
-    clock = even_clock(time, source) if spec.time else EvenClock(1.0 / _require_rate(spec), False, (), float(time[0]))
+    if spec.time:
+        clock = checked_clock(time, source, table, spec.time, spec.time_unit, int(np.argmax(inside)))
+    else:
+        clock = EvenClock(1.0 / _require_rate(spec), False, (), float(time[0]))
     roles = [("excitation", c) for c in spec.inputs] + [("response", c) for c in spec.sensors]
     channels = [_ChannelReader(role, c, spec, source, limits.stuck) for role, c in roles]
     read = [channel.on(clock, time, raw) for channel, raw in zip(channels, values, strict=True)]
@@ -303,19 +316,17 @@ class _ChannelReader:
 
 def _pick_samples(spec: RecordingSpec, table: Table, source: str) -> tuple[Array, list[Array], tuple[str, ...]]:
     """Return the time (s) and all channels (n,), and notes on the unit of the time column."""
-    columns = table.columns
-    notes: tuple[str, ...] = ()
     names = [channel.column for channel in (*spec.inputs, *spec.sensors)]
-    found = {name: _pick_column(columns, name, source) for name in [*names, *([spec.time] if spec.time else [])]}
+    found = {name: table.column(name, source) for name in [*names, *([spec.time] if spec.time else [])]}
     sizes = {name: column.size for name, column in found.items()}
     if len(set(sizes.values())) > 1:
         listed = ", ".join(f"{name!r} {size}" for name, size in sizes.items())
         raise DataError(f"{source}: the columns differ in length ({listed}): name columns recorded together")
     if spec.time:
-        unit, notes = time_unit(spec.time, table.units.get(spec.time), spec.time_unit)
-        time = seconds(found[spec.time], unit, source)
+        time, _, notes = read_time(table, spec.time, spec.time_unit, source)
     else:
         time = np.arange(found[names[0]].size) / _require_rate(spec)
+        notes = note_repeated_rows(table)
     return time, [found[name] for name in names], notes
 
 
@@ -326,21 +337,10 @@ def _require_rate(spec: RecordingSpec) -> float:
     return spec.rate
 
 
-def _pick_column(columns: Mapping[str, Array], name: str, source: str) -> Array:
-    if name in columns:
-        return columns[name]
-    listed = [*columns][:SHOWN]
-    more = f" and {len(columns) - SHOWN} more" if len(columns) > SHOWN else ""
-    raise DataError(
-        f"{source} has no column of numbers named {name!r}: it has {', '.join(listed)}{more}{nearest(name, columns)}; "
-        "name one of these"
-    )
-
-
-def _cut_samples(spec: RecordingSpec, time: Array, columns: list[Array]) -> tuple[Array, list[Array]]:
-    """Return the samples from `t_start` to `t_end`, both included, with a tolerance for rounding errors."""
+def _find_inside(spec: RecordingSpec, time: Array) -> NDArray[np.bool_]:
+    """Return which samples lie from `t_start` to `t_end`, both included, with a tolerance for rounding errors."""
     if spec.t_start is None and spec.t_end is None:
-        return time, columns
+        return np.ones(time.size, dtype=bool)
     low = -np.inf if spec.t_start is None else spec.t_start - 1e-9 * (1 + abs(spec.t_start))
     high = np.inf if spec.t_end is None else spec.t_end + 1e-9 * (1 + abs(spec.t_end))
     inside = (time >= low) & (time <= high)
@@ -349,4 +349,4 @@ def _cut_samples(spec: RecordingSpec, time: Array, columns: list[Array]) -> tupl
             f"{spec.file} has no samples from t_start to t_end: its time runs from {time[0]:.6g} s "
             f"to {time[-1]:.6g} s; choose both in that range"
         )
-    return time[inside], [values[inside] for values in columns]
+    return inside

@@ -5,19 +5,22 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
+from datetime import datetime
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from lostmotion.errors import DataError, nearest
 from lostmotion.provenance import digest
 from lostmotion.quantities import names_quantity, quantity_of, si_factor
+from lostmotion.recording.arrays import table_of_arrays
+from lostmotion.recording.clock import find_time
 from lostmotion.recording.formats import read_table
 from lostmotion.recording.load import Recording, recording_of
 from lostmotion.recording.spec import KINDS, Channel, Hold, RecordingSpec
 from lostmotion.recording.table import Table
+from lostmotion.recording.words import names_time
 from lostmotion.settings import Settings, read
 
 if TYPE_CHECKING:
@@ -31,7 +34,10 @@ PANEL = (7.2, 1.5)
 
 @dataclass(frozen=True)
 class RecordingLayout:
-    """The roles of the columns of a recording: `which` are inputs and sensors, the other fields as in `Recording`."""
+    """The roles of the columns of a recording: `which` are inputs and sensors, the other fields as in `Recording`.
+
+    `units` are those that the user gives, `stated` those in the attributes of the data; `notes` say what was found.
+    """
 
     which: Which
     units: Mapping[str, str]
@@ -40,21 +46,21 @@ class RecordingLayout:
     noise: Mapping[str, str] = field(default_factory=dict)
     hold: Hold = "smooth"
     name: str = "recording"
+    stated: Mapping[str, str] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
 
 
 def make_recording(
-    columns: Mapping[str, ArrayLike],
+    columns: Mapping[str, Any],
     layout: RecordingLayout,
     settings: Settings | Mapping[str, float] | None = None,
 ) -> Recording:
     """Return a recording of columns (n,) in memory."""
     _check_names(columns, layout, layout.name)
-    used = _used_columns(layout)
-    arrays = {key: _to_numbers(key, value) for key, value in columns.items() if key in used}
-    content = b"".join(key.encode() + array.tobytes() for key, array in sorted(arrays.items()))
-    table = Table(arrays, {key: unit for key, unit in layout.units.items() if key in arrays})
-    spec = _make_spec(replace(layout, units=table.units))
-    return recording_of(spec, table, layout.name, hashlib.sha256(content).hexdigest(), read(settings).recording)
+    table = table_of_arrays(columns, layout.stated)
+    layout = _with_time(table, layout, layout.name)
+    content = b"".join(key.encode() + table.column(key, layout.name).tobytes() for key in sorted(_used_columns(layout)))
+    return _finish(table, layout, layout.name, hashlib.sha256(content).hexdigest(), settings)
 
 
 def read_recording(
@@ -62,9 +68,41 @@ def read_recording(
 ) -> Recording:
     """Return a recording of a file; units default to those in the file, the name to the stem of the file."""
     table = read_table(path)
-    _check_names(table.columns, layout, path.name)
-    spec = _make_spec(replace(layout, units={**table.units, **layout.units}, name=layout.name or path.stem))
-    return recording_of(spec, table, path.name, digest(path), read(settings).recording)
+    _check_names((*table.columns, *table.refused), layout, path.name)
+    layout = _with_time(table, replace(layout, name=layout.name or path.stem), path.name)
+    return _finish(table, layout, path.name, digest(path), settings)
+
+
+def time_index(frame: Any) -> Any:
+    """Return the index of a data frame that is time: dates, durations, or numbers with a fraction; else None."""
+    index: Any = getattr(frame, "index", None)
+    if not hasattr(index, "to_numpy") or getattr(index, "nlevels", 1) > 1:
+        return None
+    held = np.asarray(index.to_numpy())
+    dates = held.dtype.kind in "mM" or (held.dtype.kind == "O" and all(isinstance(one, datetime) for one in held))
+    named = names_time(str(getattr(index, "name", None) or "")) and held.dtype.kind in "iu"
+    counts = held.dtype.kind in "iuf" and held.size > 1 and bool(np.all(np.diff(held) == 1))
+    return index if held.size and not counts and (dates or named or held.dtype.kind == "f") else None
+
+
+def _with_time(table: Table, layout: RecordingLayout, source: str) -> RecordingLayout:
+    """Return the layout with the time that is found in the table, where neither a column nor a rate is given."""
+    if layout.time is not None or layout.rate is not None:
+        return layout
+    found = find_time(table, source, units=layout.units)
+    return replace(layout, time=found.column, notes=(found.says,))
+
+
+def _finish(
+    table: Table,
+    layout: RecordingLayout,
+    source: str,
+    sha256: str,
+    settings: Settings | Mapping[str, float] | None,
+) -> Recording:
+    spec = _make_spec(replace(layout, units={**table.units, **layout.units}), layout.units.get(layout.time or ""))
+    made = recording_of(spec, table, source, sha256, read(settings).recording)
+    return replace(made, notes=(*layout.notes, *made.notes))
 
 
 def _check_names(columns: Collection[str], layout: RecordingLayout, name: str) -> None:
@@ -93,21 +131,7 @@ def _used_columns(layout: RecordingLayout) -> set[str]:
     return {*inputs.values(), *sensors.values(), *([layout.time] if layout.time else [])}
 
 
-def _to_numbers(name: str, value: ArrayLike) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
-    """Return a column as numbers (n,); calendar times become seconds from the first one."""
-    array = np.asarray(value)
-    if array.dtype.kind in "mM":
-        array = (array - array[0]) / np.timedelta64(1, "s") if array.size else array.astype(float)
-    try:
-        numbers = np.asarray(array, dtype=float)
-    except (TypeError, ValueError) as err:
-        raise DataError(f"{name!r} holds {array.dtype} instead of numbers: give an array of floats") from err
-    if numbers.ndim != 1:
-        raise DataError(f"{name!r} has the shape {numbers.shape}: expected one number for each sample, (n,)")
-    return numbers
-
-
-def _make_spec(layout: RecordingLayout) -> RecordingSpec:
+def _make_spec(layout: RecordingLayout, time_unit: str | None) -> RecordingSpec:
     name, units, time = layout.name, layout.units, layout.time
     if (time is None) == (layout.rate is None):
         raise DataError(f"{name} has {'both time and' if time else 'neither time nor'} rate: give one of them")
@@ -117,9 +141,7 @@ def _make_spec(layout: RecordingLayout) -> RecordingSpec:
     sensors = tuple(
         _make_channel("sensor", key, column, units, layout.noise) for key, column in layout.which[1].items()
     )
-    return RecordingSpec(
-        name, time, layout.rate, inputs, sensors, layout.hold, name=name, time_unit=units.get(time or "")
-    )
+    return RecordingSpec(name, time, layout.rate, inputs, sensors, layout.hold, name=name, time_unit=time_unit)
 
 
 def _make_channel(

@@ -16,21 +16,13 @@ from numpy.typing import NDArray
 
 from lostmotion.errors import DataError, nearest
 from lostmotion.quantities import ROTATES, SI, si_factor
+from lostmotion.recording.clock import FoundTime, find_time
 from lostmotion.recording.formats import read_table
 from lostmotion.recording.table import Table
-from lostmotion.recording.timing import even_clock
-from lostmotion.recording.units import TIME_UNITS, seconds, time_unit
+from lostmotion.recording.units import kinds_of
+from lostmotion.recording.words import KINDS, kind_named
 
 Array = NDArray[np.float64]
-KINDS = ("force", "position", "velocity", "acceleration")
-"""The quantities of a column, in the order in which its unit is compared with them."""
-NAMES: Mapping[str, re.Pattern[str]] = {
-    "force": re.compile(r"force|load ?cell|torque|^f([_ \d]|$)|^tau|moment|^u\d*$|drive|excit|brake", re.IGNORECASE),
-    "acceleration": re.compile(r"acc|^a([_ \d]|$)|accel", re.IGNORECASE),
-    "velocity": re.compile(r"vel|speed|^v([_ \d]|$)|omega|rpm", re.IGNORECASE),
-    "position": re.compile(r"pos|disp|angle|enc|travel|gauge|laser|^[xqy]([_ \d]|$)|theta|phi|stroke", re.IGNORECASE),
-}
-TIME = re.compile(r"^(t|time|zeit|seconds?|timestamp)([_ \[(.]|$)", re.IGNORECASE)
 FOOT = re.compile(r"base|table|ground|foot|shaker|support|reference|(^|[_ ])ref", re.IGNORECASE)
 READ = re.compile(r"cell|sensor|measured|reaction", re.IGNORECASE)
 """Names of a force that is a reading and not a drive."""
@@ -87,6 +79,7 @@ class Outline:
     columns: tuple[OutlinedColumn, ...]
     drive: OutlinedColumn | None
     response: OutlinedColumn
+    clock: FoundTime
 
     @property
     def base_driven(self) -> bool:
@@ -110,17 +103,18 @@ def outline_table(path: Path, roles: GivenRoles) -> Outline:
     table, source = read_table(path), Path(path).name
     units = roles.units or {}
     for name in filter(None, (roles.time, roles.drive, roles.response, *units)):
+        if name in table.refused:
+            raise DataError(table.refused[name])
         if name not in table.columns and not (name == roles.drive == "none"):
             listed = ", ".join(table.full_names)
             raise DataError(f"{source} has no column {name!r}{nearest(name, table.columns)}: it has {listed}")
-    time = None if roles.rate else roles.time or _find_time(table, source)
-    unit = time_unit(time, table.units.get(time), None)[0] if time else "s"
-    samples = table.columns[time].size if time else _most_common_size(table)
-    dt = even_clock(seconds(table.columns[time], unit, source), source).dt if time else 1.0 / (roles.rate or 1.0)
+    found = find_time(table, source, None if roles.rate else roles.time, roles.rate, units)
+    time = found.column
+    samples = found.time.size if time else _most_common_size(table)
     others = [name for name in table.full_names if time is None or table.columns[name] is not table.columns[time]]
     columns = tuple(_outline_column(table, n, units.get(n)) for n in others if table.columns[n].size == samples)
     drive, response = _find_roles(columns, roles, source)
-    return Outline(source, time, unit, dt, samples, columns, drive, response)
+    return Outline(source, time, found.unit, found.clock.dt, samples, columns, drive, response, found)
 
 
 def _most_common_size(table: Table) -> int:
@@ -128,43 +122,14 @@ def _most_common_size(table: Table) -> int:
     return max(set(sizes), key=sizes.count)
 
 
-def _find_time(table: Table, source: str) -> str:
-    """Return the time column: it grows evenly, and has the name or the unit of a time where one of them has."""
-    grows = [name for name in table.full_names if _grows_evenly(table.columns[name])]
-    stamped = [name for name in grows if name in table.starts or table.units.get(name) in TIME_UNITS]
-    called = [name for name in grows if TIME.match(name)]
-    if not (stamped or called or grows):
-        raise DataError(
-            f"no column of {source} grows evenly as time does (there are {', '.join(table.full_names)}): give --time"
-            " COLUMN, or --rate HZ"
-        )
-    return (called or stamped or grows)[0]
-
-
-def _grows_evenly(values: Array) -> bool:
-    if values.size < 3 or not np.all(np.isfinite(values)):
-        return False
-    steps = np.diff(values)
-    return bool(np.all(steps > 0.0) and np.max(steps) < 3.0 * np.median(steps))
-
-
 def _outline_column(table: Table, name: str, stated: str | None) -> OutlinedColumn:
     unit, values = stated or table.units.get(name, ""), table.columns[name]
-    kind = next((kind for kind in KINDS if unit and _has_quantity(unit, kind)), "")
+    kind = next(iter(kinds_of(unit)), "")
     if kind:
         return OutlinedColumn(name, values, unit, kind, sure=True)
     if stated:
         raise DataError(f"the unit {stated!r} of {name!r} measures none of {', '.join(KINDS)}: write for instance 'mm'")
-    called = next((kind for kind, pattern in NAMES.items() if pattern.search(name)), "")
-    return OutlinedColumn(name, values, unit, called, sure=False)
-
-
-def _has_quantity(unit: str, kind: str) -> bool:
-    try:
-        si_factor(unit, kind)
-    except DataError:
-        return False
-    return True
+    return OutlinedColumn(name, values, unit, kind_named(name), sure=False)
 
 
 def _find_roles(

@@ -17,17 +17,35 @@ from lostmotion.errors import DataError
 
 Array = NDArray[np.float64]
 Whole = NDArray[np.int64]
-_DATE = r"(\d{4}-\d{1,2}-\d{1,2}|\d{4}/\d{1,2}/\d{1,2}|\d{1,2}\.\d{1,2}\.\d{4}|\d{1,2}[/-]\d{1,2}[/-]\d{4})[T ]\s*"
+_DAY_FIRST = r"\d{1,2}[./-]\d{1,2}[./-](?:\d{4}|\d{2})"
+_MONTHS = ("jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec")
+_NAMED = r"\d{1,2}[- .]+[A-Za-z]{3,9}[-, .]+(?:\d{4}|\d{2})|[A-Za-z]{3,9}\.? \d{1,2},? \d{4}"
+_YEAR_FIRST = r"\d{4}-\d{1,2}-\d{1,2}|\d{4}/\d{1,2}/\d{1,2}|\d{4}\.\d{1,2}\.\d{1,2}|\d{8}"
+_DATE = rf"({_YEAR_FIRST}|{_DAY_FIRST}|{_NAMED})"
 _STAMP = re.compile(
-    rf"(?:{_DATE})?(\d{{1,2}}):([0-5]\d):([0-5]\d)(?:[.,](\d{{1,9}}))?\s*([AaPp][Mm])?\s*(Z|[+-]\d\d:?\d\d)?"
+    rf"(?:{_DATE}[T ,_]\s*)?(\d{{1,2}}):([0-5]\d):([0-5]\d)(?:[.,](\d{{1,9}})|:(\d{{1,3}}))?\s*([AaPp]\.?[Mm]\.?)?\s*"
+    r"(?:(Z|[+-]\d\d:?\d\d|(?:GMT|UTC)(?:[+-]\d\d?(?::?\d\d)?)?)(?:\[[\w/+-]+\])?)?"
 )
+_ONLY_DATE = re.compile(_DATE)
+_WRITTEN = str.maketrans({"年": "-", "月": "-", "日": " ", "時": ":", "分": ":", "秒": None})
+"""The words of Japanese dates: 2025年03月04日 09時58分50秒."""
 _SECOND, _DAY = 10**9, 86400 * 10**9
 EPOCH = date(1970, 1, 1).toordinal()
 
 
 def is_stamp(cell: str) -> bool:
     """Return whether a cell holds a time of day, with or without a date before it."""
-    return len(cell) < 64 and _STAMP.fullmatch(cell.strip()) is not None
+    return len(cell) < 64 and _match_stamp(cell) is not None
+
+
+def is_date(cell: str) -> bool:
+    """Return whether a cell holds a date without a time of day."""
+    word = cell.translate(_WRITTEN).strip()
+    return len(word) < 32 and not word.isdigit() and _ONLY_DATE.fullmatch(word) is not None
+
+
+def _match_stamp(cell: str) -> re.Match[str] | None:
+    return _STAMP.fullmatch(cell.strip() if cell.isascii() else cell.translate(_WRITTEN).strip())
 
 
 class Stamps:
@@ -44,11 +62,11 @@ class Stamps:
         """Add some cells; return the index of the first one that is neither a time stamp nor lost, or None."""
         fields, which = [], np.zeros(len(cells), dtype=np.int64)
         for k, cell in enumerate(cells):
-            found = None if lost[k] else _STAMP.fullmatch(cell.strip())
+            found = None if lost[k] else _match_stamp(cell)
             if found is None and not lost[k]:
                 return k
-            parts = found.groups() if found else (None, "0", "0", "0", None, None, None)
-            fields.append(parts[1:])
+            parts = found.groups() if found else (None, "0", "0", "0", None, None, None, None)
+            fields.append((*parts[1:4], parts[5].zfill(3) if parts[5] else parts[4], *parts[6:]))
             which[k] = -1 if lost[k] else self._dates.setdefault(parts[0], len(self._dates))
         if not self._which and fields:
             self._offset = next((f[5] or "" for f, gone in zip(fields, lost, strict=True) if not gone), "")
@@ -83,7 +101,7 @@ def _since_midnight(fields: Sequence[Sequence[str | None]]) -> Whole:
     hours, minutes, secs, parts, halves, offsets = zip(*fields, strict=True) if fields else ((),) * 6
     hour = np.array(hours, dtype=str).astype(np.int64)
     if any(halves):
-        late = np.array([(half or "").lower() == "pm" for half in halves])
+        late = np.array([(half or "").lower().startswith("p") for half in halves])
         hour = np.where(np.array([half is None for half in halves]), hour, hour % 12 + 12 * late)
     whole = (
         3600 * hour + 60 * np.array(minutes, dtype=str).astype(np.int64) + np.array(secs, dtype=str).astype(np.int64)
@@ -95,9 +113,10 @@ def _since_midnight(fields: Sequence[Sequence[str | None]]) -> Whole:
 
 def _utc_offset(offset: str | None) -> int:
     """Return the offset (s) of local time from UTC."""
-    if not offset or offset == "Z":
+    found = re.fullmatch(r"(?:GMT|UTC)?([+-])(\d\d?):?(\d\d)?", offset or "")
+    if not found:
         return 0
-    return (1 if offset[0] == "+" else -1) * (3600 * int(offset[1:3]) + 60 * int(offset[-2:]))
+    return (1 if found[1] == "+" else -1) * (3600 * int(found[2]) + 60 * int(found[3] or 0))
 
 
 def _count_midnights(since: Whole) -> Whole:
@@ -109,8 +128,8 @@ def _count_midnights(since: Whole) -> Whole:
 def _find_days(dates: list[str | None], which: Whole, since: Whole, what: str) -> Whole:
     """Return the day (since 1970) of each distinct date.
 
-    With dots the day is first. With slashes a number above 12 decides, then the order in which time never decreases
-    and the recording is shortest; otherwise the month is first, which then does not change any difference.
+    With dots the day is first. Otherwise a number above 12 decides, then the order in which time never decreases and
+    the recording is shortest; else the month is first, which then does not change any difference.
     """
     texts = [text or "" for text in dates]
     found = [days for order in _possible_orders(texts[0]) if (days := _read_dates(texts, order)) is not None]
@@ -123,15 +142,32 @@ def _possible_orders(text: str) -> tuple[tuple[int, int, int], ...]:
     """Return the possible positions of year, month and day in a date."""
     if re.match(r"\d{4}", text):
         return ((0, 1, 2),)
-    return ((2, 1, 0),) if "." in text else ((2, 0, 1), (2, 1, 0))
+    if re.search(r"[A-Za-z]", text):
+        return ((2, 0, 1),) if text[0].isalpha() else ((2, 1, 0),)
+    if "." in text:
+        return ((2, 1, 0),)
+    return ((2, 0, 1), (2, 1, 0)) if re.search(r"\d{4}$", text) else ((2, 0, 1), (2, 1, 0), (0, 1, 2))
 
 
 def _read_dates(texts: list[str], order: tuple[int, int, int]) -> Whole | None:
     try:
-        parts = [[int(part) for part in re.split(r"[./-]", text)] for text in texts]
-        return np.array([date(*(part[k] for k in order)).toordinal() - EPOCH for part in parts], dtype=np.int64)
-    except ValueError:
+        parts = [[part[k] for k in order] for part in map(_split_date, texts)]
+        return np.array([date(_whole_year(y), m, d).toordinal() - EPOCH for y, m, d in parts], dtype=np.int64)
+    except (ValueError, IndexError):
         return None
+
+
+def _whole_year(year: int) -> int:
+    """Return a year of two digits as one from 1970 to 2069."""
+    return year if year > 99 else year + (2000 if year < 70 else 1900)
+
+
+def _split_date(text: str) -> list[int]:
+    """Return the numbers in a date; the name of a month becomes its number."""
+    if re.fullmatch(r"\d{8}", text):
+        return [int(text[:4]), int(text[4:6]), int(text[6:])]
+    words = [word for word in re.split(r"[./, -]+", text) if word]
+    return [int(word) if word.isdigit() else _MONTHS.index(word[:3].lower()) + 1 for word in words]
 
 
 def _rank_reading(total: Whole) -> tuple[bool, int]:
@@ -140,6 +176,9 @@ def _rank_reading(total: Whole) -> tuple[bool, int]:
 
 def _format_iso(since: int, day: int | None, offset: str) -> str:
     """Return the first stamp in ISO format: its local time, and its offset where it had one."""
-    local = np.datetime64(since + _SECOND * _utc_offset(offset), "ns") + np.timedelta64(day or 0, "D")
+    ahead = _utc_offset(offset)
+    local = np.datetime64(since + _SECOND * ahead, "ns") + np.timedelta64(day or 0, "D")
     text = str(np.datetime_as_string(local, unit="ns")).rstrip("0").rstrip(".")
-    return (text.partition("T")[2] if day is None else text) + offset
+    sign, minutes = "-" if ahead < 0 else "+", abs(ahead) // 60
+    zone = offset if not offset or offset == "Z" else f"{sign}{minutes // 60:02d}:{minutes % 60:02d}"
+    return (text.partition("T")[2] if day is None else text) + zone

@@ -1,4 +1,4 @@
-"""Columns of a text file: a header line, then numbers separated by commas, semicolons, tabs or blanks.
+"""Columns of a text file: a header line, then numbers or time stamps between commas, semicolons, tabs or blanks.
 
 The file is read line by line, two or three times, so that little more memory is used than for the numbers.
 """
@@ -9,127 +9,93 @@ import codecs
 import re
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from itertools import islice
 from pathlib import Path
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.errors import DataError
-from lostmotion.recording.header import HEAD, MISSING, Header, cells_of, find_header
+from lostmotion.recording.header import HEAD, Header, cells_of, find_header, is_comment
 from lostmotion.recording.limits import check_columns, check_line, check_numbers
+from lostmotion.recording.numbers import RAW, Mark, NumberColumn, choose_mark, is_missing
 from lostmotion.recording.stamps import Stamps
-from lostmotion.recording.table import Table, with_bare_names
+from lostmotion.recording.table import Table, make_table
 
 Array = NDArray[np.float64]
-Commas = Literal["none", "all", "quoted"]
-"""Which commas below the header are decimal commas."""
-MISSPELT = re.compile(r"[+-]?\d[\d.,' ]*([eE][+-]?\d+)?")
-"""A cell that looks like a number, perhaps with thousands separators, and not like a word or a date."""
 AT_ONCE = 4096
 """Lines that are processed at once where each cell is parsed separately."""
 _BLOCK = 1 << 20
 _UTF_16 = (b"\xff\xfe", b"\xfe\xff")
-_QUOTED = re.compile(r'"([^",]*),([^",]*)"')
-"""A quoted cell with one comma."""
-_DECIMAL = re.compile(r"\s*[+-]?\d*,\d+([eE][+-]?\d+)?\s*|.*\d:\d\d,\d+.*")
-_THOUSANDS = re.compile(r"\s*[+-]?[1-9]\d{0,2},\d{3}\s*")
-"""A number with one comma that may be a thousands separator."""
 
 
 @dataclass(frozen=True)
 class _Text:
-    """A text file with its encoding, header and decimal commas."""
+    """A text file with its encoding and header, the number of filled lines below the header, and its decimal mark.
+
+    `whole` tells that no blank line lies between the rows. `mark` is the decimal mark where the cells are plain numbers
+    with it; None where each cell has to be looked at.
+    """
 
     path: Path
     encoding: str
     header: Header
-    commas: Commas
+    lines: int
+    whole: bool
+    mark: Mark | None
 
     @contextmanager
     def rows(self) -> Iterator[Iterator[str]]:
-        """Yield the lines below the header, with decimal commas replaced by points."""
+        """Yield the lines below the header."""
         with self.path.open(encoding=self.encoding) as stream:
-            below: Iterator[str] = islice(stream, self.header.first - 1, None)
-            if self.commas == "all":
-                below = (line.replace(",", ".") for line in below)
-            elif self.commas == "quoted":
-                below = (_QUOTED.sub(r"\1.\2", line) for line in below)
-            yield below
+            yield islice(stream, self.header.first - 1, None)
 
 
 @dataclass
-class _Column:
-    """One column while it is read: its values, and the first cell that is not a number.
-
-    `meant` tells that such a cell looks like a number, `numbers` that the column holds any numbers.
-    """
+class _StampColumn:
+    """A column of time stamps while it is read, and the first cell that is none."""
 
     name: str
-    stamps: Stamps | None = None
-    parts: list[Array] = field(default_factory=list)
+    stamps: Stamps = field(default_factory=Stamps)
     wrong: tuple[int, str] | None = None
-    meant: bool = False
-    numbers: bool = False
 
-    def add(self, lines: list[int], cells: Sequence[str]) -> None:
+    def add(self, lines: Sequence[int], cells: Sequence[str]) -> None:
         """Add the cells of some lines of the file."""
-        if self.stamps is not None:
-            self._add_stamps(self.stamps, lines, cells)
-            return
-        try:
-            values = np.array(list(map(float, cells)))
-        except ValueError:
-            values = self._parse_cells(lines, cells)
-        self.numbers = self.numbers or bool(np.isfinite(values).any() or np.isinf(values).any())
-        self.parts.append(values)
-
-    def _parse_cells(self, lines: list[int], cells: Sequence[str]) -> Array:
-        values = np.empty(len(lines))
-        for k, cell in enumerate(cells):
-            value = _parse_number(cell)
-            values[k] = np.nan if value is None else value
-            if value is None:
-                self.wrong = self.wrong or (lines[k], cell.strip())
-                self.meant = self.meant or bool(MISSPELT.fullmatch(cell.strip()))
-        return values
-
-    def _add_stamps(self, stamps: Stamps, lines: list[int], cells: Sequence[str]) -> None:
-        lost = [cell.strip().lower() in MISSING for cell in cells]
-        wrong = stamps.add(cells, lost)
-        if wrong is not None and self.wrong is None:
+        wrong = self.stamps.add(cells, [is_missing(cell) for cell in cells]) if self.wrong is None else None
+        if wrong is not None:
             self.wrong = lines[wrong], cells[wrong].strip()
 
-    def finish(self, file: str) -> tuple[Array, str] | None:
-        """Return the column (n,) and its first time stamp; None for a column of words, which is left out."""
-        if self.wrong and not (self.stamps or self.meant or self.numbers):
-            return None
+    def finish(self, file: str) -> tuple[Array, str]:
+        """Return the column (n,) in seconds and its first stamp; `DataError` for a cell that is no stamp."""
         if self.wrong:
             line, cell = self.wrong
-            hint = "write decimal points" if re.fullmatch(r"[+-]?\d+,\d+", cell) else "correct or empty it"
-            kind = "time stamp like those above it" if self.stamps else "number"
-            raise DataError(f"{file}, line {line}, column {self.name!r}: {cell[:40]!r} is not a {kind}: {hint}")
-        return self.stamps.finish(file, self.name) if self.stamps else (np.concatenate(self.parts), "")
+            raise DataError(
+                f"{file}, line {line}, column {self.name!r}: {cell[:40]!r} is not a time stamp like those above it:"
+                " correct or empty it"
+            )
+        return self.stamps.finish(file, self.name)
 
 
 def read_text(path: Path) -> Table:
     """Return the columns of a text file by the names in its header line, each (n,); empty cells are NaN.
 
-    Cells are separated by commas, semicolons, tabs or blanks. Decimal commas are read too; where commas separate the
-    cells, only within quotes. Columns of time stamps are in seconds from the first stamp.
+    Cells are separated by commas, semicolons, tabs or blanks. Decimal commas and separators of thousands are read where
+    the cells of the file leave no doubt. Columns of time stamps are in seconds from the first stamp. A column that
+    cannot be read is kept with the reason.
     """
     text = _open_text(path)
-    found = _read_numbers(text)
-    columns, starts = _read_cells(text) if found is None else (found, {})
-    units = {name: unit for name, unit in text.header.units.items() if name in columns}
-    return with_bare_names(columns, units | dict.fromkeys(starts, "s"), starts)
+    found = _read_plain(text)
+    return (
+        _read_cells(text)
+        if found is None
+        else make_table(found, text.header.units, line=text.header.first if text.whole else 0)
+    )
 
 
 def _encoding(path: Path) -> str:
-    """Return the encoding of a text: UTF-16 with a byte order mark, UTF-8 if it is valid, else Latin-1."""
+    """Return the encoding of a text: UTF-16 with a byte order mark, UTF-8 if it is valid, else one of Windows."""
     with path.open("rb") as raw:
         head = raw.read(4096)
         if head.startswith(_UTF_16):
@@ -143,21 +109,34 @@ def _encoding(path: Path) -> str:
                 decoder.decode(block)
             decoder.decode(b"", final=True)
         except UnicodeDecodeError:
-            return "latin-1"
+            return _guess_encoding(head)
     return "utf-8-sig"
+
+
+def _guess_encoding(head: bytes) -> str:
+    """Return the encoding of a text in one of the older encodings: Japanese, Russian, else that of Western Europe.
+
+    Japanese characters begin with a byte that is no letter elsewhere; Russian words consist of high bytes only.
+    """
+    if re.search(rb"[\x81-\x84\x88-\x9f][\x40-\xfc]", head):
+        with suppress(UnicodeDecodeError):
+            head[: head.rfind(b"\n") + 1].decode("cp932")
+            return "cp932"
+    return "cp1251" if re.search(rb"[\xc0-\xff]{3}", head) else "latin-1"
 
 
 def _open_text(path: Path) -> _Text:
     encoding = _encoding(path)
-    with path.open(encoding=encoding) as stream:
+    with path.open(encoding=encoding, errors="strict") as stream:
         header = find_header(path.name, list(_check_lines(path.name, islice(stream, HEAD))))
     with path.open(encoding=encoding) as stream:
         below = _check_lines(path.name, islice(stream, header.first - 1, None))
-        lines, commas = _scan_lines(below, header.separator)
+        lines, whole, mark = _scan_lines(below, header.separator)
     check_columns(len(header.names), path.name)
     check_numbers(lines * len(header.names), path.name)
-    _check_names(path.name, header.names)
-    return _Text(path, encoding, header, commas)
+    if header.stamped or "" in header.names or _find_twice(header.names):
+        mark = None
+    return _Text(path, encoding, header, lines, whole, mark)
 
 
 def _check_lines(file: str, lines: Iterator[str]) -> Iterator[str]:
@@ -166,50 +145,44 @@ def _check_lines(file: str, lines: Iterator[str]) -> Iterator[str]:
         yield line
 
 
-def _scan_lines(lines: Iterator[str], separator: str | None) -> tuple[int, Commas]:
-    """Return the number of lines, and which commas in them are decimal commas.
+def _scan_lines(lines: Iterator[str], separator: str | None) -> tuple[int, bool, Mark | None]:
+    """Return the number of filled lines, whether they follow each other, and the only decimal mark they allow.
 
-    Where commas separate cells, `"1,234"` may be above a thousand: quoted commas are decimal only if a cell proves it.
+    The mark is None where each cell has to be looked at. Where commas separate the cells, it is a point; cells with
+    commas in quotes are found later.
     """
-    count, commas, shown, spoilt = 0, False, False, False
-    for line in lines:
-        count += 1
-        commas = commas or "," in line
-        if separator == "," and '"' in line and not spoilt:
-            cells = [f"{left},{right}" for left, right in _QUOTED.findall(line)]
-            shown = shown or any(_DECIMAL.fullmatch(cell) and not _THOUSANDS.fullmatch(cell) for cell in cells)
-            spoilt = any("." in cell and _THOUSANDS.match(cell) for cell in cells)
-    if separator != ",":
-        return count, "all" if commas else "none"
-    return count, "quoted" if shown and not spoilt else "none"
+    count, last, points, commas, proven = 0, -1, False, False, False
+    for number, line in enumerate(lines):
+        if line.isspace():
+            continue
+        count, last = count + 1, number
+        points, commas = points or "." in line, commas or "," in line
+        proven = proven or bool(RAW["comma" if commas else "point"].search(line))
+    whole = last + 1 == count
+    if separator == ",":
+        return count, whole, "point"
+    if points and commas:
+        return count, whole, None
+    return count, whole, ("comma" if commas else "point") if proven or not (points or commas) else None
 
 
-def _check_names(file: str, names: list[str]) -> None:
-    twice = sorted(name for name, count in Counter(names).items() if name and count > 1)
-    if twice:
-        raise DataError(f"{file} has two columns named {twice[0]!r}: give each column its own name")
+def _find_twice(names: list[str]) -> list[str]:
+    return sorted(name for name, count in Counter(names).items() if name and count > 1)
 
 
-def _parse_number(cell: str) -> float | None:
-    word = cell.strip()
-    try:
-        return float("nan") if word.lower() in MISSING else float(word)
-    except ValueError:
-        return None
-
-
-def _read_numbers(text: _Text) -> dict[str, Array] | None:
-    """Return the columns of a file that holds only numbers, or None: then each cell must be parsed separately."""
+def _read_plain(text: _Text) -> dict[str, Array] | None:
+    """Return the columns of a file that holds only plain numbers, or None: then each cell must be parsed separately."""
     header = text.header
-    if header.stamped or "" in header.names:
+    if text.mark is None:
         return None
     try:
         with text.rows() as rows:
             lines = (_trim_row(row, header.separator) for row in rows) if header.trailing else rows
-            numbers = np.loadtxt(lines, delimiter=header.separator, comments=None, ndmin=2, quotechar='"')
+            marked = (line.replace(",", ".") for line in lines) if text.mark == "comma" else lines
+            numbers = np.loadtxt(marked, delimiter=header.separator, comments=None, ndmin=2, quotechar='"')
     except ValueError:
         return None
-    if numbers.shape[1] != len(header.names):
+    if numbers.shape != (text.lines, len(header.names)):  # a blank line, or another number of cells
         return None
     return {name: np.ascontiguousarray(column) for name, column in zip(header.names, numbers.T, strict=True)}
 
@@ -219,25 +192,75 @@ def _trim_row(row: str, separator: str | None) -> str:
     return row.rstrip("\r\n ").removesuffix(separator or "")
 
 
-def _read_cells(text: _Text) -> tuple[dict[str, Array], dict[str, str]]:
-    """Return the columns, and the first stamp of each column of time stamps; every cell is parsed separately."""
-    columns = [_Column(name, Stamps() if name in text.header.stamped else None) for name in text.header.names]
+def _read_cells(text: _Text) -> Table:
+    """Return the table of a file in which every cell is parsed separately."""
+    header, twice = text.header, _find_twice(text.header.names)
+    count: Counter[str] = Counter()
+    columns: list[NumberColumn | _StampColumn | None] = []
+    for place, given in enumerate(header.names):
+        count[given] += 1
+        name = f"{given} {count[given]}" if given in twice else given
+        kind = _StampColumn if given in header.stamped else NumberColumn
+        columns.append(kind(name) if given and place != header.dated else None)
+    rows_read, last = 0, 0
     with text.rows() as rows:
-        filled = ((text.header.first + i, row) for i, row in enumerate(rows) if row.strip())
+        filled = ((header.first + i, row) for i, row in enumerate(rows) if row.strip() and not is_comment(row))
         while block := list(islice(filled, AT_ONCE)):
             _add_rows(text, columns, block)
-    found = {column.name: both for column in columns if column.name and (both := column.finish(text.path.name))}
-    return {name: values for name, (values, _) in found.items()}, {
-        name: start for name, (_, start) in found.items() if start
+            rows_read, last = rows_read + len(block), block[-1][0]
+    units = dict(zip((one.name for one in columns if one), (u for u in _units_in_order(header, columns)), strict=True))
+    return _collect(
+        text, [one for one in columns if one], units, header.first if last - header.first + 1 == rows_read else 0
+    )
+
+
+def _units_in_order(header: Header, columns: Sequence[object | None]) -> Iterator[str]:
+    """Yield the unit of each column that is read."""
+    yield from (header.units.get(name, "") for name, one in zip(header.names, columns, strict=True) if one)
+
+
+def _collect(text: _Text, columns: list[NumberColumn | _StampColumn], units: dict[str, str], line: int) -> Table:
+    """Return the table of all columns that can be read, with the reasons of the others."""
+    file, numbers = text.path.name, [one for one in columns if isinstance(one, NumberColumn)]
+    mark = choose_mark(numbers)
+    found: dict[str, Array] = {}
+    starts: dict[str, str] = {}
+    refused = {
+        name: f"{file} has two columns named {name!r}: they are called '{name} 1', '{name} 2': name one of these"
+        for name in _find_twice(text.header.names)
     }
+    for one in columns:
+        if isinstance(one, _StampColumn):
+            try:
+                found[one.name], starts[one.name] = one.finish(file)
+            except DataError as err:
+                refused[one.name] = str(err)
+            continue
+        if one.wrong and not (one.meant or one.numbers):
+            continue  # a column of words
+        own = mark or (next(iter(one.proof)) if len(one.proof) == 1 else None)
+        if why := one.refusal(own):
+            refused[one.name] = f"{file}, {why}"
+        else:
+            found[one.name] = one.finish(own or "point")
+            units[one.name] = next(iter(one.units), "") or units[one.name]
+    if refused and not found:
+        raise DataError(next(iter(refused.values())))
+    return make_table(found, units, starts, refused, line)
 
 
-def _add_rows(text: _Text, columns: list[_Column], block: list[tuple[int, str]]) -> None:
+def _add_rows(text: _Text, columns: Sequence[NumberColumn | _StampColumn | None], block: list[tuple[int, str]]) -> None:
     """Add the cells of some lines to the columns."""
-    numbers = [number for number, _ in block]
-    rows = [_split_row(text, number, row) for number, row in block]
-    for column, cells in zip(columns, zip(*rows, strict=True), strict=True):
-        if column.name:
+    numbers, header = [number for number, _ in block], text.header
+    split = list(zip(*(_split_row(text, number, row) for number, row in block), strict=True))
+    for column, cells in zip(columns, split, strict=True):
+        if isinstance(column, NumberColumn):
+            column.add(numbers, cells, dots_decide=header.separator == ",")
+        elif column is not None and header.dated >= 0:
+            column.add(
+                numbers, [f"{day.strip()} {cell.strip()}" for day, cell in zip(split[header.dated], cells, strict=True)]
+            )
+        elif column is not None:
             column.add(numbers, cells)
 
 

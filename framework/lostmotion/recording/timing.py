@@ -48,8 +48,10 @@ def check_time(time: Array, source: str) -> tuple[float, tuple[str, ...]]:
     return clock.dt, clock.notes
 
 
-def even_clock(time: Array, source: str) -> EvenClock:
+def even_clock(time: Array, source: str, line: int = 0) -> EvenClock:
     """Return the even grid (s) of a time column (n,); raise `DataError` where there is none.
+
+    `line` is the line of the first sample in its file, 0 where that is unknown.
 
     Time columns are often rounded, by single precision or by few printed digits. Deviations that rounding explains are
     accepted, so the step is the mean over the whole column: the median would be a multiple of the rounding. Jitter of
@@ -57,21 +59,47 @@ def even_clock(time: Array, source: str) -> EvenClock:
     least-squares line through the stamps. `DataError` is raised for gaps, repeated stamps, decreasing time, more
     jitter, and a changing rate with which stamps deviate from the grid by more than a step.
     """
-    _check_order(time, source)
+    _check_order(time, source, line)
     with np.errstate(over="ignore"):
         steps = np.diff(time)
     check_step(max(float(np.median(steps)), SHORTEST), source)
     rounding = resolution(time)
     dt = check_step(_mean_step(steps, rounding), source)
     if rounding > 2 * dt:
-        raise DataError(
-            f"{source}: the time column is rounded to {rounding:.3g} s, coarser than the step of {dt:.3g} s: "
-            f"write it with more digits, or give rate in place of time"
-        )
+        _refuse_rounding(time, rounding, source, line)
     bad = np.flatnonzero(np.abs(steps - dt) > _largest_deviation(dt, rounding))
+    if not bad.size and rounding > 0.5 * dt:
+        bad = _find_alone(steps)
     if bad.size:
-        _refuse_steps(time, dt, bad, source)
+        _refuse_steps(time, dt, bad, source, line)
     return _fit_grid(time, rounding, source)
+
+
+def _find_alone(steps: Array) -> NDArray[np.intp]:
+    """Return the steps (n,) that are zero or twice as long as nearly all others, if they are one or two.
+
+    Stamps as coarse as the step repeat now and then, again and again; one or two that do are repeated or lost rows.
+    """
+    usual = float(np.median(steps))
+    odd = np.flatnonzero(np.abs(steps - usual) > 0.5 * usual)
+    return odd if 0 < odd.size < 3 and steps.size > 100 else np.empty(0, dtype=np.intp)
+
+
+def _refuse_rounding(time: Array, rounding: float, source: str, line: int) -> None:
+    """Raise `DataError` for stamps that are coarser than the step; the rate is that between their first changes."""
+    moved = np.flatnonzero(np.diff(time) > 0.0) + 1
+    first, last = int(moved[0]), int(moved[-1])
+    dt = float(np.ptp(time)) / (time.size - 1) if first == last else (time[last] - time[first]) / (last - first)
+    raise DataError(
+        f"{source}: the time column is rounded to {rounding:.3g} s, coarser than the step of {dt:.3g} s (it first "
+        f"changes at {name_sample(first, line)}): write it with more digits, or give rate = {1.0 / dt:.4g} in place of "
+        "time"
+    )
+
+
+def name_sample(k: int, line: int) -> str:
+    """Return the words for a sample by its number from 0, with its line where that of the first one is known."""
+    return f"sample {k}, line {line + k}" if line else f"sample {k}"
 
 
 def _largest_deviation(dt: float, rounding: float) -> float:
@@ -193,21 +221,39 @@ def _mean_step(steps: Array, rounding: float) -> float:
     return float(np.mean(steps[steps <= 1.5 * np.median(steps) + rounding]))
 
 
-def _check_order(time: Array, source: str) -> None:
+def _check_order(time: Array, source: str, line: int) -> None:
     if time.size < 2:
         raise DataError(f"{source}: the time column holds {time.size} values: record longer")
     if not np.all(np.isfinite(time)):
         where = int(np.argmin(np.isfinite(time)))
-        raise DataError(f"{source}: sample {where} of the time column is {time[where]}: fill it, or give rate instead")
+        raise DataError(
+            f"{source}: {name_sample(where, line)}: the time column is {time[where]}: fill it, or give rate instead"
+        )
     back = np.flatnonzero(np.diff(time) < 0)
     if back.size:
-        k = int(back[0])
-        raise DataError(
-            f"{source}: time decreases from {time[k]:.9g} s to {time[k + 1]:.9g} s (sample {k + 1}), {back.size} "
-            "times in all: sort the samples, or cut out one run with t_start and t_end"
-        )
+        _refuse_order(time, back, source, line)
     if time[-1] == time[0]:
         raise DataError(f"{source}: the time column stays at {time[0]:.6g} s: name the column that holds seconds")
+
+
+def _refuse_order(time: Array, back: NDArray[np.intp], source: str, line: int) -> None:
+    """Raise `DataError` for time that decreases: two samples are exchanged, or the clock has started again."""
+    k, middle = int(back[0]), float(np.median(np.diff(time)))
+    found = f"{source}: time decreases from {time[k]:.9g} s to {time[k + 1]:.9g} s ({name_sample(k + 1, line)})"
+    around = time[max(k - 1, 0) : k + 3].copy()
+    place = min(k, 1)
+    around[[place, place + 1]] = around[[place + 1, place]]
+    if around.size > 2 and np.all(np.diff(around) > 0.0):
+        raise DataError(
+            f"{found}, {back.size} times in all: this sample and the one before it are exchanged: sort the samples by "
+            "time"
+        )
+    if middle > 0.0 and time[k + 1] <= time[0] + 0.1 * (time[k] - time[0]):
+        raise DataError(
+            f"{found}, {back.size} times in all: the clock starts again there: cut out one run with t_start and t_end, "
+            "or write each run into its own file"
+        )
+    raise DataError(f"{found}, {back.size} times in all: sort the samples, or cut out one run with t_start and t_end")
 
 
 def _refuse_jitter(time: Array, source: str) -> None:
@@ -221,7 +267,7 @@ def _refuse_jitter(time: Array, source: str) -> None:
     )
 
 
-def _refuse_steps(time: Array, dt: float, bad: NDArray[np.intp], source: str) -> None:
+def _refuse_steps(time: Array, dt: float, bad: NDArray[np.intp], source: str, line: int) -> None:
     steps = np.diff(time)
     if bad.size > max(3, time.size // 100) or np.abs(steps[bad] - dt).max() < 0.4 * dt:
         _refuse_jitter(time, source)
@@ -230,10 +276,12 @@ def _refuse_steps(time: Array, dt: float, bad: NDArray[np.intp], source: str) ->
     if steps[k] > dt:
         more = f" (and at {bad.size - 1} more places)" if bad.size > 1 else ""
         raise DataError(
-            f"{source}: a gap of {steps[k]:.4g} s in time between {here} s and {there} s{more}, where steps of "
-            f"{dt:.4g} s were expected: cut it into two recordings, one with t_end = {here}, one with t_start = {there}"
+            f"{source}: a gap of {steps[k]:.4g} s in time between {here} s and {there} s{more} "
+            f"({name_sample(k + 1, line)}), where steps of {dt:.4g} s were expected: cut it into two recordings, one "
+            f"with t_end = {here}, one with t_start = {there}"
         )
+    count = f", {int(np.count_nonzero(steps <= 0.0))} such samples in all" if steps[k] <= 0.0 else ""
     raise DataError(
-        f"{source}: time moves by only {steps[k]:.4g} s from {here} s to {there} s (sample {k + 1}), where {dt:.4g} s "
-        "was expected: remove the repeated sample, or resample to an even step"
+        f"{source}: time moves by only {steps[k]:.4g} s from {here} s to {there} s ({name_sample(k + 1, line)}), where "
+        f"{dt:.4g} s was expected{count}: remove the repeated sample, or resample to an even step"
     )

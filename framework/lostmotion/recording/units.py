@@ -1,7 +1,8 @@
-"""Units in the header of a table, and the unit of a time column.
+"""Units of the columns of a table: in their names, below them, or in their attributes; and the unit of time.
 
-A list decides whether a word is a unit, since pint would read the names of columns `t`, `acc`, `link` and `F` as tonne,
-volume, length and farad.
+One rule applies to every column of every format: `name_and_unit` parts a name from its unit. A list decides whether a
+word is a unit, since pint would read the names of columns `t`, `acc`, `link` and `F` as tonne, volume, length and
+farad.
 """
 
 from __future__ import annotations
@@ -13,8 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.errors import DataError
-from lostmotion.quantities import si_factor
+from lostmotion.quantities import si_factor, spell_unit
 from lostmotion.recording.spec import Channel
+from lostmotion.recording.words import KINDS, kind_named, names_time
 
 Array = NDArray[np.float64]
 _PREFIXES = ("", "p", "n", "u", "µ", "μ", "m", "c", "d", "k", "M", "G")
@@ -47,7 +49,9 @@ _PLAIN = {
     "°", "°C", "degC", "degF", "°F", "celsius", "kelvin", "%", "‰", "percent", "rpm", "rev", "turn", "turns", "in",
     "inch", "inches", "ft", "foot", "feet", "mil", "mph", "lb", "lbf", "lbs", "kip", "psi", "oz", "ozf", "kgf", "kp",
     "gf", "g_0", "g_n", "gn", "g0", "count", "counts", "digit", "digits", "LSB", "dB", "ppm", "arcmin", "arcsec", "gon",
-    "pound", "pounds", "pound_force", "force_pound",
+    "pound", "pounds", "pound_force", "force_pound", "U", "Umdr", "r", "rps", "dps", "gee", "Nmm", "Ncm", "mils",
+    "Grad", "Newton", "Newtons", "Millimeter", "Millimeters", "Millimetre", "Millimetres", "Meter", "Meters", "Sekunde",
+    "Sekunden", "Second", "Seconds", "Volt", "Volts", "Amp", "Amps", "Ampere", "Degrees", "Degree", "Radians", "RPM",
 }  # fmt: skip
 _ATOMS = (
     _PLAIN
@@ -57,6 +61,17 @@ _ATOMS = (
 _POWER = re.compile(r"(?:\*\*|\^)\s*\(?\s*[+-]?\d\s*\)?|(?<=[^\W\d_])-?\d(?!\w)|[²³⁻¹]")
 _BETWEEN = re.compile(r"[*/·⋅()\s]+")
 _BRACKETS = re.compile(r"(.*\S)\s*(?:\[([^\[\]]+)\]|\(((?:[^()]|\([^()]*\))+)\))")
+_COMMA = re.compile(r"(.*?\S)\s*,\s*([^,(\[]+?)\s*(?:\(.*\)|\[.*\])?")
+"""A name, a unit behind a comma, and perhaps a remark in brackets, as loggers of HOBO write it."""
+_DOUBTFUL = {"in", "rev", "turn", "turns", "count", "counts", "mil", "foot", "digit", "digits", "cm", "pm", "nm", "dm",
+             "cd", "dN", "mg", "kg", "ft", "gon"}  # fmt: skip
+"""Words that may be a unit, or a part of a name."""
+_OTHER = {"mV", "uV", "kV", "mA", "uA", "kA", "Hz", "kHz", "degC", "bar", "kPa", "MPa", "Pa", "psi", "counts"}
+_NONE = re.compile(r"(?!)")
+_ELECTRICAL = {
+    "V": re.compile(r"volt|spannung|supply|(^|_)u($|_)|(^|_)v($|_)", re.IGNORECASE),
+    "A": re.compile(r"current|strom|amp|(^|_)i($|_)", re.IGNORECASE),
+}
 _WRAPPED = re.compile(r"\[(.*)\]|\((.*)\)")
 LONGEST = 40
 """The greatest number of characters of a unit in a header."""
@@ -66,7 +81,7 @@ EMPTY = {"", "-", "--", "1"}
 PER_SECOND = {"s": 1.0, "ms": 1e3, "us": 1e6, "ns": 1e9}
 SECONDS = {"min": 60.0, "h": 3600.0}
 _ALIASES = {
-    "s": ("s", "sec", "secs", "second", "seconds"),
+    "s": ("s", "sec", "secs", "second", "seconds", "Second", "Seconds"),
     "ms": ("ms", "msec", "millisecond", "milliseconds"),
     "us": ("us", "µs", "μs", "usec", "microsecond", "microseconds"),
     "ns": ("ns", "nsec", "nanosecond", "nanoseconds"),
@@ -83,6 +98,7 @@ def is_unit(text: str) -> bool:
     text = text.strip()
     if not text or len(text) > LONGEST:
         return False
+    text = spell_unit(text)
     atoms = [atom for atom in _BETWEEN.split(_POWER.sub(" ", text)) if atom]
     if atoms[:1] == ["1"] and "/" in text:
         del atoms[0]
@@ -90,10 +106,61 @@ def is_unit(text: str) -> bool:
 
 
 def split_name(name: str) -> tuple[str, str]:
-    """Return the name of a column without its unit in brackets, and that unit, which may be empty."""
+    """Return the name of a column without its unit in brackets or behind a comma, and that unit, which may be empty."""
     found = _BRACKETS.fullmatch(name.strip())
     unit = (found[2] or found[3]).strip() if found else ""
-    return (found[1], unit) if found and is_unit(unit) else (name, "")
+    if found and is_unit(unit):
+        return found[1].rstrip(" ,"), unit
+    listed = _COMMA.fullmatch(name.strip())
+    return (listed[1], listed[2].strip()) if listed and is_unit(listed[2]) else (name, "")
+
+
+def name_and_unit(name: str) -> tuple[str, str]:
+    """Return the name of a column without its unit, and that unit, which may be empty.
+
+    The unit is in brackets, `Force [N]`, behind a comma, `Force, N`, or at the end, `force_N`, `Time/ms`, `v_mm_per_s`.
+    At the end, a single letter is a unit only of the quantity that the name says: `force_N`, but not `sensor_A`; and
+    so is a word that may have another sense, as in `force_min`.
+    """
+    bare, unit = split_name(name)
+    if unit:
+        return bare, unit
+    pieces = re.split(r"([_/ .])", name)
+    for count in (7, 5, 3, 1):  # pieces of the unit, with the separators between them
+        head, tail = "".join(pieces[: -count - 1]), pieces[-count:]
+        if len(pieces) > count + 1 and head and is_unit(word := _join_unit(tail)) and _fits(head, word):
+            return head, word
+    return name, ""
+
+
+def _join_unit(pieces: Sequence[str]) -> str:
+    """Return the unit in the last pieces of a name: `m_per_s2` and `m_s2` become `m/s2`."""
+    words = [word for word in pieces[::2] if word and word != "per"]
+    return "/".join(words)
+
+
+def _fits(head: str, unit: str) -> bool:
+    """Return whether a word at the end of a name is the unit of what the rest of the name says."""
+    if unit in TIME_UNITS:
+        return names_time(head)
+    kinds = kinds_of(unit)
+    if len(unit) > 1 and unit not in _DOUBTFUL:
+        return bool(kinds) or unit in _OTHER
+    called = kind_named(head)
+    return called in kinds if kinds else _ELECTRICAL.get(unit, _NONE).search(head) is not None
+
+
+def kinds_of(unit: str) -> tuple[str, ...]:
+    """Return the quantities of `KINDS` that a unit measures; none for volts, or for an empty text."""
+    return tuple(kind for kind in KINDS if unit and _measures(unit, kind))
+
+
+def _measures(unit: str, kind: str) -> bool:
+    try:
+        si_factor(unit, kind)
+    except DataError:
+        return False
+    return True
 
 
 def unit_line(cells: Sequence[str]) -> list[str] | None:
@@ -112,7 +179,7 @@ def _strip_brackets(cell: str) -> str:
 
 def seconds(values: Array, unit: str, source: str) -> Array:
     """Return a time column (n,) in s from one in s, ms, us, µs, ns, min or h; `DataError` for another unit."""
-    known = TIME_UNITS.get(unit.strip())
+    known = TIME_UNITS.get(spell_unit(unit))
     if known is None:
         raise DataError(f"{source}: time in {unit[:LONGEST]!r} is not understood: expected s, ms, us, ns, min or h")
     if known == "s":
@@ -121,16 +188,16 @@ def seconds(values: Array, unit: str, source: str) -> Array:
 
 
 def time_unit(name: str, table_unit: str | None, given: str | None) -> tuple[str, tuple[str, ...]]:
-    """Return the unit of a time column (s, ms, us, ns, min or h) and notes on its origin.
+    """Return the unit of a time column (s, ms, us, ns, min or h; "" where none is stated), and notes on its origin.
 
-    The unit in the case is used; `DataError` is raised where the file contradicts it. Otherwise the unit in the file is
-    used, then one at the end of the name (`time_ms`, `Time/ms`), then s.
+    The unit that is given is used; `DataError` is raised where the file contradicts it. Otherwise the unit in the file
+    is used, then the one in the name (`time_ms`, `Time/ms`).
     """
     found = _time_unit_of_table(name, table_unit) or _time_unit_of_name(name)
     if given is None:
         notes = () if found in ("", "s") else (f"the time column {name!r} is read in {found}",)
-        return found or "s", notes
-    wanted = TIME_UNITS.get(given.strip())
+        return found, notes
+    wanted = TIME_UNITS.get(spell_unit(given))
     if wanted is None:
         raise DataError(
             f"the unit {given[:LONGEST]!r} of the time column {name!r} is not a time: expected s, ms, us, ns, min or h"
@@ -145,7 +212,7 @@ def time_unit(name: str, table_unit: str | None, given: str | None) -> tuple[str
 
 def _time_unit_of_table(name: str, unit: str | None) -> str:
     """Return the unit of time in the file, or an empty text; a unit of another quantity raises `DataError`."""
-    word = (unit or "").partition(" since ")[0].strip()
+    word = spell_unit((unit or "").partition(" since ")[0])
     if word in TIME_UNITS or not is_unit(word):
         return TIME_UNITS.get(word, "")
     raise DataError(
@@ -155,11 +222,10 @@ def _time_unit_of_table(name: str, unit: str | None) -> str:
 
 
 def _time_unit_of_name(name: str) -> str:
+    """Return the unit of time at the end of the name of a column that is known to hold time."""
     bare, unit = split_name(name)
-    if unit in TIME_UNITS:
-        return TIME_UNITS[unit]
     found = _TAIL.search(bare)
-    return TIME_UNITS.get(found[1], "") if found else ""
+    return TIME_UNITS.get(spell_unit(unit), "") or (TIME_UNITS.get(found[1], "") if found else "")
 
 
 def note_unit(channel: Channel, table_unit: str | None, what: str) -> Iterator[str]:
@@ -167,8 +233,8 @@ def note_unit(channel: Channel, table_unit: str | None, what: str) -> Iterator[s
 
     A `factor` may account for the difference; with a factor, a unit of another quantity (volts) is accepted.
     """
-    unit = normalise_unit(table_unit or "")
-    if not is_unit(unit) or unit in (channel.unit, normalise_unit(channel.unit)):
+    unit = spell_unit(table_unit or "")
+    if not is_unit(unit) or unit == spell_unit(channel.unit):
         return
     try:
         factor, si = si_factor(unit, channel.quantity)
@@ -182,11 +248,3 @@ def note_unit(channel: Channel, table_unit: str | None, what: str) -> Iterator[s
     stated, wanted = si_factor(channel.unit, channel.quantity)
     if si != wanted or abs(abs(channel.factor) * stated / factor - 1.0) > 1e-3:
         yield f"{what}: the header says {table_unit}, the case {channel.unit}: correct one of them"
-
-
-def normalise_unit(unit: str) -> str:
-    """Return a unit in the spelling of `quantities`: `m/s2` and `m/s²` become `m/s^2`."""
-    text = unit.strip().replace("²", "^2").replace("³", "^3").replace("⋅", "*").replace("·", "*").replace("μ", "µ")
-    text = re.sub(r"(?<=[a-zA-Z])(\d)(?!\w)", r"^\1", text) if "g0" not in text else text.replace("g0", "g_0")
-    text = re.sub(r"(?<![^\W\d_])([kmM]?N)m(?![\w])", r"\1 m", text)
-    return {"degC": "degC", "°C": "degC", "g_n": "g_0", "gn": "g_0"}.get(text, text)

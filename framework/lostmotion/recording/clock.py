@@ -1,0 +1,230 @@
+"""The time of a table: which column holds it, in which unit, and why; every command and the notebook ask here.
+
+Time stamps are time, and so is a column with the name or the unit of a time. A counter of rows or pulses is none. What
+was guessed is said with its reason, and a guess that makes no sense is asked about.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lostmotion.errors import DataError
+from lostmotion.recording.table import Table
+from lostmotion.recording.timing import EvenClock, check_step, even_clock, name_sample
+from lostmotion.recording.units import TIME_UNITS, seconds, time_unit
+from lostmotion.recording.words import COUNTER, names_time
+
+Array = NDArray[np.float64]
+SLOWEST, FASTEST = 0.1, 1e7
+"""The rates (Hz) between which a time without a unit is believed to be in seconds."""
+SAME = 0.01
+"""Two columns of time agree when their rates differ by less than this share."""
+GUESSED = 3
+"""The rank of a column of which only the name says time."""
+_EPOCHS = ((1e17, "ns"), (1e14, "us"), (1e11, "ms"))
+"""Numbers above these sizes are this unit since 1970."""
+
+
+@dataclass(frozen=True, eq=False)
+class FoundTime:
+    """The time of a table: its column (None where a rate was given), unit, values (n,) in s, even grid, and the reason.
+
+    `notes` are sentences on what was found or may be wrong.
+    """
+
+    column: str | None
+    unit: str
+    time: Array
+    clock: EvenClock
+    why: str
+    notes: tuple[str, ...] = ()
+
+    @property
+    def says(self) -> str:
+        """What is taken for time, and why."""
+        if self.column is None:
+            return f"time from the rate of {1.0 / self.clock.dt:.6g} Hz that is given"
+        return f"time in the column {self.column!r} ({self.unit}): {self.why}"
+
+
+def find_time(
+    table: Table,
+    source: str,
+    column: str | None = None,
+    rate: float | None = None,
+    units: Mapping[str, str] | None = None,
+) -> FoundTime:
+    """Return the time of a table, from the column or the rate (Hz) that is given, or else found in it.
+
+    `units` are units by column, where they are given. `DataError` is raised where there is no time, where two
+    columns contradict each other, and where the time is not even.
+    """
+    if rate is not None:
+        if not 0.0 < rate < np.inf:
+            raise DataError(f"the rate is {rate:g} Hz: give a positive number")
+        clock = EvenClock(check_step(1.0 / rate, source), False, (), 0.0)
+        return FoundTime(None, "s", np.empty(0), clock, "as given", note_repeated_rows(table))
+    if column is not None:
+        unit = (units or {}).get(column)
+        time, found, notes = read_time(table, column, unit, source)
+        clock = checked_clock(time, source, table, column, unit)
+        return FoundTime(column, found, time, clock, "as given", (*notes, *clock.notes))
+    return _choose_time(table, source, units or {})
+
+
+def read_time(table: Table, column: str, unit: str | None, source: str) -> tuple[Array, str, tuple[str, ...]]:
+    """Return a time column (n,) in s, its unit, and notes on the unit.
+
+    Calendar times are in seconds already, whatever unit is given for them. Numbers as large as milliseconds since 1970
+    are read as such.
+    """
+    values = table.column(column, source)
+    if column in table.starts:
+        odd = unit is not None and TIME_UNITS.get(unit.strip()) != "s"
+        note = f"{column!r} holds dates or times of day, which need no unit: {unit!r} is not used"
+        return values, "s", (note,) if odd else ()
+    stated, notes = time_unit(column, table.units.get(column), unit)
+    if not stated and (since := _unit_since_1970(values)):
+        stated = since
+        notes = (f"the numbers of {column!r} are {since} since 1970 by their size",)
+    return seconds(values, stated or "s", source), stated or "s", notes
+
+
+def _unit_since_1970(values: Array) -> str:
+    seen = values[np.isfinite(values)]
+    size = float(np.median(seen)) if seen.size else 0.0
+    return next((unit for least, unit in _EPOCHS if least < size < 20.0 * least), "")
+
+
+def checked_clock(
+    time: Array, source: str, table: Table, column: str, unit: str | None = None, first: int = 0
+) -> EvenClock:
+    """Return the even grid of a time column (n,) in s, of which `first` samples were cut off at its beginning.
+
+    A time without a stated unit is refused where its rate makes no sense in seconds.
+    """
+    clock = even_clock(time, source, table.line + first if table.line else 0)
+    rate = 1.0 / clock.dt
+    stated = unit or column in table.starts or time_unit(column, table.units.get(column), None)[0]
+    if SLOWEST <= rate <= FASTEST or stated or _unit_since_1970(table.columns[column]):
+        return clock
+    raise DataError(
+        f"{source}: no unit is stated for the time column {column!r}, and in s the rate is {rate:.3g} Hz, which few"
+        f" recorders have: give its unit (--unit {column}=ms, or time = {{ column, unit }} in a case), or the rate"
+    )
+
+
+def _choose_time(table: Table, source: str, units: Mapping[str, str]) -> FoundTime:
+    """Return the time that is found in a table: the best candidate that is even, with its reason."""
+    ranked = sorted(_list_candidates(table, units), key=lambda one: one[0])
+    tried: list[FoundTime] = []
+    problem: DataError | None = None
+    for rank, name, why in ranked:
+        try:
+            if rank == GUESSED and _is_consecutive(table.column(name, source)):
+                raise DataError(
+                    f"{source}: {name!r} counts 1, 2, 3, ... and has no unit: if it holds seconds, call it "
+                    f"'{name} [s]' or give its unit, --unit {name}=s of `init`; else give the rate, --rate HZ"
+                )
+            found = replace(find_time(table, source, name, None, units), why=why)
+        except DataError as err:
+            problem = problem or err
+            continue
+        tried.append(found)
+    if tried:
+        _check_agreement(tried, source)
+        return tried[0]
+    if problem:
+        raise problem
+    return _choose_by_growth(table, source, units)
+
+
+def _list_candidates(table: Table, units: Mapping[str, str]) -> list[tuple[int, str, str]]:
+    """Return rank, name and reason of each column that may be time by what the file says of it."""
+    found = []
+    for name in (*table.full_names, *table.refused):
+        unit = units.get(name) or table.units.get(name, "").partition(" since ")[0]
+        if name in table.starts:
+            found.append((0, name, f"it holds time stamps, the first one {table.starts[name]}"))
+        elif names_time(name) and unit in TIME_UNITS:
+            found.append((1, name, "its name and its unit are those of time"))
+        elif unit in TIME_UNITS and not COUNTER.match(name):
+            found.append((2, name, "its unit is one of time"))
+        elif names_time(name) and not unit:
+            found.append((GUESSED, name, "its name is one of time; no unit is stated, so s"))
+    return found
+
+
+def _check_agreement(found: list[FoundTime], source: str) -> None:
+    """Raise `DataError` where a second column of time has another rate than the first one."""
+    first = found[0]
+    for other in found[1:]:
+        if abs(other.clock.dt / first.clock.dt - 1.0) > SAME:
+            raise DataError(
+                f"{source}: two columns may be time: {first.column!r} gives {1.0 / first.clock.dt:.4g} Hz and "
+                f"{other.column!r} {1.0 / other.clock.dt:.4g} Hz: name one with --time (or time = in a case)"
+            )
+
+
+def _choose_by_growth(table: Table, source: str, units: Mapping[str, str]) -> FoundTime:
+    """Return the only column that grows evenly without being a counter, where no name and no unit says time."""
+    growing: list[str] = []
+    counters: list[str] = []
+    for name in table.full_names:
+        values = table.columns[name]
+        if table.units.get(name) or not _grows_evenly(values):
+            continue
+        (counters if _counts(name, values) else growing).append(name)
+    listed = ", ".join((*table.full_names, *table.refused))
+    if len(growing) == 1:
+        found = find_time(table, source, growing[0], None, units)
+        return replace(found, why="it alone grows evenly; neither name nor unit says time, so s is a guess")
+    rows = f"; {counters[0]!r} counts rows, and not seconds" if counters else ""
+    several = f"; {', '.join(map(repr, growing))} grow evenly" if growing else ""
+    raise DataError(
+        f"no column of {source} has the name or the unit of a time or grows evenly as time does (there are {listed}"
+        f"{rows}{several}): give --time COLUMN, or --rate HZ"
+    )
+
+
+def _is_consecutive(values: Array) -> bool:
+    """Return whether a column holds consecutive whole numbers, as a counter of rows does."""
+    return values.size > 1 and bool(np.all(np.diff(values) == 1.0) and values[0] == np.rint(values[0]))
+
+
+def _grows_evenly(values: Array) -> bool:
+    if values.size < 3 or not np.all(np.isfinite(values)):
+        return False
+    steps = np.diff(values)
+    return bool(np.all(steps > 0.0) and np.max(steps) < 1.1 * np.median(steps))
+
+
+def _counts(name: str, values: Array) -> bool:
+    """Return whether a column counts rows or pulses: by its name, or because it holds whole numbers."""
+    return COUNTER.match(name) is not None or bool(np.all(values == np.rint(values)))
+
+
+def note_repeated_rows(table: Table) -> tuple[str, ...]:
+    """Return a note on rows that repeat the one before them, which a given rate would count as samples.
+
+    Rows of a machine at rest repeat too: there must be two columns that hardly ever repeat a value elsewhere.
+    """
+    names = table.full_names
+    size = max((table.columns[name].size for name in names), default=0)
+    columns = [c for name in names if (c := table.columns[name]).size == size and size > 2 and np.ptp(c) > 0.0]
+    same = [np.diff(column) == 0.0 for column in columns]
+    sharp = [one for one in same if one.mean() < SAME]
+    if len(sharp) < 2:
+        return ()
+    rows = np.flatnonzero(np.all(same, axis=0))
+    if not rows.size:
+        return ()
+    where = name_sample(int(rows[0]) + 1, table.line)
+    return (
+        f"{rows.size} rows repeat the row before them (the first is {where}): a rate counts each of them as a sample: "
+        "remove them",
+    )

@@ -1,0 +1,46 @@
+"""What the name of a column says: time, a counter of rows, or a quantity; in English, German, Japanese and Russian."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+KINDS = ("force", "position", "velocity", "acceleration")
+"""The quantities of a column, in the order in which its unit is compared with them."""
+NAMES: Mapping[str, re.Pattern[str]] = {
+    "force": re.compile(
+        r"force|load ?cell|torque|^f([_ \d.,\[(/]|$)|^tau|moment|^u\d*$|drive|excit|brake|kraft|荷重|力|トルク"
+        r"|сила|усилие|момент",
+        re.IGNORECASE,
+    ),
+    "acceleration": re.compile(r"acc|^a([_ \d.,\[(/]|$)|accel|beschl|加速度|ускорение", re.IGNORECASE),
+    "velocity": re.compile(
+        r"vel|speed|^v([_ \d.,\[(/]|$)|omega|rpm|geschw|drehzahl|速度|回転数|скорость|обороты", re.IGNORECASE
+    ),
+    "position": re.compile(
+        r"pos|disp|angle|enc|travel|gauge|laser|^[xqy]([_ \d.,\[(/]|$)|theta|phi|stroke|^weg|winkel|変位|位置|角度"
+        r"|перемещение|положение|угол",
+        re.IGNORECASE,
+    ),
+}
+TIME = re.compile(
+    r"(^|[_ .])(t|time|date ?time|date|datum|zeit|uhrzeit|zeitstempel|seconds?|timestamp|stamp|clock|elapsed|x_value|"
+    r"temps|tiempo|tempo)([_ \[(.,/]|$)|時間|時刻|日時|日付|время|дата",
+    re.IGNORECASE,
+)
+COUNTER = re.compile(
+    r"^(#|no\.?|nr\.?|n|k|i|index|idx|row|rows|zeile|sample ?(no\.?|number|index)?|samples|count(er)?|counts|pulses?|"
+    r"ticks?|record|scan|point|frame|seq(uence)?|id|ordinal|番号|номер|№)([_ \[(.,/]|$)",
+    re.IGNORECASE,
+)
+"""Names of columns that count rows, samples or pulses."""
+
+
+def names_time(name: str) -> bool:
+    """Return whether the name of a column is one of time."""
+    return TIME.search(name) is not None and COUNTER.match(name) is None
+
+
+def kind_named(name: str) -> str:
+    """Return the quantity of `KINDS` that the name of a column says; "" where it says none."""
+    return next((kind for kind, pattern in NAMES.items() if pattern.search(name)), "")

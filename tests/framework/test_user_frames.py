@@ -1,0 +1,143 @@
+"""Data frames and arrays that users bring: masks, missing readings, indices and calendar times."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from datetime import UTC, datetime, timedelta
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+
+from lostmotion.errors import DataError
+from lostmotion.recording import Recording
+
+N = 400
+T = np.arange(N) / 100.0
+FORCE = 5.0 * np.sin(7.0 * T)
+PLACE = np.cos(7.0 * T)
+GONE = np.arange(N) % 40 == 3
+MARK = 9999.0
+MARKED = np.where(GONE, MARK, PLACE)
+WHICH: dict[str, Any] = {"inputs": {"force": "force_N"}, "sensors": {"position": "position_mm"}}
+UNITS = {"force": "N", "position": "mm"}
+
+
+def check(made: Recording, *, lost: bool = True) -> None:
+    """The rate is 100 Hz, lost readings are NaN, and no other number has changed."""
+    assert made.rate == pytest.approx(100.0)
+    wanted = np.where(GONE & lost, np.nan, 1e-3 * PLACE)
+    np.testing.assert_allclose(np.asarray(made.sensors[0]), wanted, atol=1e-12)
+    np.testing.assert_allclose(np.asarray(made.inputs[0]), FORCE, atol=1e-12)
+
+
+def frame(place: Any, **more: Any) -> pd.DataFrame:
+    return pd.DataFrame({"time_s": T, "force_N": FORCE, "position_mm": place, **more})
+
+
+MASKS: dict[str, Callable[[], Any]] = {
+    "numpy.ma": lambda: np.ma.masked_array(MARKED, mask=GONE),
+    "numpy.ma of objects": lambda: np.ma.masked_array(MARKED.astype(object), mask=GONE),
+    "pandas Float64": lambda: pd.array(np.where(GONE, None, PLACE), dtype="Float64"),
+    "pandas objects": lambda: pd.Series([pd.NA if gone else x for gone, x in zip(GONE, PLACE, strict=True)]),
+    "list with None": lambda: [None if gone else x for gone, x in zip(GONE, PLACE, strict=True)],
+    "xarray": lambda: xr.DataArray(PLACE, dims="time").where(~GONE),
+}
+
+
+@pytest.mark.parametrize("make", MASKS.values(), ids=MASKS)
+def test_what_lies_under_a_mask_is_no_reading(make: Callable[[], Any]) -> None:
+    check(Recording.from_arrays(T, sensors={"position": make()}, inputs={"force": FORCE}, units=UNITS))
+
+
+@pytest.mark.parametrize("name", ["pandas Float64", "pandas objects", "list with None"])
+def test_missing_readings_of_a_frame_stay_missing(name: str) -> None:
+    check(Recording.from_pandas(frame(MASKS[name]()), **WHICH))
+
+
+def test_missing_whole_numbers_stay_missing() -> None:
+    counts = pd.array([None if gone else round(1e6 * x) for gone, x in zip(GONE, PLACE, strict=True)], dtype="Int64")
+    made = Recording.from_pandas(frame(counts), units={"position_mm": "nm"}, **WHICH)
+    assert np.flatnonzero(np.isnan(made.sensors[0])).tolist() == np.flatnonzero(GONE).tolist()
+
+
+@pytest.mark.parametrize("null", ["null", "masked"])
+def test_a_frame_of_polars_is_read(null: str) -> None:
+    polars = pytest.importorskip("polars", reason="polars is not installed")
+    place = MASKS["list with None"]() if null == "null" else polars.Series(PLACE).set(polars.Series(GONE), None)
+    check(Recording.from_pandas(polars.DataFrame({"t_ms": 1e3 * T, "force_N": FORCE, "position_mm": place}), **WHICH))
+
+
+@pytest.mark.parametrize("attribute", ["_FillValue", "missing_value"])
+def test_fill_values_of_a_dataset_become_nan(attribute: str) -> None:
+    place = ("time", MARKED, {"units": "mm", attribute: MARK})
+    data = xr.Dataset({"force_N": ("time", FORCE), "position_mm": place}, {"time": ("time", 1e3 * T, {"units": "ms"})})
+    check(Recording.from_xarray(data, **WHICH))
+
+
+def test_packed_numbers_of_a_dataset_are_unpacked() -> None:
+    packed = np.where(GONE, -1, np.rint(PLACE * 1000 + 2000)).astype(np.int32)
+    attrs = {"units": "mm", "scale_factor": 1e-3, "add_offset": -2.0, "_FillValue": np.int32(-1)}
+    data = xr.Dataset({"force_N": ("time", FORCE), "position_mm": ("time", packed, attrs)}, {"time": ("time", T)})
+    made = Recording.from_xarray(data, **WHICH)
+    np.testing.assert_allclose(np.asarray(made.sensors[0]), np.where(GONE, np.nan, 1e-3 * PLACE), atol=6e-7)
+
+
+@pytest.mark.parametrize("named", [None, "time"])
+def test_an_index_that_counts_rows_is_no_time(named: str | None) -> None:
+    bare = pd.DataFrame({"force_N": FORCE, "position_mm": PLACE}).rename_axis(named)
+    with pytest.raises(DataError, match="--rate HZ"):
+        Recording.from_pandas(bare, **WHICH)
+    check(Recording.from_pandas(bare, rate=100.0, **WHICH), lost=False)
+
+
+INDICES = {
+    "dates": pd.date_range("2025-03-04", periods=N, freq="10ms"),
+    "dates of a zone": pd.date_range("2025-03-30 01:59:58", periods=N, freq="10ms", tz="Europe/Berlin"),
+    "durations": pd.timedelta_range("0s", periods=N, freq="10ms"),
+    "seconds": pd.Index(T),
+}
+
+
+@pytest.mark.parametrize("index", INDICES.values(), ids=INDICES)
+def test_an_index_of_time_is_time(index: pd.Index) -> None:
+    check(Recording.from_pandas(pd.DataFrame({"force_N": FORCE, "position_mm": PLACE}, index), **WHICH), lost=False)
+
+
+CALENDARS: dict[str, Any] = {
+    "datetime64[ns]": np.datetime64("2025-03-04", "ns") + (10**7 * np.arange(N)).astype("timedelta64[ns]"),
+    "datetime64[ms]": np.datetime64("2025-03-04", "ms") + (10 * np.arange(N)).astype("timedelta64[ms]"),
+    "datetime": [datetime(2025, 3, 4) + timedelta(milliseconds=10 * k) for k in range(N)],
+    "datetime of a zone": [datetime(2025, 3, 4, tzinfo=UTC) + timedelta(milliseconds=10 * k) for k in range(N)],
+    "words": [f"09:58:{t:06.3f}" for t in T],
+}
+
+
+@pytest.mark.parametrize("unit", [None, "ms"])
+@pytest.mark.parametrize("time", CALENDARS.values(), ids=CALENDARS)
+def test_calendar_times_have_no_unit(time: Any, unit: str | None) -> None:
+    units = UNITS | ({"time": unit} if unit else {})
+    made = Recording.from_arrays(time, sensors={"position": PLACE}, inputs={"force": FORCE}, units=units)
+    check(made, lost=False)
+    assert any("need no unit: 'ms' is not used" in note for note in made.notes) == (unit is not None)
+
+
+def test_units_of_a_frame_are_those_of_its_attributes_and_names() -> None:
+    data = pd.DataFrame({"t": 1e3 * T, "force_N": 1e-3 * FORCE, "position_mm": PLACE})
+    data.attrs["units"] = {"t": "ms", "force_N": "kN"}
+    check(Recording.from_pandas(data, **WHICH), lost=False)
+
+
+def test_a_column_that_nobody_asked_for_refuses_no_frame() -> None:
+    check(Recording.from_pandas(frame(PLACE, state=["idle"] * N, odd=[{}] * N), **WHICH), lost=False)
+    with pytest.raises(DataError, match="'state' holds the word 'idle' instead of numbers"):
+        Recording.from_pandas(
+            frame(PLACE, state=["idle"] * N), inputs={"force": "state"}, sensors={"position": "force_N"}
+        )
+
+
+def test_what_was_taken_for_time_stands_in_the_notes() -> None:
+    made = Recording.from_pandas(frame(PLACE), **WHICH)
+    assert made.notes[0] == "time in the column 'time_s' (s): its name and its unit are those of time"
