@@ -27,7 +27,7 @@ KINDS = ("force", "position", "velocity", "acceleration")
 NAMES: Mapping[str, re.Pattern[str]] = {
     "force": re.compile(r"force|load ?cell|torque|^f([_ \d]|$)|^tau|moment|^u\d*$|drive|excit|brake", re.IGNORECASE),
     "acceleration": re.compile(r"acc|^a([_ \d]|$)|accel", re.IGNORECASE),
-    "velocity": re.compile(r"vel|speed|^v([_ \d]|$)|omega|rpm", re.IGNORECASE),
+    "velocity": re.compile(r"(?<!tra)(?<!le)vel|speed|^v([_ \d]|$)|omega|rpm", re.IGNORECASE),
     "position": re.compile(r"pos|disp|angle|enc|travel|gauge|laser|^[xqy]([_ \d]|$)|theta|phi|stroke", re.IGNORECASE),
 }
 TIME = re.compile(r"^(t|time|zeit|seconds?|timestamp)([_ \[(.]|$)", re.IGNORECASE)
