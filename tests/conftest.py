@@ -18,3 +18,11 @@ def shared() -> Path:
     if not (SHARED / "data").is_dir():
         pytest.skip(f"no real recordings: {SHARED / 'data'} is absent")
     return SHARED
+
+
+@pytest.fixture(scope="session")
+def shared_cases() -> Path:
+    """The folder of small inputs of users, which lies beside the project and is no part of it."""
+    if not (SHARED / "cases").is_dir():
+        pytest.skip(f"no inputs of users: {SHARED / 'cases'} is absent")
+    return SHARED / "cases"

@@ -10,7 +10,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from lostmotion.quantities import Dimension
+from lostmotion.quantities import FREQUENCY, Dimension
 
 Array = NDArray[np.float64]
 Input = Callable[[Array, int], Array]
@@ -48,7 +48,8 @@ class Param:
     `choices` are values that are tried in turn and not fitted, `words` what a sentence says in place of each of them.
     `far` lists multiples of `typical` that are tried as further starts. `scan` is the smallest and largest multiple of
     `typical` between which a recording is searched for the number, for an amplitude too if the response is far from
-    linear in it. Example: `Param("coefficient", "viscous damping", DAMPING, low=0.0, null=0.0)`.
+    linear in it. `angular`: a number per time is in rad/s, not in Hz. Example:
+    `Param("coefficient", "viscous damping", DAMPING, low=0.0, null=0.0)`.
     """
 
     name: str
@@ -65,6 +66,11 @@ class Param:
     lasting: bool = False
     far: tuple[float, ...] = ()
     scan: tuple[float, float] | None = None
+    angular: bool = False
+
+    def unit(self, motion: str) -> str:
+        """Return the SI unit in translation or in rotation."""
+        return "rad/s" if self.angular and self.dimension == FREQUENCY else self.dimension.unit(motion)
 
 
 @dataclass(frozen=True)

@@ -128,7 +128,7 @@ def _make_param(name: str, found: Equations) -> Param:
     meaning = (
         f"mass of {next(b.name for b in found.bodies if b.mass == name)}" if name in masses else f"parameter {name}"
     )
-    return Param(name, meaning, found.params[name], low=low, scale=scale)
+    return Param(name, meaning, found.params[name], low=low, scale=scale, angular=True)
 
 
 def _make_interfaces(found: Equations, space: Mapping[str, Callable[..., tuple[float, float]]]) -> list[Interface]:

@@ -74,11 +74,12 @@ def test_a_recording_is_diagnosed_without_a_case_where_its_columns_are_clear(pla
 
     def run_diagnosis(case, out, registry, **options):
         asked.append((case, out))
-        return SimpleNamespace(says=("Nothing is missing.",))
+        return SimpleNamespace(says=("Nothing is missing.",), notes=("guessed: a", "b"))
 
     monkeypatch.setattr("lostmotion.diagnosis.run.run_diagnosis", run_diagnosis)
     result = CliRunner().invoke(main, ["diagnose", "my run.csv", "--model", "duffing", "--quiet"])
     assert result.exit_code == 0, result.output
+    assert "Nothing is missing.\nguessed: a\n" in result.output
     assert asked == [(Path("lostmotion-diagnose/case.toml"), Path("lostmotion-diagnose"))]
     case = load_case(place / "lostmotion-diagnose" / "case.toml")
     assert (case.model, case.recordings[0].time_unit) == ("duffing", "ms")

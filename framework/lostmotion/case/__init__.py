@@ -5,6 +5,7 @@ which of the two it needs. Besides them and `[model]` (`name`, `motion`, `[model
 contain:
 
 - `title`, a line of text;
+- `guessed = ["..."]`: sentences on what `lostmotion init` supposed; they stand in each result until they are removed;
 - `plugins = ["file.py"]`: files, relative to the case, that contain further models or terms;
 - `[truth]`: true values of parameters, where they are known; they are only drawn in the report;
 - `[sensor]`: `noise = "each"` when each of several recordings has its own measurement noise and random force (the
@@ -17,6 +18,8 @@ contain:
 Instead of `name`, `[model]` may contain the machine itself: `equations`, one for each body, such as `"m*x'' + c*x' +
 k*x = force"`. A prime is d/dt; names that are neither a coordinate, an input nor a known function are parameters, and
 so are all in `known` and `estimate`. Each equation has the second derivative of one coordinate, times one parameter.
+A recorded input that no equation names is the one name that is no parameter and a summand without a coordinate, such
+as `F` in `... = F`; a note says so, and where there are several such names or none, the case is refused.
 Functions are `gap(x, k, x0)`, `stop(x, k, x0)` (one side), `sat(x, limit)`, `sign`, `abs`, `min`, `max`, `sqrt`,
 `exp`, `log` and the trigonometric functions. Dimensions are checked; `units = { m = "kg" }` (SI) gives those that the
 equations do not determine. Each coordinate is a channel (`x`, `x.velocity`, `x.acceleration`; the first is also
@@ -70,12 +73,12 @@ and with `each = true` each recording has its own value; otherwise all share one
 
 from lostmotion.case.channels import check_same_sensors
 from lostmotion.case.levels import Level, Measured
-from lostmotion.case.load import WRITTEN, CaseFile, Experiment, SensorSpec, load_case
+from lostmotion.case.load import GUESSED, WRITTEN, CaseFile, Experiment, SensorSpec, load_case
 from lostmotion.case.prior import Prior
 from lostmotion.case.write import dump_case
 from lostmotion.recording import Channel, RecordingSpec
 
 __all__ = [
-    "WRITTEN", "CaseFile", "Channel", "Experiment", "Level", "Measured", "Prior", "RecordingSpec", "SensorSpec",
-    "check_same_sensors", "dump_case", "load_case",
+    "GUESSED", "WRITTEN", "CaseFile", "Channel", "Experiment", "Level", "Measured", "Prior", "RecordingSpec",
+    "SensorSpec", "check_same_sensors", "dump_case", "load_case",
 ]  # fmt: skip

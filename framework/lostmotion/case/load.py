@@ -13,12 +13,12 @@ from lostmotion.case.channels import inputs_of, sensors_of
 from lostmotion.case.fields import Fields
 from lostmotion.case.levels import Level, levels_of
 from lostmotion.case.prior import Prior, Scale
-from lostmotion.equations import equations_of
+from lostmotion.equations import equations_of, name_inputs
 from lostmotion.errors import CaseError
 from lostmotion.provenance import digest
 from lostmotion.recording import Hold, RecordingSpec
 
-TOP = ("title", "plugins", "recordings", "levels", "sensor", "experiment", "model", "truth")
+TOP = ("title", "guessed", "plugins", "recordings", "levels", "sensor", "experiment", "model", "truth")
 RECORDING = (
     "file", "time", "rate", "start", "excitation", "response", "inputs", "sensors", "hold", "t_start", "t_end", "name",
 )  # fmt: skip
@@ -27,6 +27,8 @@ MODEL = ("name", "equations", "units", "motion", "known", "estimate")
 SENSOR = ("noise", "offset")
 WRITTEN = "equations"
 """The name of a model that is given by equations."""
+GUESSED = "guessed: "
+"""The beginning of a note on what a case supposes."""
 EXPERIMENT = ("max_level", "max_frequency")
 PRIOR = ("low", "high", "scale", "mean", "sd", "median", "sd_log", "half_sd")
 FORMS = ({"low", "high"}, {"mean", "sd"}, {"median", "sd_log"}, {"half_sd"})
@@ -67,7 +69,7 @@ class CaseFile:
     `folder` is the folder of the case file, to which the files of `recordings` and `plugins` are relative. `truth`
     contains true values for the report only. `digest` is the SHA-256 of the case file. A case may have no recordings
     or no levels; commands that need them raise an error. A model given by `equations` may have `units` of parameters
-    that the equations do not determine.
+    that the equations do not determine. `notes` are sentences on what was supposed.
     """
 
     title: str
@@ -85,6 +87,7 @@ class CaseFile:
     motion: Motion | None = None
     equations: tuple[str, ...] = ()
     units: Mapping[str, str] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
 
 
 def load_case(path: Path) -> CaseFile:
@@ -97,17 +100,20 @@ def load_case(path: Path) -> CaseFile:
     name, equations = _read_model(model)
     units = {key: model.table("units").text(key) for key in model.maybe_table("units").values}
     estimate = _read_estimate(model, known)
-    coordinate = ""
+    coordinate, recordings, notes = "", _read_recordings(top), top.texts("guessed") if "guessed" in top.values else ()
     if equations:
         named = {key for key in (*known, *estimate) if "." not in key}
+        recorded = [channel.target for spec in recordings for channel in spec.inputs]
         try:
+            equations, said = name_inputs(equations, recorded, named)
+            notes = (*notes, *said)
             coordinate = equations_of(equations, units=units, motion=motion, params=named).coordinates[0]
         except CaseError as err:
             raise model.error(f"cannot be used: {err}") from err
     return CaseFile(
         title=top.maybe_text("title") or path.stem,
         folder=path.parent,
-        recordings=tuple(_rename_channels(spec, coordinate) for spec in _read_recordings(top)),
+        recordings=tuple(_rename_channels(spec, coordinate) for spec in recordings),
         model=name,
         known=known,
         estimate=estimate,
@@ -120,6 +126,7 @@ def load_case(path: Path) -> CaseFile:
         motion=motion,
         equations=equations,
         units=units,
+        notes=tuple(f"{GUESSED}{says}" for says in notes),
     )
 
 

@@ -55,11 +55,12 @@ def command(ctx: click.Context, /, cases: tuple[Path, ...], out: Path, model: st
 def _diagnose_one(
     ctx: click.Context, case: Path, out: Path, *, quiet: bool, seed: int, jobs: int, settings: Settings
 ) -> None:
+    from lostmotion.case import GUESSED
     from lostmotion.diagnosis.run import run_diagnosis
 
     with show_progress("diagnose", quiet=quiet) as say:
         found = run_diagnosis(case, out, registry_of(ctx), seed=seed, jobs=jobs, say=say, settings=settings)
-    for sentence in found.says:
+    for sentence in (*found.says, *(note for note in found.notes if note.startswith(GUESSED))):
         click.echo(sentence)
     click.echo(str(out / "report.html"))
 

@@ -115,7 +115,7 @@ def _make_parameter_sheet(q: Param, motions: tuple[str, ...], kind: str) -> Para
     return ParameterSheet(
         name=q.name,
         meaning=q.meaning,
-        units={m: q.dimension.unit(m) for m in motions},
+        units={m: q.unit(m) for m in motions},
         low=q.low,
         high=q.high,
         scale=q.scale,

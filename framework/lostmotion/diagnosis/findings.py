@@ -209,9 +209,7 @@ def _compute_derived(outcome: Outcome, term: Term, held: Mapping[str, float]) ->
     rows = [[row[columns[k]] if k in columns else value for k, value in held.items()] for row in outcome.draws_after]
     made = np.array([term.derived(tuple(row)) for row in rows])
     motion = after.problem.system.model.motion
-    return {
-        q.name: _make_interval(column, q.dimension.unit(motion)) for q, column in zip(term.further, made.T, strict=True)
-    }
+    return {q.name: _make_interval(column, q.unit(motion)) for q, column in zip(term.further, made.T, strict=True)}
 
 
 def _make_interval(draws: Array, unit: str) -> Interval:

@@ -77,9 +77,9 @@ def equations_of(
         raise CaseError(f"equations has {len(texts)} entries: expected one equation for each body, {MOST} at most")
     sides = [read(text) for text in texts]
     every = [node for pair in sides for side in pair for node in side.nodes()]
-    coordinates = _find_coordinates(texts, sides)
+    coordinates = find_coordinates(texts, sides)
     names = dict.fromkeys(node.text for node in every if node.kind == "name" and node.text not in coordinates)
-    inputs = [name for name in names if name not in params and _is_input(name)]
+    inputs = list_inputs(names, params)
     _check_primes(texts, sides, {*coordinates}, {*inputs})
     owned = [name for name in names if name not in inputs]
     if strange := set(units or {}) - set(owned):
@@ -106,7 +106,7 @@ def equations_of(
     return Equations(
         texts,
         bodies,
-        _order_inputs(inputs),
+        order_inputs(inputs),
         dimensions,
         motions,
         springs,
@@ -115,11 +115,16 @@ def equations_of(
     )
 
 
+def list_inputs(names: Iterable[str], params: Collection[str]) -> list[str]:
+    """Return the names, each once, that are read as inputs; `params` are parameters in spite of their names."""
+    return [name for name in dict.fromkeys(names) if name not in params and _is_input(name)]
+
+
 def _is_input(name: str) -> bool:
     return name in BASE or name.split("_")[-1] in ("force", "torque")
 
 
-def _order_inputs(inputs: Iterable[str]) -> tuple[str, ...]:
+def order_inputs(inputs: Iterable[str]) -> tuple[str, ...]:
     """Return the inputs with the names of a model: a torque is a force, a base position is followed by its velocity."""
     named = dict.fromkeys(f"{name.removesuffix('torque')}force" if name.endswith("torque") else name for name in inputs)
     moved = [name for name in BASE[:2] if {*BASE[:2]} & {*named}]
@@ -128,7 +133,7 @@ def _order_inputs(inputs: Iterable[str]) -> tuple[str, ...]:
     return (*moved, *rest, *shaken) or ("force",)
 
 
-def _find_coordinates(texts: Sequence[str], sides: Sequence[tuple[Node, Node]]) -> tuple[str, ...]:
+def find_coordinates(texts: Sequence[str], sides: Sequence[tuple[Node, Node]]) -> tuple[str, ...]:
     """Return the coordinate of each equation, whose second derivative it contains."""
     found = []
     for text, pair in zip(texts, sides, strict=True):

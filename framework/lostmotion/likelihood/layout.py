@@ -64,9 +64,9 @@ class Layout:
     def slots(self) -> tuple[Slot, ...]:
         """Every parameter: the model's first, then those of each term."""
         motion = self.model.motion
-        own = [Slot(q.name, q, q.dimension.unit(motion), None) for q in self.model.params]
+        own = [Slot(q.name, q, q.unit(motion), None) for q in self.model.params]
         for i, term in enumerate(self.terms):
-            own += [Slot(f"{self.keys[i]}.{q.name}", q, q.dimension.unit(motion), i) for q in term.params]
+            own += [Slot(f"{self.keys[i]}.{q.name}", q, q.unit(motion), i) for q in term.params]
         return tuple(own)
 
     @cached_property

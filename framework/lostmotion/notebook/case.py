@@ -11,8 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from lostmotion.case import WRITTEN, CaseFile, Experiment, Prior, SensorSpec, check_same_sensors, dump_case
+from lostmotion.case import GUESSED, WRITTEN, CaseFile, Experiment, Prior, SensorSpec, check_same_sensors, dump_case
 from lostmotion.contracts import Model
+from lostmotion.equations import name_inputs
 from lostmotion.errors import CaseError, PluginError, nearest
 from lostmotion.preparation.prepare import Prepared, case_of, prepare_loaded
 from lostmotion.preparation.vetting import make_plugin
@@ -44,7 +45,7 @@ class Case:
 
     `recordings` is one recording or several with the same sensors. `model` is a model, a name, or equations. `truth`
     holds true values, which only appear in figures and tables. `sensor` describes the noise that several recordings
-    share. Raises `CaseError` for a case that is not valid.
+    share. `notes` are sentences on what was supposed. Raises `CaseError` for a case that is not valid.
     """
 
     recordings: Recording | Sequence[Recording]
@@ -56,6 +57,7 @@ class Case:
     sensor: SensorSpec = field(default_factory=SensorSpec)
     experiment: Experiment = field(default_factory=Experiment)
     file: CaseFile | None = field(default=None, repr=False)
+    notes: tuple[str, ...] = field(default=(), repr=False)
 
     def __post_init__(self) -> None:
         several = (self.recordings,) if isinstance(self.recordings, Recording) else tuple(self.recordings)
@@ -69,8 +71,9 @@ class Case:
             )
         if both := sorted(set(self.known) & set(self.estimate)):
             raise CaseError(f"{both[0]!r} is both known and estimated: remove it from one of the two")
-        made = self._make_model()
+        made, notes = self._name_inputs(self._make_model())
         object.__setattr__(self, "model", made)
+        object.__setattr__(self, "notes", (*self.notes, *notes))
         if isinstance(made, Written):
             object.__setattr__(
                 self, "recordings", tuple(_rename_coordinate(one, made.coordinates[0]) for one in several)
@@ -88,6 +91,19 @@ class Case:
             return model(lines[0])
         return model(lines, params=[key for key in (*self.known, *self.estimate) if "." not in key])
 
+    def _name_inputs(self, made: Model) -> tuple[Model, tuple[str, ...]]:
+        """Return a model whose equations name the recorded inputs, and a sentence where they did not."""
+        if not isinstance(made, Written):
+            return made, ()
+        recorded = [str(array.attrs["of"]) for one in self._recordings for array in one.inputs]
+        texts, units, motion, params = made.origin
+        owned = {*params, *(key for key in (*self.known, *self.estimate) if "." not in key)}
+        named, notes = name_inputs(texts, recorded, owned)
+        if named == texts:
+            return made, ()
+        cls: Any = model_of(named, units=dict(units), motion=motion, params=owned)
+        return cls(), tuple(f"{GUESSED}{says}" for says in notes)
+
     @classmethod
     def read(
         cls,
@@ -102,7 +118,16 @@ class Case:
         made = make_plugin(known, "model", file.model)
         made = made.turned(file.motion) if file.motion else made
         return cls(
-            loaded, made, file.known, file.estimate, file.title, file.truth, file.sensor, file.experiment, file=file
+            loaded,
+            made,
+            file.known,
+            file.estimate,
+            file.title,
+            file.truth,
+            file.sensor,
+            file.experiment,
+            file=file,
+            notes=file.notes,
         )
 
     def write(self, folder: str | Path) -> Path:
@@ -113,6 +138,7 @@ class Case:
         model, place = self._model_table(), folder_for(Path(folder))
         entries = [_write_recording(one, place) for one in self._recordings]
         content: dict[str, Any] = {"title": self.title, "recordings": entries, "model": model}
+        content |= {"guessed": [note.removeprefix(GUESSED) for note in self.notes]} if self.notes else {}
         content |= self._further_tables()
         dump_case(content, place / "case.toml")
         return place / "case.toml"
@@ -188,6 +214,7 @@ class Case:
             experiment=self.experiment,
             equations=made.equations if isinstance(made, Written) else (),
             units=dict(made.origin[1]) if isinstance(made, Written) else {},
+            notes=self.notes,
         )
 
     def __repr__(self) -> str:

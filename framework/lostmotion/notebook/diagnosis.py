@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from lostmotion.case import GUESSED
 from lostmotion.codec import from_plain, to_plain
 from lostmotion.diagnosis.findings import Outcome
 from lostmotion.diagnosis.report import learned, missing, page, portraits, posteriors, prediction, ranking
@@ -118,6 +119,11 @@ class DiagnosisResult:
         return self.result.notes
 
     @property
+    def _guesses(self) -> tuple[str, ...]:
+        """The notes on what the case supposes."""
+        return tuple(note for note in self.notes if note.startswith(GUESSED))
+
+    @property
     def found(self) -> tuple[Mechanism, ...]:
         """The missing mechanisms: named ones first, open ones last."""
         return self.result.found
@@ -214,12 +220,12 @@ class DiagnosisResult:
         return place
 
     def __repr__(self) -> str:
-        lines = [f"{self.result.title}: {self.verdict}", *self.says]
+        lines = [f"{self.result.title}: {self.verdict}", *self.says, *self._guesses]
         lines += [f"  {name} = {interval}" for name, interval in self.parameters_after.items()]
         return "\n".join(lines)
 
     def _repr_html_(self) -> str:
-        items = "".join(f"<li>{html.escape(one)}</li>" for one in self.says)
+        items = "".join(f"<li>{html.escape(one)}</li>" for one in (*self.says, *self._guesses))
         with style.use_style(self.evidence.result.units.angle):
             drawn = prediction.draw(self.evidence)
             figure = style.embed_figure(drawn, "prediction") if drawn else ""

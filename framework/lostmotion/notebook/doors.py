@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from lostmotion.case import Prior
+from lostmotion.case import GUESSED, Prior
 from lostmotion.contracts import Model
 from lostmotion.defaults import EMBEDDER
 from lostmotion.errors import CaseError, DataError, nearest
@@ -329,7 +329,12 @@ def _guess_case(
     values, ranges = guesses(machine, scales, forced=pushed is not None or quantity in ("force", "torque"))
     fixed = {name: value for name, (value, _) in values.items() if name not in estimate}
     priors = {name: Prior(low=a, high=b, scale="log") for name, (a, b, _) in ranges.items() if name not in known}
-    return Case(recording, machine, {**fixed, **known}, {**priors, **estimate}, recording.name)
+    notes = tuple(
+        f"{GUESSED}{name} is {value:g}: {why}"
+        for name, (value, why) in values.items()
+        if name in fixed and name not in known and value
+    )
+    return Case(recording, given, {**fixed, **known}, {**priors, **estimate}, recording.name, notes=notes)
 
 
 def _find_sensor(recording: Recording, channel: str | None) -> int:

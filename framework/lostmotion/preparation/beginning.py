@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -13,11 +13,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lostmotion.case import WRITTEN
+from lostmotion.case import GUESSED, WRITTEN
 from lostmotion.contracts import Array, Model
 from lostmotion.defaults import CARRIAGE, JOINT, OSCILLATOR, SLIDER
+from lostmotion.equations import name_inputs
 from lostmotion.errors import CaseError
 from lostmotion.parts import Param
+from lostmotion.preparation.guessed import check_guesses, list_guesses
 from lostmotion.preparation.prepare import prepare
 from lostmotion.preparation.vetting import make_plugin
 from lostmotion.quantities import LENGTH, si_factor
@@ -77,23 +79,38 @@ def write_first_case(
     """
     outline, gains = outline_table(path, roles), factors or {}
     scales = scales_of(outline, gains)
-    machine = (
-        _make_written(registry, model)
-        if is_equation(model)
-        else make_plugin(registry, "model", model or _choose_model(outline, scales))
-    )
+    said: tuple[str, ...] = ()
+    if is_equation(model):
+        machine, said = _make_written(registry, model, input_of(outline))
+    else:
+        machine = make_plugin(registry, "model", model or _choose_model(outline, scales))
+    check_guesses(outline, gains, free=roles.drive == "none")
     _check_model(outline, machine)
-    text = _format_case(outline, machine, scales, gains, Path(os.path.relpath(path, out.parent)).as_posix())
+    known = guesses(machine, scales, forced=_has_force(outline))[0]
+    supposed = [*list_guesses(outline, machine, known), *said]
+    if not model:
+        supposed.append(f"the model is {machine.name}, since none was given")
+    file = Path(os.path.relpath(path, out.parent)).as_posix()
+    text = _format_case(outline, machine, scales, gains, (file, supposed))
     out.write_text(text, encoding="utf-8")
-    return Draft(text, tuple(_list_findings(outline, machine, gains)), tuple(prepare(out, registry).notes))
+    return Draft(
+        text,
+        tuple(_list_findings(outline, machine, gains)),
+        tuple(note.removeprefix(GUESSED) for note in prepare(out, registry).notes),
+    )
 
 
-def _make_written(registry: Registry, equations: str) -> Model:
-    """Return a model made from equations, separated by semicolons, after adding it to the registry."""
-    cls: Any = model_of([text.strip() for text in equations.split(";") if text.strip()])
+def _make_written(registry: Registry, equations: str, driven: str) -> tuple[Model, tuple[str, ...]]:
+    """Return a model made from equations, separated by semicolons, after adding it to the registry.
+
+    A name in them that stands for the input `driven` is exchanged, and a sentence says so.
+    """
+    texts = [text.strip() for text in equations.split(";") if text.strip()]
+    named, said = name_inputs(texts, [driven] if driven else [])
+    cls: Any = model_of(named)
     registry.add(cls, WRITTEN)
     machine: Model = cls()
-    return machine
+    return machine, said
 
 
 def _choose_model(outline: Outline, scales: RecordedScales) -> str:
@@ -180,11 +197,18 @@ def _fit_line(force: Waves, motion: Waves, omega: Array) -> dict[str, float]:
 
 
 def _format_case(
-    outline: Outline, machine: Model, scales: RecordedScales, factors: Mapping[str, float], file: str
+    outline: Outline,
+    machine: Model,
+    scales: RecordedScales,
+    factors: Mapping[str, float],
+    of: tuple[str, Sequence[str]],
 ) -> str:
+    """Return the text of a case; `of` are the path of the recording and the sentences on what is supposed."""
+    file, supposed = of
     head = (
         "# A first case, made by `lostmotion init`. Check columns, units and signs; remarks mark guesses.",
         f"title = {_quote(Path(outline.file).stem)}",
+        *_format_guesses(supposed),
         "",
         "[[recordings]]",
         f"file = {_quote(file)}",
@@ -195,6 +219,19 @@ def _format_case(
         "",
     )
     return "\n".join([*head, *_format_parameters(outline, machine, scales)]) + "\n"
+
+
+def _format_guesses(supposed: Sequence[str]) -> Iterator[str]:
+    """Yield the lines of the guesses, which stand in the answer."""
+    if supposed:
+        yield "guessed = [  # these sentences stand in the answer: remove each one that you have checked"
+        yield from (f"  {_quote(says)}," for says in supposed)
+        yield "]"
+
+
+def _has_force(outline: Outline) -> bool:
+    """Return whether a force is recorded; without one only ratios to the inertia can be determined."""
+    return "force" in (outline.response.kind, outline.drive.kind if outline.drive else "")
 
 
 def _format_model(machine: Model) -> str:
@@ -250,19 +287,18 @@ def _format_doubt(column: OutlinedColumn) -> str:
 def _format_parameters(outline: Outline, machine: Model, scales: RecordedScales) -> Iterator[str]:
     """Yield the lines of known and estimated parameters; without a force the inertia has to be known."""
     motion = "rotation" if outline.response.turns else "translation"
-    forced = "force" in (outline.response.kind, outline.drive.kind if outline.drive else "")
-    known, ranges = guesses(machine, scales, forced=forced)
+    known, ranges = guesses(machine, scales, forced=_has_force(outline))
     params = {param.name: param for param in machine.params}
     if known:
         yield "[model.known]"
         for name, (value, why) in known.items():
-            yield f"{name} = {value}  # {params[name].dimension.unit(motion)}: {why}"
+            yield f"{name} = {value}  # {params[name].unit(motion)}: {why}"
         yield ""
     yield "[model.estimate]  # wide priors; values of data sheets belong into [model.known]"
     for name, (low, high, why) in ranges.items():
         yield (
             f'{name} = {{ low = {_round(low)}, high = {_round(high)}, scale = "log" }}'
-            f"  # {params[name].dimension.unit(motion)}: {params[name].meaning}, {why}"
+            f"  # {params[name].unit(motion)}: {params[name].meaning}, {why}"
         )
 
 
@@ -310,7 +346,7 @@ def _list_findings(outline: Outline, machine: Model, factors: Mapping[str, float
         period = _period(_to_centred(outline.drive, factors), outline.dt) if outline.drive.moves else None
         yield f"the drive repeats every {period:.4g} s" if period else "the drive does not repeat"
     else:
-        yield "no column looks like a drive, so a free decay is assumed: if there is a drive, give --drive COLUMN"
+        yield "no column looks like a drive, and the response decays: a free decay is assumed; else give --drive COLUMN"
     yield f"model: {'; '.join(machine.equations) if isinstance(machine, Written) else machine.name}"
 
 

@@ -42,10 +42,10 @@ class Prepared:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """The warnings about recordings, and the notes on plugins that cannot be used."""
+        """What the case supposes, the warnings about recordings, and the notes on plugins that cannot be used."""
         several = len(self.recordings) > 1
         of_recordings = (f"{r.name}: {n}" if several else n for r in self.recordings for n in r.notes)
-        return (*of_recordings, *self.aside)
+        return (*self.case.notes, *of_recordings, *self.aside)
 
 
 def case_of(path: Path, registry: Registry) -> CaseFile:
