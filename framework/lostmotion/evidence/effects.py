@@ -144,7 +144,8 @@ def _compute_differences(
     seen = wider.filter_many(np.array(points))
     errors = seen.errors.reshape(len(shapes), 1 + count, -1)
     variances = seen.variances.reshape(len(shapes), 1 + count, -1)
-    finite = np.repeat(seen.finite.reshape(len(shapes), 1 + count).all(axis=1)[:, None, None], count, axis=1)
+    told = np.asarray(seen.finite).reshape(len(shapes), 1 + count).all(axis=1)
+    finite = np.repeat(told[:, None, None], count, axis=1)
     with np.errstate(invalid="ignore"):
         slopes = [np.where(finite, (e[:, 1:] - e[:, :1]) / sizes[:, None], np.nan) for e in (errors, variances)]
     return slopes[0], slopes[1]

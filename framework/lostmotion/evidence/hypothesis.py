@@ -127,16 +127,12 @@ def _maximise(frame: Frame, expansion: Expansion, choice: Choice, *, free: bool)
         if promise < TOLERANCE:
             return expansion, choice, True
         better = _climb(frame, expansion, step, choice)
-        if TRACE: print("   ", turn, choice, "promise", round(promise,1), "value", round(value,1), None if better is None else round(_compute_log_posterior(frame, better, choice)-value,2), step[:frame.own].round(3))
         if better is None:
             return expansion, choice, promise < 4.0 * TOLERANCE
         expansion = better
         if _compute_log_posterior(frame, better, choice) - value < TOLERANCE:
             return expansion, choice, True
     return expansion, choice, False
-
-
-TRACE = False
 
 
 def _tune_steps(frame: Frame, expansion: Expansion) -> Array:
@@ -173,7 +169,9 @@ def solve_posterior(frame: Frame, expansion: Expansion, choice: Choice, held: Se
     gone = np.setdiff1d(np.arange(frame.own, n), used)
     step = np.zeros(n)
     step[gone] = -at[gone]
-    pulled = (expansion.gradient - precision * (at - middle))[used] - expansion.information[np.ix_(used, gone)] @ step[gone]
+    pulled = (expansion.gradient - precision * (at - middle))[used] - expansion.information[np.ix_(used, gone)] @ step[
+        gone
+    ]
     inner = expansion.information[np.ix_(used, used)] + np.diag(precision[used])
     step[used] = solve_scaled(inner + 1e-6 * np.diag(np.diag(inner)), pulled)
     return step

@@ -90,7 +90,9 @@ class Search:
         near = [h for h in rest if h.score() > least]
         return max(near, key=lambda one: one.score(), default=None)
 
-    def _weigh(self, bare: Fit, begin: Mapping[str, float] | None = None, choice: tuple[int, ...] | None = None) -> None:
+    def _weigh(
+        self, bare: Fit, begin: Mapping[str, float] | None = None, choice: tuple[int, ...] | None = None
+    ) -> None:
         """Fit the hypothesis of a bare fit, and keep it if it is the best of its terms."""
         terms, price = bare.problem.active, compute_price(bare.problem, len(self.keys))
         self.say(f"weighing {_name(terms)}")
@@ -123,7 +125,10 @@ class Search:
         for promise, simpler in tasks:
             if simpler and not self.budget.spent:
                 self._weigh_richer(target, promise, simpler)
-        single, plain = replace(bare, problem=replace(bare.problem, jobs=1)), [p for p in first[:MOST_FITTED] if not self._find_simpler(target, p.key)]
+        single, plain = (
+            replace(bare, problem=replace(bare.problem, jobs=1)),
+            [p for p in first[:MOST_FITTED] if not self._find_simpler(target, p.key)],
+        )
         fits = each(lambda p: fit_term(single, _as_test(p)), plain, bare.problem.jobs)
         fits = [replace(f, problem=replace(f.problem, jobs=bare.problem.jobs)) for f in fits if f.status != "diverged"]
         for fit in fits:
@@ -140,7 +145,9 @@ class Search:
     def _drop_richer(self, promises: Sequence[Promise]) -> list[Promise]:
         """Return the promises without laws that contain a simpler law which promises something as well."""
         problem, keys = self.nominal.problem, {p.key for p in promises}
-        return [p for p in promises if not any(self._contains(p.key, key) for key in keys if key in problem.system.keys)]
+        return [
+            p for p in promises if not any(self._contains(p.key, key) for key in keys if key in problem.system.keys)
+        ]
 
     def _contains(self, richer: str, simpler: str) -> bool:
         """Return whether a law contains another one at the same place."""

@@ -140,7 +140,8 @@ def linearise_filter(problem: Problem, thetas: Array, index: int = 0) -> tuple[T
 def join_recordings(parts: Sequence[Innovations]) -> Innovations:
     """Return the innovations (points, readings) of several recordings in a row."""
     errors, variances = (
-        np.concatenate([getattr(p, name).reshape(len(p), -1) for p in parts], axis=1) for name in ("errors", "variances")
+        np.concatenate([getattr(p, name).reshape(len(p), -1) for p in parts], axis=1)
+        for name in ("errors", "variances")
     )
     return Innovations(errors, variances, np.all([p.finite for p in parts], axis=0))
 

@@ -15,7 +15,8 @@ NAMES: Mapping[str, re.Pattern[str]] = {
     ),
     "acceleration": re.compile(r"acc|^a([_ \d.,\[(/]|$)|accel|beschl|加速度|ускорение", re.IGNORECASE),
     "velocity": re.compile(
-        r"(?<!tra)(?<!le)vel|speed|^v([_ \d.,\[(/]|$)|omega|rpm|geschw|drehzahl|速度|回転数|скорость|обороты", re.IGNORECASE
+        r"(?<!tra)(?<!le)vel|speed|^v([_ \d.,\[(/]|$)|omega|rpm|geschw|drehzahl|速度|回転数|скорость|обороты",
+        re.IGNORECASE,
     ),
     "position": re.compile(
         r"pos|disp|angle|enc|travel|gauge|laser|^[xqy]([_ \d.,\[(/]|$)|theta|phi|stroke|^weg|winkel|変位|位置|角度"
