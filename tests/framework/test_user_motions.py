@@ -48,7 +48,10 @@ def test_a_coarse_case_is_told_its_number_of_values() -> None:
     assert f"its {values} different values are too coarse" in found.says
 
 
-@pytest.mark.parametrize("drift", [0.8 * SLOW, 0.6 * SLOW**2 - 0.3 * SLOW, -0.7 * SLOW**3], ids=["line", "bow", "bend"])  # fmt: skip
+DRIFTS = {"line": 0.8 * SLOW, "bow": 0.6 * SLOW**2 - 0.3 * SLOW, "bend": -0.7 * SLOW**3}
+
+
+@pytest.mark.parametrize("drift", DRIFTS.values(), ids=DRIFTS)
 def test_a_periodic_motion_about_a_drifting_zero_is_periodic(drift: np.ndarray) -> None:
     found = analyse(CYCLE + drift + NOISE)
     assert found.verdict == "periodic"

@@ -57,7 +57,7 @@ from lostmotion.errors import ContractError
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.profile import measure_stretches
 from lostmotion.inference.term_sets import Selection
-from lostmotion.kernels.threads import each
+from lostmotion.kernels.threads import each, hold_linear_algebra
 from lostmotion.likelihood.system import System, key_of
 from lostmotion.preparation.prepare import Prepared, prepare
 from lostmotion.preparation.vetting import (
@@ -126,6 +126,7 @@ def run_diagnosis(
 
 
 @catch_divergence()
+@hold_linear_algebra()
 def diagnose_prepared(
     prepared: Prepared,
     registry: Registry,

@@ -1,8 +1,8 @@
 """The effect of each candidate term on the one-step errors of a hypothesis, and what it promises.
 
-A term is proposed by slopes: the derivatives of the errors over its amplitudes, at several values of its shape. Together
-with the expansion of the hypothesis they predict the evidence of the larger set, in which the term may take the place of
-a smooth force. A prediction costs time at most, never a name: every proposal is fitted.
+A term is proposed by slopes: the derivatives of the errors over its amplitudes, at several values of its shape.
+Together with the expansion of the hypothesis they predict the evidence of the larger set, in which the term may take
+the place of a smooth force. A prediction costs time at most, never a name: every proposal is fitted.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -144,7 +145,7 @@ def _compute_differences(
     seen = wider.filter_many(np.array(points))
     errors = seen.errors.reshape(len(shapes), 1 + count, -1)
     variances = seen.variances.reshape(len(shapes), 1 + count, -1)
-    told = np.asarray(seen.finite).reshape(len(shapes), 1 + count).all(axis=1)
+    told: Any = np.asarray(seen.finite).reshape(len(shapes), 1 + count).all(axis=1)
     finite = np.repeat(told[:, None, None], count, axis=1)
     with np.errstate(invalid="ignore"):
         slopes = [np.where(finite, (e[:, 1:] - e[:, :1]) / sizes[:, None], np.nan) for e in (errors, variances)]

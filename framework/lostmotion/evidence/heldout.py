@@ -8,6 +8,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from lostmotion.contracts import Array
+from lostmotion.evidence.discrepancy import Frame
 from lostmotion.evidence.expansion import Expansion
 from lostmotion.evidence.hypothesis import Hypothesis
 from lostmotion.inference.fit import choose_first_steps
@@ -18,8 +20,9 @@ def score_heldout(found: Hypothesis, pieces: Sequence[tuple[Observation, int]]) 
     """Return the log density of the held-out samples, averaged over the posterior of the fitted data.
 
     `pieces` are recordings and the first held-out sample of each. With g and H the gradient and the information of the
-    held-out data at the maximum of the fitted data, and Q the precision of the posterior there:
-    log p + (g' (Q + H)^-1 g - log det(I + Q^-1 H)) / 2, the closed form for errors that are linear in the parameters.
+    held-out data at the maximum of the fitted data, and Q the precision of the posterior there, it is
+    log p + g' s / 2 - log det(I + Q^-1 H) / 2 with the step s = (Q + H)^-1 g: the closed form for errors that are
+    linear in the parameters. Where they are not, the step gains less than g' s / 2, and the gain of the step counts.
     """
     return sum(_score_piece(found, observation, begin) for observation, begin in pieces)
 
@@ -28,20 +31,27 @@ def _score_piece(found: Hypothesis, observation: Observation, begin: int) -> flo
     frame, fitted = found.frame, found.frame.problem
     one = replace(frame, problem=fitted.on((observation,)))
     steps = choose_first_steps(replace(fitted, free=fitted.free[: frame.own]))
-    seen = cut_before(one.expand(found.at, steps, found.choice), begin * len(observation.sensors))
-    value = float(seen.here.log_likelihood)
-    if not math.isfinite(value):
-        return -math.inf
-    kept, precision = found.used, found.precision
-    gradient = seen.gradient[kept]
-    information = seen.information[np.ix_(kept, kept)]
-    both = precision + information
+    first = begin * len(observation.sensors)
+    seen = cut_before(one.expand(found.at, steps, found.choice), first)
+    value, kept, precision = float(seen.here.log_likelihood), found.used, found.precision
+    both = precision + seen.information[np.ix_(kept, kept)]
     sign, more = np.linalg.slogdet(both)
-    before = np.linalg.slogdet(precision)[1]
-    if sign <= 0:
+    if sign <= 0 or not math.isfinite(value):
         return -math.inf
-    gain = 0.5 * float(gradient @ np.linalg.solve(both, gradient)) - 0.5 * float(more - before)
-    return value + gain
+    step = np.zeros(frame.count)
+    step[kept] = np.linalg.solve(both, seen.gradient[kept])
+    gained = _score_point(one, found, found.at + step, first) - value
+    gained -= 0.5 * float(step[kept] @ precision @ step[kept])
+    gain = max(min(0.5 * float(seen.gradient @ step), gained), 0.0)
+    return value + gain - 0.5 * float(more - np.linalg.slogdet(precision)[1])
+
+
+def _score_point(frame: Frame, found: Hypothesis, at: Array, first: int) -> float:
+    """Return the log density of the readings from number `first` on at some coordinates; -inf after a divergence."""
+    problem = frame.bare(at, found.choice)
+    seen = problem.innovations(at[: len(problem.free)])
+    held = replace(seen, errors=seen.errors[first:], variances=seen.variances[first:])
+    return float(held.log_likelihood)
 
 
 def cut_before(seen: Expansion, first: int) -> Expansion:

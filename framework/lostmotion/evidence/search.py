@@ -84,11 +84,26 @@ class Search:
         return max(self.found.values(), key=lambda one: one.score())
 
     def _choose_next(self, extended: set[frozenset[str]]) -> Hypothesis | None:
-        """Return the best hypothesis that was not extended yet, if it is close to the best of all."""
+        """Return the next hypothesis to be extended: the best one close to the best of all, else the leading fit.
+
+        A smooth force may imitate two laws together but neither alone, so sets that lead without a discrepancy are
+        extended as well, as long as each leads the sets that were extended before.
+        """
         least = self.best.score() - REACH
         rest = [h for h in self.found.values() if h.terms not in extended and len(h.terms) < MOST_TERMS]
         near = [h for h in rest if h.score() > least]
-        return max(near, key=lambda one: one.score(), default=None)
+        if near:
+            return max(near, key=lambda one: one.score())
+        lead = max(self.bare, key=lambda terms: self._weigh_bare(self.bare[terms]))
+        if lead in extended or len(lead) >= MOST_TERMS:
+            return None
+        if lead not in self.found:
+            self._weigh(self.bare[lead])
+        return self.found.get(lead)
+
+    def _weigh_bare(self, fit: Fit) -> float:
+        """Return the log evidence of a fit without discrepancy, less the price of its terms."""
+        return fit.log_evidence - compute_price(fit.problem, len(self.keys))
 
     def _weigh(
         self, bare: Fit, begin: Mapping[str, float] | None = None, choice: tuple[int, ...] | None = None
@@ -133,9 +148,9 @@ class Search:
         fits = [replace(f, problem=replace(f.problem, jobs=bare.problem.jobs)) for f in fits if f.status != "diverged"]
         for fit in fits:
             self.bare.setdefault(fit.problem.active, fit)
-        ranked = sorted(fits, key=lambda f: -(f.log_evidence - compute_price(f.problem, len(self.keys))))
+        ranked = sorted(fits, key=lambda f: -self._weigh_bare(f))
         for rank, fit in enumerate(ranked):
-            weight = fit.log_evidence + target.heldout - compute_price(fit.problem, len(self.keys))
+            weight = self._weigh_bare(fit) + target.heldout
             if (rank == 0 or weight > self.best.score() - CLOSE) and not self.budget.spent:
                 self._weigh(fit)
         for promise in beside[:MOST_BESIDE]:
@@ -172,7 +187,7 @@ class Search:
         bare = self.bare[target.terms]
         problem = add_term(restart(bare), _as_test(promise), dict(promise.start))
         moved = dict(zip(target.frame.names, (target.at + promise.step).tolist(), strict=True))
-        begin = {**{f.key: f.start for f in problem.free}, **{k: v for k, v in moved.items()}}
+        begin = {f.key: f.start for f in problem.free} | moved
         begin |= {f.key: f.start for f in problem.free if f.key.startswith(f"{promise.key}.")}
         theta = problem.clip(np.array([begin[key] for key in problem.keys]))
         begin |= dict(zip(problem.keys, theta.tolist(), strict=True))

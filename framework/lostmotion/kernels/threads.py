@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from itertools import pairwise
 from typing import TypeVar
 
@@ -15,6 +16,19 @@ Out = TypeVar("Out")
 def cores() -> int:
     """Return the number of cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+@contextmanager
+def hold_linear_algebra() -> Iterator[None]:
+    """Let products of matrices use one thread, as a context or a decorator.
+
+    The matrices are small, and the work is divided over the cores elsewhere. On a busy machine, threads that wait for
+    each other make the product of 79 by 16,800 derivatives fifty times slower.
+    """
+    from threadpoolctl import threadpool_limits  # not needed by the commands that only show help
+
+    with threadpool_limits(limits=1, user_api="blas"):
+        yield
 
 
 def each(work: Callable[[In], Out], items: Sequence[In], jobs: int) -> list[Out]:

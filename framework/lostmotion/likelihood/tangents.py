@@ -88,7 +88,7 @@ class Tangents:
 
     @cached_property
     def here(self) -> tuple[Array, Array]:
-        """Derivatives of states (samples, n) and channels (samples, channels) along the states, as the filter has them."""
+        """Derivatives of states (samples, n) and channels (samples, channels) along the states, with all terms."""
         rates, seen = self.compute_effects(self.full[None], self.problem.active)
         return rates[0], seen[0]
 

@@ -1,0 +1,231 @@
+"""One score for each explanation: closed forms against their slow twins, and machines with known answers."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+from scipy.interpolate import CubicSpline
+from scipy.special import logsumexp
+from test_rival import made_of
+
+from lostmotion.diagnosis.compare import cut_heldout
+from lostmotion.diagnosis.search import list_fitted_keys
+from lostmotion.evidence import discrepancy
+from lostmotion.evidence.channels import DriveError, SensorError, list_channel_errors
+from lostmotion.evidence.discrepancy import make_frame
+from lostmotion.evidence.expansion import Expansion, compute_log_evidence
+from lostmotion.evidence.hypothesis import fit_hypothesis
+from lostmotion.evidence.search import Budget, Search, compute_probabilities
+from lostmotion.inference.curves import add_all_curves
+from lostmotion.inference.fit import choose_first_steps
+from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
+from lostmotion.kernels.tangents import respond, respond_plainly
+from lostmotion.likelihood.engine import Innovations
+
+
+def rub(x, v, t):
+    """Return dry friction of 0.8 N (N), without sticking."""
+    return -0.8 * np.tanh(v / 1e-3)
+
+
+def nothing(x, v, t):
+    """Return no force (N)."""
+    return 0.0
+
+
+def bend(x, v, t):
+    """Return a smooth force (N) over the position that no term of the library has."""
+    return 0.8 * math.sin(40.0 * x) * math.exp(-((x / 0.03) ** 2))
+
+
+def start_search(folder, extra, *, budget=600.0):
+    """Return the search for explanations of a recording of an oscillator with a further force."""
+    prepared, system = made_of(folder, extra)
+    train, held = split_heldout(prepared.observations)
+    nominal = search_maximum(make_problem(system, prepared.case, train, jobs=1), np.random.default_rng(0))
+    pieces = [(piece.observation, piece.begin) for piece in cut_heldout(prepared.observations, held)]
+    return Search(nominal, list_fitted_keys(system), pieces, Budget(budget))
+
+
+def make_expansion(errors, variances=None, precision=None):
+    """Return an expansion with given derivatives of errors of unit variance, about zero."""
+    rng = np.random.default_rng(3)
+    n, readings = errors.shape
+    here = Innovations(rng.standard_normal(readings), np.ones(readings), np.array(True))
+    none = np.zeros_like(errors) if variances is None else variances
+    precision = np.zeros(n) if precision is None else precision
+    blocks = {"own": slice(0, 1), "a": slice(1, 2), "b": slice(2, n)}
+    return Expansion(here, np.zeros(n), errors, none, np.zeros(n), precision, blocks)
+
+
+def test_the_evidence_of_a_coefficient_is_the_integral_over_its_prior():
+    gradient, information, width = 7.0, 11.0, 0.4
+
+    def density(x):
+        return math.exp(gradient * x - 0.5 * information * x * x - 0.5 * (x / width) ** 2) / (
+            width * math.sqrt(2.0 * math.pi)
+        )
+
+    integral = quad(density, -5.0, 5.0, epsabs=1e-12)[0]
+    found = compute_log_evidence(np.array([gradient]), np.array([[information]]), np.array([width]))
+    assert found == pytest.approx(math.log(integral), abs=1e-9)
+
+
+def test_a_coefficient_without_width_adds_nothing():
+    h = np.array([[5.0, 1.0], [1.0, 4.0]])
+    alone = compute_log_evidence(np.array([2.0]), h[:1, :1], np.array([0.3]))
+    assert compute_log_evidence(np.array([2.0, 9.0]), h, np.array([0.3, 0.0])) == pytest.approx(alone, abs=1e-12)
+    assert compute_log_evidence(np.array([2.0, 9.0]), h, np.zeros(2)) == 0.0
+
+
+def test_profiling_is_the_regression_on_the_own_coordinates():
+    rng = np.random.default_rng(1)
+    errors = rng.standard_normal((4, 500))
+    expansion = make_expansion(errors)
+    gradient, information = expansion.profile(np.array([0]), np.array([1, 2, 3]))
+    own, more = errors[0], errors[1:]
+    residuals = more - np.outer(more @ own / (own @ own), own)
+    assert information == pytest.approx(residuals @ residuals.T, rel=1e-9)
+    assert gradient == pytest.approx(-residuals @ expansion.here.errors, rel=1e-6, abs=1e-9)
+
+
+def test_the_cosine_of_two_blocks_is_one_where_no_data_can_tell_them_apart():
+    rng = np.random.default_rng(2)
+    a = rng.standard_normal(400)
+    b = rng.standard_normal(400)
+    errors = np.stack([rng.standard_normal(400), a, 3.0 * a + 1e-6 * b, b])
+    assert make_expansion(errors).compute_cosine("a", "b") == pytest.approx(1.0, abs=1e-6)
+    apart = make_expansion(np.stack([errors[0], a, b, rng.standard_normal(400)]))
+    assert apart.compute_cosine("a", "b") < 0.3
+
+
+def test_the_scatter_of_independent_scores_is_one_and_that_of_correlated_ones_is_larger():
+    rng = np.random.default_rng(4)
+    slopes = rng.standard_normal((24, 8000))
+    slopes[1:] = np.cumsum(slopes[1:], axis=1) / 90.0  # slow effects feel slow errors
+    expansion = make_expansion(slopes)
+    assert expansion.measure_scatter(("b",)) < 1.6
+    slow = np.convolve(rng.standard_normal(8100), np.ones(100) / 10.0, mode="valid")[:8000]
+    here = Innovations(slow, np.ones(8000), np.array(True))
+    correlated = Expansion(
+        here, np.zeros(24), slopes, np.zeros_like(slopes), np.zeros(24), np.zeros(24), expansion.blocks
+    )
+    assert correlated.measure_scatter(("b",)) > 10.0
+
+
+def test_the_linear_response_equals_its_plain_twin():
+    rng = np.random.default_rng(5)
+    n, samples, sensors = 2, 40, 2
+    steps = 0.3 * rng.standard_normal((samples, n, n))
+    roots = rng.standard_normal((samples, n, n))
+    ahead = roots @ roots.transpose(0, 2, 1)
+    slopes = rng.standard_normal((samples, sensors, n + 1))
+    spread = rng.uniform(2.0, 3.0, (samples, sensors))
+    spread[7, 1] = math.inf
+    told = (steps, ahead, slopes, spread, np.array([0.7]), np.array([0.2]), 0.01)
+    forces, seen = rng.standard_normal((3, samples, n)), rng.standard_normal((3, samples, sensors))
+    found = respond(*told, forces, seen)
+    assert found == pytest.approx(respond_plainly(*told, forces, seen), rel=1e-10, abs=1e-12)
+    assert np.all(found[:, 7, 1] == 0.0)
+
+
+@pytest.fixture(scope="module")
+def rubbing(tmp_path_factory):
+    """Return the search, not yet run, for a machine with dry friction."""
+    return start_search(tmp_path_factory.mktemp("rub"), rub)
+
+
+def test_derivatives_of_the_linearised_filter_equal_differences(rubbing, monkeypatch):
+    frame = make_frame(rubbing.nominal.problem, rubbing.nominal.theta, rubbing.errors)
+    steps = choose_first_steps(rubbing.nominal.problem)
+    fast = frame.expand(frame.start, steps, frame.none)
+    monkeypatch.setattr(discrepancy, "linearise_filter", lambda *_: None)
+    slow = frame.expand(frame.start, steps, frame.none)
+    assert fast.here.log_likelihood == pytest.approx(slow.here.log_likelihood, abs=1e-6)
+    sizes = np.linalg.norm(slow.errors, axis=1)
+    apart = np.linalg.norm(fast.errors - slow.errors, axis=1)[sizes > 0.0] / sizes[sizes > 0.0]
+    assert np.median(apart) < 0.05
+    assert apart.max() < 0.2  # a wave that turns within a sample
+
+
+def test_a_correction_of_a_sensor_has_the_shape_of_its_predicted_readings(rubbing):
+    observation = rubbing.nominal.problem.observations[0]
+    scale, *_ = (error for error in rubbing.errors if isinstance(error, SensorError))
+    changed = scale.correct(observation, 0.01).readings - observation.readings
+    assert changed == pytest.approx(0.01 * observation.readings, abs=3e-4 * np.abs(observation.readings).max())
+    part = observation.part(100, 300)
+    assert scale.correct(part, 0.01).readings - part.readings == pytest.approx(changed[100:300], abs=1e-15)
+
+
+def test_a_delay_of_the_drive_is_half_a_sample_at_a_size_of_minus_one_half(rubbing):
+    observation = rubbing.nominal.problem.observations[0]
+    late = next(e for e in rubbing.errors if isinstance(e, DriveError) and e.late)
+    moved = late.correct(observation, -0.5).inputs[:, 0]
+    places = np.arange(observation.samples)
+    shift = CubicSpline(places, observation.inputs[:, 0])(places - 0.5) - observation.inputs[:, 0]
+    made = moved - observation.inputs[:, 0]
+    assert np.corrcoef(made[5:-5], shift[5:-5])[0, 1] > 0.97
+    assert np.std(made) == pytest.approx(np.std(shift), rel=0.1)
+
+
+def test_every_sensor_has_three_errors_and_every_drive_two(rubbing):
+    errors = list_channel_errors(rubbing.nominal, list(rubbing.nominal.problem.observations))
+    assert [type(error) for error in errors] == [SensorError] * 3 + [DriveError] * 2
+
+
+def test_dry_friction_is_the_explanation_with_the_true_damping(rubbing):
+    found = rubbing.run()
+    shares = compute_probabilities(found.found.values(), found.best.scatter)
+    friction = sum(p for terms, p in shares.items() if any("friction" in key for key in terms))
+    assert friction > 0.95
+    best = found.best
+    assert best.terms == {"coulomb_friction"}
+    sd = math.sqrt(best.covariance[list(best.frame.problem.keys).index("c")][list(best.frame.problem.keys).index("c")])
+    free = next(f for f in best.frame.problem.free if f.key == "c")
+    c, spread = free.value(best.values["c"]), sd * (free.value(best.values["c"]) if free.log else 1.0)
+    assert abs(c - 0.8) < 3.0 * spread
+
+
+def test_the_score_without_the_term_contains_the_best_smooth_force(rubbing):
+    """The smooth force explains most of the friction: both hypotheses have paid for the same discrepancy."""
+    found = rubbing.found
+    assert frozenset() in found
+    bare = found[frozenset()]
+    assert bare.smooth > 5.0
+    assert bare.log_evidence < found[frozenset({"coulomb_friction"})].log_evidence
+
+
+@pytest.mark.slow
+def test_nothing_is_named_in_a_clean_machine(tmp_path):
+    found = start_search(tmp_path, nothing).run()
+    assert found.best.terms == frozenset()
+    assert compute_probabilities(found.found.values(), found.best.scatter)[frozenset()] > 0.9
+
+
+@pytest.mark.slow
+def test_a_smooth_force_outside_the_library_gets_no_name(tmp_path):
+    found = start_search(tmp_path, bend).run()
+    shares = compute_probabilities(found.found.values(), found.best.scatter)
+    keys = {key for terms in shares for key in terms}
+    assert all(sum(p for terms, p in shares.items() if key in terms) < 0.95 for key in keys)
+
+
+def test_a_search_without_time_has_the_hypothesis_of_nothing_missing(tmp_path):
+    found = start_search(tmp_path, rub, budget=0.0).run()
+    assert set(found.found) == {frozenset()}
+    assert found.skipped == ["no term"]
+
+
+def test_probabilities_are_the_softmax_of_the_scores(rubbing):
+    shares = compute_probabilities(rubbing.found.values(), 2.0)
+    scores = {h.terms: (h.log_evidence + h.heldout) / 2.0 - h.price for h in rubbing.found.values()}
+    total = logsumexp(list(scores.values()))
+    assert shares == pytest.approx({terms: math.exp(score - total) for terms, score in scores.items()}, abs=1e-9)
+
+
+def test_a_hypothesis_from_its_own_maximum_stays_there(rubbing):
+    best = rubbing.best
+    again = fit_hypothesis(best.frame, best.at, best.price, best.choice)
+    assert again.log_evidence == pytest.approx(best.log_evidence, abs=0.5)
+    assert add_all_curves(rubbing.nominal) is rubbing.nominal
