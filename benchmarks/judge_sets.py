@@ -83,6 +83,8 @@ def write_library(task: tuple[str, str, str, int, float, int], folder: Path) -> 
     draft = library.draft_machine(task)
     folder.mkdir(parents=True, exist_ok=True)
     effects, _, reached = library.write_sized_case(task, draft, folder)
+    if np.ptp(np.loadtxt(folder / "recording.csv", delimiter=",", skiprows=1)[:, -1]) == 0.0:
+        raise ValueError("the effect leaves a constant reading")
     rig, gain = draft.rig, reached if isinstance(reached, float) else None
     hidden = tuple(convert_effect(effect, rig) for effect in effects)
     says = f"{task[0]}, {task[1]}, {task[2]}, {rig.model}"
