@@ -1,7 +1,8 @@
 """The hypotheses of a case by one score: `python benchmarks/explain.py CASE.toml [--budget 60]`.
 
 Prints each hypothesis that was fitted: score less the best one, log evidence of the fitted and of the held-out data,
-the part of it that smooth forces add, and its parameters with their standard deviations. Then the probability of each term.
+the part of it that smooth forces add, and its parameters with their standard deviations. Then the probability of each
+term.
 This is the engine of `lostmotion.evidence`, which does not decide in `lostmotion diagnose` yet.
 """
 
@@ -15,7 +16,7 @@ import numpy as np
 
 from lostmotion.diagnosis.compare import cut_heldout
 from lostmotion.diagnosis.search import list_fitted_keys
-from lostmotion.evidence.search import Budget, Search, compute_probabilities
+from lostmotion.evidence.search import Budget, ExplanationSearch, compute_probabilities
 from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
 from lostmotion.kernels.threads import hold_linear_algebra
 from lostmotion.likelihood.system import System
@@ -24,7 +25,7 @@ from lostmotion.registry import default
 from lostmotion.settings import DEFAULT
 
 
-def explain(path: Path, seconds: float) -> Search:
+def explain(path: Path, seconds: float) -> ExplanationSearch:
     """Return the search for explanations of a case."""
     prepared = prepare(path, default(), DEFAULT)
     system = System(prepared.model, prepared.terms)
@@ -33,7 +34,7 @@ def explain(path: Path, seconds: float) -> Search:
     pieces = [(piece.observation, piece.begin) for piece in cut_heldout(prepared.observations, held)]
     begun = time.process_time()
     say = lambda text: print(f"{time.process_time() - begun:7.1f} s  {text}", flush=True)  # noqa: E731
-    return Search(nominal, list_fitted_keys(system), pieces, Budget(seconds), say=say).run()
+    return ExplanationSearch(nominal, list_fitted_keys(system), pieces, Budget(seconds), say=say).run()
 
 
 def describe(hypothesis, best):

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from lostmotion.inference.evidence import sample_evidence
-from lostmotion.inference.fit import Expansion, Fit
+from lostmotion.inference.fit import Fit, LocalExpansion
 from lostmotion.likelihood.space import FreeParameter
 
 
@@ -36,7 +36,7 @@ def fit_of(middle, sd, low, high):
     toy = Toy(free, np.array(middle), np.array(sd))
     top = np.clip(middle, low, high)
     height = float(toy.log_likelihoods(top[None])[0])
-    local = Expansion(
+    local = LocalExpansion(
         top, height, height + toy.log_prior(top), np.zeros(2), np.diag(1.0 / np.array(sd) ** 2), np.array(sd)
     )
     return Fit(toy, local, "converged", 1)

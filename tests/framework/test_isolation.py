@@ -183,6 +183,7 @@ class Nothing:
     """A case, as far as a diagnosis that never begins reads it."""
 
     digest: str = ""
+    notes: tuple[str, ...] = ()
 
 
 @pytest.mark.parametrize(("plugin", "left"), [("guest_drag", {"guest_drag"}), ("", {"guest_drag", "guest_more"})])

@@ -122,7 +122,7 @@ TIME = 0.01 * np.arange(500)
     [
         ({"time": TIME, "a": NOISE, "b": NOISE}, (), "name one with --column"),
         ({"time": TIME, "a": NOISE}, ("--column", "c"), "has no column 'c'"),
-        ({"a": NOISE}, (), "has no column 'time'"),
+        ({"a": NOISE}, (), "no column of table.csv has the name or the unit of a time"),
         ({"time": TIME[:150], "a": NOISE[:150]}, (), "150 samples"),
         ({"time": TIME, "a": np.ones(500)}, (), "constant"),
         ({"time": TIME, "a": np.where(TIME % 1.0 < 0.005, np.nan, NOISE)}, (), "99 samples"),

@@ -61,7 +61,7 @@ Choice = tuple[int, ...]
 
 
 @dataclass(frozen=True)
-class Frame:
+class JointFrame:
     """The coordinates of a hypothesis: own parameters, known values, coefficients of smooth forces, channel errors.
 
     `problem` has the first three as free parameters. Channel errors are applied to the recordings.
@@ -231,7 +231,7 @@ class Frame:
 
 def make_frame(
     problem: Problem, theta: Array, errors: tuple[ChannelError, ...], sizes: Sequence[float] = SIZES
-) -> Frame:
+) -> JointFrame:
     """Return the coordinates of the hypothesis with the terms of a problem, begun at its own coordinates `theta`.
 
     The system of the problem has every curve (`add_all_curves`), none of which is active.
@@ -246,7 +246,7 @@ def make_frame(
         forces.append(SmoothForce(key, slice(len(frees), len(frees) + count), options))
         frees += [FreeParameter(f"{key}.v{i}", "", 0.0, -1e3 * size, 1e3 * size, linear=True) for i in range(count)]
     wide = replace(problem, free=tuple(frees), active=problem.active | {key for key, _ in curves})
-    return Frame(wide, own, slice(own, own + len(known)), tuple(forces), errors)
+    return JointFrame(wide, own, slice(own, own + len(known)), tuple(forces), errors)
 
 
 def list_known_values(problem: Problem) -> list[FreeParameter]:
@@ -267,13 +267,13 @@ class Quadratic:
     Coordinates beyond those of the discrepancy are amplitudes of terms, with prior standard deviations `beside`.
     """
 
-    frame: Frame
+    frame: JointFrame
     gradient: Array
     information: Array
     beside: Array
 
     @classmethod
-    def of(cls, frame: Frame, expansion: Expansion, beside: Array | None = None) -> Quadratic:
+    def of(cls, frame: JointFrame, expansion: Expansion, beside: Array | None = None) -> Quadratic:
         """Return the quadratic of an expansion, whose last coordinates are those of terms, with these widths."""
         widths = np.zeros(0) if beside is None else beside
         more = np.arange(frame.own, frame.count + len(widths))

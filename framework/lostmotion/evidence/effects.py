@@ -34,7 +34,7 @@ MUTE = 1e-6
 
 
 @dataclass(frozen=True)
-class Effect:
+class TermEffect:
     """The derivatives (amplitudes, readings) of the errors over the amplitudes of a term at one shape."""
 
     key: str
@@ -82,7 +82,7 @@ def list_promises(found: Hypothesis, keys: Sequence[str], shapes: Shapes, prices
 
 def _list_effects(
     problem: Problem, theta: Array, filtered: Sequence[Tangents], key: str, more: Sequence[Mapping[str, float]]
-) -> Iterator[Effect]:
+) -> Iterator[TermEffect]:
     """Yield the effect of a term at each shape."""
     amplitudes, shapes = sort_slots(problem, key)
     grids = [list_tried_values(s.param, problem.scales) for s in shapes]
@@ -101,7 +101,7 @@ def _list_effects(
         errors, variances = _compute_differences(problem, theta, key, tried, SMALL * sizes)
     for shape, e, v in zip(tried, errors, variances, strict=True):
         if np.all(np.isfinite(e)) and np.all(np.isfinite(v)):
-            yield Effect(key, shape, tuple(amplitudes), widths, e, v)
+            yield TermEffect(key, shape, tuple(amplitudes), widths, e, v)
 
 
 def _respond(
@@ -152,7 +152,7 @@ def _compute_differences(
     return slopes[0], slopes[1]
 
 
-def _join(found: Hypothesis, effect: Effect) -> Expansion:
+def _join(found: Hypothesis, effect: TermEffect) -> Expansion:
     """Return the expansion of a hypothesis with the amplitudes of a term as its last coordinates."""
     expansion, count = found.expansion, len(effect.amplitudes)
     joined = replace(
@@ -177,7 +177,7 @@ def _join(found: Hypothesis, effect: Effect) -> Expansion:
     return joined
 
 
-def _predict(found: Hypothesis, effect: Effect, less: float) -> Promise:
+def _predict(found: Hypothesis, effect: TermEffect, less: float) -> Promise:
     """Return what a term promises at one shape, beside the present smooth forces or in their place; `less` is paid."""
     joined, frame, n = _join(found, effect), found.frame, len(found.at)
     told = np.diag(joined.information)[n:] * effect.widths**2

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.evidence.discrepancy import Frame
+from lostmotion.evidence.discrepancy import JointFrame
 from lostmotion.evidence.expansion import Expansion
 from lostmotion.evidence.hypothesis import Hypothesis
 from lostmotion.inference.fit import choose_first_steps
@@ -46,7 +46,7 @@ def _score_piece(found: Hypothesis, observation: Observation, begin: int) -> flo
     return value + gain - 0.5 * float(more - np.linalg.slogdet(precision)[1])
 
 
-def _score_point(frame: Frame, found: Hypothesis, at: Array, first: int) -> float:
+def _score_point(frame: JointFrame, found: Hypothesis, at: Array, first: int) -> float:
     """Return the log density of the readings from number `first` on at some coordinates; -inf after a divergence."""
     problem = frame.bare(at, found.choice)
     seen = problem.innovations(at[: len(problem.free)])

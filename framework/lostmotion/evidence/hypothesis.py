@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.contracts import Array
-from lostmotion.evidence.discrepancy import Choice, Frame, Quadratic
+from lostmotion.evidence.discrepancy import Choice, JointFrame, Quadratic
 from lostmotion.evidence.expansion import Expansion
 from lostmotion.inference.fit import STRIDE, choose_first_steps, solve_scaled
 from lostmotion.likelihood.space import LEVELS
@@ -40,7 +40,7 @@ class Hypothesis:
     prior odds against the set, `heldout` is the log density of the held-out data.
     """
 
-    frame: Frame
+    frame: JointFrame
     expansion: Expansion
     choice: Choice
     log_evidence: float
@@ -96,7 +96,7 @@ class Hypothesis:
         return np.asarray(self.expansion.information[np.ix_(self.used, self.used)] + np.diag(prior[self.used]))
 
 
-def fit_hypothesis(frame: Frame, begin: Array, price: float, choice: Choice | None = None) -> Hypothesis:
+def fit_hypothesis(frame: JointFrame, begin: Array, price: float, choice: Choice | None = None) -> Hypothesis:
     """Return the hypothesis of a frame, fitted from coordinates `begin` (count,) with the smooth forces of `choice`.
 
     Without a choice, errors of channels and known values are fitted first, and then smooth forces beside them: what
@@ -113,7 +113,7 @@ def fit_hypothesis(frame: Frame, begin: Array, price: float, choice: Choice | No
     return Hypothesis(frame, expansion, choice, evidence, smooth, price, converged=converged)
 
 
-def _maximise(frame: Frame, expansion: Expansion, choice: Choice, *, free: bool) -> tuple[Expansion, Choice, bool]:
+def _maximise(frame: JointFrame, expansion: Expansion, choice: Choice, *, free: bool) -> tuple[Expansion, Choice, bool]:
     """Return the maximum of the log posterior near a point, its smooth forces, and whether the fit converged.
 
     With `free` the smooth forces are chosen in each round, otherwise they stay as they are.
@@ -135,7 +135,7 @@ def _maximise(frame: Frame, expansion: Expansion, choice: Choice, *, free: bool)
     return expansion, choice, False
 
 
-def _tune_steps(frame: Frame, expansion: Expansion) -> Array:
+def _tune_steps(frame: JointFrame, expansion: Expansion) -> Array:
     """Return finite-difference steps (own,) of a share of conditional standard deviations, within bounds."""
     free = frame.problem.free[: frame.own]
     widths = np.array([min(f.sd, f.high - f.low) for f in free])
@@ -143,19 +143,19 @@ def _tune_steps(frame: Frame, expansion: Expansion) -> Array:
     return np.clip(STRIDE / np.sqrt(curvature), 1e-9 * widths, 0.05 * widths)
 
 
-def _list_used(frame: Frame, choice: Choice) -> NDArray[np.intp]:
+def _list_used(frame: JointFrame, choice: Choice) -> NDArray[np.intp]:
     """Return the indices of the coordinates that are free: own ones, and those of the discrepancy with a width."""
     return np.concatenate([np.arange(frame.own), frame.more[frame.widths(choice) > 0.0]])
 
 
-def _compute_precision(frame: Frame, expansion: Expansion, choice: Choice) -> Array:
+def _compute_precision(frame: JointFrame, expansion: Expansion, choice: Choice) -> Array:
     """Return the prior precision (count,) of all coordinates; zero where a coordinate is not used."""
     widths, found = frame.widths(choice), expansion.precision[: frame.count].copy()
     found[frame.own :] = np.where(widths > 0.0, 1.0 / np.where(widths > 0.0, widths, 1.0) ** 2, 0.0)
     return found
 
 
-def solve_posterior(frame: Frame, expansion: Expansion, choice: Choice, held: Sequence[int] = ()) -> Array:
+def solve_posterior(frame: JointFrame, expansion: Expansion, choice: Choice, held: Sequence[int] = ()) -> Array:
     """Return the step (n,) to the maximum of the quadratic posterior; `held` coordinates stay.
 
     Coefficients of smooth forces that are absent go to zero. Coordinates beyond those of the frame are amplitudes of
@@ -177,7 +177,7 @@ def solve_posterior(frame: Frame, expansion: Expansion, choice: Choice, held: Se
     return step
 
 
-def compute_step(frame: Frame, expansion: Expansion, choice: Choice) -> tuple[Array, float]:
+def compute_step(frame: JointFrame, expansion: Expansion, choice: Choice) -> tuple[Array, float]:
     """Return the step (count,) to the maximum of the quadratic posterior within the bounds, and its predicted gain.
 
     Own coordinates that are pressed against a bound stay, and logarithms change by a limited amount.
@@ -197,12 +197,12 @@ def compute_step(frame: Frame, expansion: Expansion, choice: Choice) -> tuple[Ar
     return step, float(gradient @ step) - 0.5 * curved
 
 
-def _compute_log_posterior(frame: Frame, expansion: Expansion, choice: Choice) -> float:
+def _compute_log_posterior(frame: JointFrame, expansion: Expansion, choice: Choice) -> float:
     """Return the log posterior up to a constant, at the point of an expansion."""
     return _add_priors(frame, expansion.at, choice, float(expansion.here.log_likelihood))
 
 
-def _add_priors(frame: Frame, at: Array, choice: Choice, log_likelihood: float) -> float:
+def _add_priors(frame: JointFrame, at: Array, choice: Choice, log_likelihood: float) -> float:
     """Return a log-likelihood of the filter with the log prior of all coordinates."""
     widths = frame.widths(choice)
     used = widths > 0.0
@@ -211,7 +211,7 @@ def _add_priors(frame: Frame, at: Array, choice: Choice, log_likelihood: float) 
     return log_likelihood + own - 0.5 * float(away @ away)
 
 
-def _climb(frame: Frame, expansion: Expansion, step: Array, choice: Choice) -> Expansion | None:
+def _climb(frame: JointFrame, expansion: Expansion, step: Array, choice: Choice) -> Expansion | None:
     """Return the expansion after the largest share of a step that gains; None where none gains.
 
     The whole step is expanded at once, because it usually gains.
@@ -227,7 +227,7 @@ def _climb(frame: Frame, expansion: Expansion, step: Array, choice: Choice) -> E
     return None
 
 
-def _compute_log_evidence(frame: Frame, expansion: Expansion, choice: Choice) -> float:
+def _compute_log_evidence(frame: JointFrame, expansion: Expansion, choice: Choice) -> float:
     """Return the log marginal likelihood by Laplace's method, all coordinates of the discrepancy integrated."""
     widths = frame.widths(choice)
     used = _list_used(frame, choice)

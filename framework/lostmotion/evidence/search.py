@@ -47,7 +47,7 @@ class Budget:
 
 
 @dataclass
-class Search:
+class ExplanationSearch:
     """A search beside a `nominal` fit among terms `keys`; `pieces` are held-out data with their first samples."""
 
     nominal: Fit
@@ -66,7 +66,7 @@ class Search:
         self.errors = list_channel_errors(self.nominal, list(whole.values()))
         self.nominal = add_all_curves(self.nominal)
 
-    def run(self) -> Search:
+    def run(self) -> ExplanationSearch:
         """Return the search after it has ended by itself, or when its time was used up."""
         self._weigh(self.nominal)
         extended: set[frozenset[str]] = set()

@@ -35,7 +35,7 @@ HOPELESS = 30.0
 
 
 @dataclass(frozen=True)
-class Expansion:
+class LocalExpansion:
     """Value, gradient and expected information of the log posterior at a point, with the steps that were used."""
 
     theta: Array
@@ -56,7 +56,7 @@ class Fit:
     """The maximum of a posterior: coordinates, local expansion, log evidence by Laplace's method, and a status."""
 
     problem: Problem
-    local: Expansion
+    local: LocalExpansion
     status: str
     rounds: int
 
@@ -173,7 +173,7 @@ def compute_differences(theta: Array, ends: tuple[Array, Array], seen: Innovatio
     return Sensitivity(theta, seen[0], de, dv, steps)
 
 
-def expand(problem: Problem, theta: Array, steps: Array) -> Expansion:
+def expand(problem: Problem, theta: Array, steps: Array) -> LocalExpansion:
     """Return the log posterior at `theta` with its gradient and its expected information.
 
     A uniform prior contributes the information of its variance: where the recording does not inform a parameter, its
@@ -182,7 +182,7 @@ def expand(problem: Problem, theta: Array, steps: Array) -> Expansion:
     return _expand_from(problem, compute_sensitivity(problem, theta, steps))
 
 
-def _expand_from(problem: Problem, slopes: Sensitivity) -> Expansion:
+def _expand_from(problem: Problem, slopes: Sensitivity) -> LocalExpansion:
     theta = slopes.theta
     with np.errstate(over="ignore", divide="ignore", invalid="ignore"):  # where the filter does not get through
         gradient, information = slopes.gradient(), slopes.information()
@@ -190,12 +190,12 @@ def _expand_from(problem: Problem, slopes: Sensitivity) -> Expansion:
         gradient[i] -= f.prior_information(theta[i]) * (theta[i] - f.mean)
         information[i, i] += f.evidence_information(theta[i])
     log_likelihood = slopes.here.log_likelihood
-    return Expansion(
+    return LocalExpansion(
         theta, log_likelihood, log_likelihood + problem.log_prior(theta), gradient, information, slopes.steps
     )
 
 
-def _tune_steps(local: Expansion, problem: Problem) -> Array:
+def _tune_steps(local: LocalExpansion, problem: Problem) -> Array:
     """Return steps of `STRIDE` conditional standard deviations, within bounds."""
     widths = np.array([min(f.sd, f.high - f.low) for f in problem.free])
     curvature = np.maximum(np.diag(local.information), 1e-300)
@@ -244,7 +244,7 @@ def maximise(
     return Fit(problem, local, "not converged", rounds)
 
 
-def _correct_curvature(local: Expansion, before: Expansion) -> Expansion:
+def _correct_curvature(local: LocalExpansion, before: LocalExpansion) -> LocalExpansion:
     """Return the expansion with the curvature found along the last step, where the expected one is too small.
 
     Where the model does not explain the data, the expected information of the noise levels is too small: steps
@@ -257,7 +257,7 @@ def _correct_curvature(local: Expansion, before: Expansion) -> Expansion:
     return replace(local, information=local.information + more / max(expected, 1e-300) * np.outer(pulled, pulled))
 
 
-def _climb(problem: Problem, local: Expansion, damping: float) -> Expansion | None:
+def _climb(problem: Problem, local: LocalExpansion, damping: float) -> LocalExpansion | None:
     """Return the expansion at the best of several steps with different damping, or None where none gains.
 
     They are computed together with the stencil of the longest step, which is usually accepted.
@@ -279,7 +279,7 @@ def _climb(problem: Problem, local: Expansion, damping: float) -> Expansion | No
     return expand(problem, trials[best], steps)
 
 
-def _maximise_many(problem: Problem, local: Expansion, rounds: int, tolerance: float) -> Fit:
+def _maximise_many(problem: Problem, local: LocalExpansion, rounds: int, tolerance: float) -> Fit:
     """Return the maximum near a point in many coordinates: several steps with each set of derivatives."""
     for turn in range(rounds):
         slopes = compute_sensitivity(problem, local.theta, _tune_steps(local, problem))
@@ -293,7 +293,7 @@ def _maximise_many(problem: Problem, local: Expansion, rounds: int, tolerance: f
     return Fit(problem, expand(problem, local.theta, local.steps), "not converged", rounds)
 
 
-def _reuse_derivatives(problem: Problem, slopes: Sensitivity, local: Expansion) -> Array:
+def _reuse_derivatives(problem: Problem, slopes: Sensitivity, local: LocalExpansion) -> Array:
     """Return the end of steps with the same derivatives, as long as they gain; one filter run for each."""
     damping = 1e-3
     for _ in range(REUSES):
@@ -311,7 +311,7 @@ def _reuse_derivatives(problem: Problem, slopes: Sensitivity, local: Expansion) 
     return local.theta
 
 
-def _compute_step(problem: Problem, local: Expansion, damping: float) -> tuple[Array, float]:
+def _compute_step(problem: Problem, local: LocalExpansion, damping: float) -> tuple[Array, float]:
     """Return the damped step and its predicted gain; coordinates at a bound with an outward gradient stay there."""
     low, high = problem.space.low, problem.space.high
     pressed = ((local.theta <= low) & (local.gradient < 0)) | ((local.theta >= high) & (local.gradient > 0))

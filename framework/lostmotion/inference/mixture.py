@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.inference.fit import Expansion, Fit, compute_robust_covariance, maximise
+from lostmotion.inference.fit import Fit, LocalExpansion, compute_robust_covariance, maximise
 from lostmotion.likelihood.problem import RANDOM
 
 STRIDE = 0.8
@@ -28,7 +28,7 @@ MANY = 24
 class MixtureNode:
     """The posterior at one level of the random force: its expansion there and its log weight."""
 
-    local: Expansion
+    local: LocalExpansion
     weight: float
 
 
@@ -51,7 +51,7 @@ def draw_posterior(fit: Fit, rng: np.random.Generator, count: int) -> Array:
     return fit.problem.clip(theta)
 
 
-def compute_root(local: Expansion) -> Array:
+def compute_root(local: LocalExpansion) -> Array:
     """Return a square root of the covariance of an expansion, with each coordinate scaled to unit deviation first."""
     covariance = local.covariance
     sd = np.sqrt(np.maximum(np.diag(covariance), 1e-300))

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.inference.fit import Expansion, Fit, maximise
+from lostmotion.inference.fit import Fit, LocalExpansion, maximise
 from lostmotion.inference.mixture import compute_nodes, compute_root
 from lostmotion.likelihood.initial import shows_place
 from lostmotion.likelihood.observation import Observation
@@ -69,7 +69,7 @@ def smooth_body_position(fit: Fit, observation: Observation) -> BodyPosition:
     )
 
 
-def _compute_parameter_variance(problem: Problem, local: Expansion) -> Array:
+def _compute_parameter_variance(problem: Problem, local: LocalExpansion) -> Array:
     """Return the variance (samples,) that unknown parameters add to the position at one level of the random force."""
     at = problem.smooth(local.theta).states[:, 0]
     total = np.zeros_like(at)

@@ -42,13 +42,14 @@ class Lanes(Engine):
         "Norgaard, Poulsen, Ravn, Automatica 36 (2000) 1627-1638, with steps halved where a force bends"
     )
 
-    def filter(
-        self, dynamics: Dynamics, observation: Observation, points: Points, kept: Kept | None = None
-    ) -> Innovations:
-        """Return one-step errors and their variances, (points, samples, sensors).
+    def filter(self, dynamics: Dynamics, observation: Observation, points: Points) -> Innovations:
+        """Return one-step errors and their variances, (points, samples, sensors)."""
+        return self.filter_and_keep(dynamics, observation, points, None)
 
-        What a smoother needs of the first point is written into `kept` (`make_kept`), where it is given.
-        """
+    def filter_and_keep(
+        self, dynamics: Dynamics, observation: Observation, points: Points, kept: Kept | None
+    ) -> Innovations:
+        """Return the same as `filter`, and write what a smoother needs of the first point into `kept` (`make_kept`)."""
         shape = (len(points), observation.samples, len(observation.sensors))
         errors, variances, reached = np.zeros(shape), np.ones(shape), np.zeros(len(points), dtype=np.int64)
         for number, rows in enumerate(_group_points(points)):
@@ -70,7 +71,7 @@ class Lanes(Engine):
     ) -> tuple[Kept, Innovations]:
         """Return the input of a smoother at one point, and its innovations."""
         kept = make_kept(dynamics, observation.samples)
-        return kept, self.filter(dynamics, observation, points.select(slice(0, 1)), kept)
+        return kept, self.filter_and_keep(dynamics, observation, points.select(slice(0, 1)), kept)
 
     def simulate(
         self, dynamics: Dynamics, points: Points, start: Array, steps: int, kicks: Array | None = None

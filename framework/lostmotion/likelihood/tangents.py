@@ -120,7 +120,7 @@ def linearise_filter(problem: Problem, thetas: Array, index: int = 0) -> tuple[T
     if np.any(points.lag != 0.0):
         return None
     kept = make_kept(single.dynamics, view.samples)
-    innovations = single.engine.filter(single.dynamics, view, points, kept)
+    innovations = single.engine.filter_and_keep(single.dynamics, view, points, kept)
     if not innovations.finite[0]:
         return None
     seen, _, before, ahead, steps = kept

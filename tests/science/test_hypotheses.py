@@ -16,7 +16,7 @@ from lostmotion.evidence.channels import DriveError, SensorError, list_channel_e
 from lostmotion.evidence.discrepancy import make_frame
 from lostmotion.evidence.expansion import Expansion, compute_log_evidence
 from lostmotion.evidence.hypothesis import fit_hypothesis
-from lostmotion.evidence.search import Budget, Search, compute_probabilities
+from lostmotion.evidence.search import Budget, ExplanationSearch, compute_probabilities
 from lostmotion.inference.curves import add_all_curves
 from lostmotion.inference.fit import choose_first_steps
 from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
@@ -45,7 +45,7 @@ def start_search(folder, extra, *, budget=600.0):
     train, held = split_heldout(prepared.observations)
     nominal = search_maximum(make_problem(system, prepared.case, train, jobs=1), np.random.default_rng(0))
     pieces = [(piece.observation, piece.begin) for piece in cut_heldout(prepared.observations, held)]
-    return Search(nominal, list_fitted_keys(system), pieces, Budget(budget))
+    return ExplanationSearch(nominal, list_fitted_keys(system), pieces, Budget(budget))
 
 
 def make_expansion(errors, variances=None, precision=None):
