@@ -158,8 +158,8 @@ class RivalSettings:
         most=1.0,
     )
     late: float = threshold(
-        0.5,
-        "The standard deviation of the delay between channels, in samples: acquisition systems filter and multiplex.",
+        0.1,
+        "The standard deviation of the delay between channels, in samples, of a system that samples them together.",
     )
     much: float = threshold(
         20.0,
