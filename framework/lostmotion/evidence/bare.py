@@ -11,6 +11,7 @@ from lostmotion.evidence.channels import ChannelError
 from lostmotion.evidence.discrepancy import make_frame
 from lostmotion.evidence.effects import Promise, list_promises
 from lostmotion.evidence.hypothesis import Hypothesis
+from lostmotion.evidence.waves import scan_waves
 from lostmotion.inference.candidates import ScoreTest, fit_term, replace_term
 from lostmotion.inference.commoner import rewrite_term
 from lostmotion.inference.curves import drop_all_curves
@@ -20,6 +21,7 @@ from lostmotion.inference.other_shapes import has_other_shapes, refit_shapes
 from lostmotion.inference.penalties import compute_price, is_simpler
 from lostmotion.inference.shape_scan import scan_shapes
 from lostmotion.kernels.threads import each
+from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
 
 Say = Callable[[str], None]
@@ -53,7 +55,7 @@ class BareFits:
 
     Weights are log evidences over `temper` less the price: on a part of the samples it is the share of that part, so
     that they predict those of all samples. `plain` is the system without curves, `errors` are those of channels, and
-    `promised` is the log evidence that each law alone promises.
+    `promised` is the log evidence that each law alone promises. `whole` are the recordings without cuts.
     """
 
     nominal: Fit
@@ -61,6 +63,7 @@ class BareFits:
     keys: Sequence[str]
     errors: tuple[ChannelError, ...]
     budget: Budget
+    whole: Sequence[Observation]
     temper: float = 1.0
     say: Say = lambda _: None
     shapes: dict[str, Sequence[Mapping[str, float]]] = field(default_factory=dict)
@@ -102,8 +105,10 @@ class BareFits:
             return
         self.extended.add(terms)
         bare = self.fits[terms]
-        for key, found in scan_shapes(drop_all_curves(bare, self.plain)).items():
-            self.shapes[key] = (*self.shapes.get(key, ()), *found)
+        plain = drop_all_curves(bare, self.plain)
+        for found in (scan_shapes(plain), scan_waves(plain, self.whole)):
+            for key, shapes in found.items():
+                self.shapes[key] = (*self.shapes.get(key, ()), *shapes)
         self.say(f"score tests beside {name_terms(terms)}")
         frame = make_frame(bare.problem, bare.theta, self.errors)
         alone = Hypothesis(frame, frame.expand(frame.start, bare.local.steps, frame.none), frame.none, 0.0, 0.0, 0.0)

@@ -51,7 +51,8 @@ class Course:
             return whole
         self.say(f"search on {short.samples} samples in {len(short.observations)} stretches")
         share = short.samples / nominal.problem.samples
-        first = ExplanationSearch(bare, self.keys, (), self.budget.part(FIRST), share, self.say, whole.errors).run()
+        part, recordings = self.budget.part(FIRST), nominal.problem.observations
+        first = ExplanationSearch(bare, self.keys, (), part, share, self.say, whole.errors, recordings).run()
         self.say("the best explanations on all samples")
         for rank, found in enumerate(_list_best(first)):
             if rank > 1 and self.budget.spent:

@@ -47,6 +47,7 @@ class ExplanationSearch:
     temper: float = 1.0
     say: Say = lambda _: None
     errors: tuple[ChannelError, ...] = ()
+    recordings: Sequence[Observation] = ()
     found: dict[Terms, Hypothesis] = field(default_factory=dict)
     extended: set[Terms] = field(default_factory=set)
     dropped: set[tuple[Terms, Terms]] = field(default_factory=set)
@@ -57,7 +58,8 @@ class ExplanationSearch:
         whole = {o.name: o for o in (*self.nominal.problem.observations, *(o for o, _ in self.pieces))}
         self.errors = self.errors or list_channel_errors(self.nominal, list(whole.values()))
         wide, plain = add_all_curves(self.nominal), self.nominal.problem.system
-        self.bare = BareFits(wide, plain, self.keys, self.errors, self.budget, self.temper, self.say)
+        recordings = self.recordings or self.nominal.problem.observations
+        self.bare = BareFits(wide, plain, self.keys, self.errors, self.budget, recordings, self.temper, self.say)
 
     def run(self) -> ExplanationSearch:
         """Return the search after it has ended by itself, or when its time was used up."""
@@ -121,7 +123,9 @@ class ExplanationSearch:
         self.say(f"weighing {name_terms(bare.problem.active)}")
         self.bare.keep(bare)
         frame = make_frame(bare.problem, bare.theta, self.errors)
-        at, price = frame.start if begin is None else frame.transfer(begin), compute_price(bare.problem, len(self.keys))
+        at, price = frame.start, compute_price(bare.problem, len(self.keys))
+        if begin is not None:
+            at = max(frame.transfer(begin), at, key=lambda one: frame.log_likelihood(one, choice or frame.none))
         self._keep(fit_hypothesis(frame, at, price, choice))
 
     def _weigh_unknown(self, target: Hypothesis) -> None:

@@ -34,6 +34,7 @@ from lostmotion.inference.late import (
 from lostmotion.inference.natural import (
     compute_size,
     find_term,
+    is_choice,
     list_star_points,
     list_tried_values,
     make_free_parameters,
@@ -188,7 +189,7 @@ def add_term(problem: Problem, hint: ScoreTest, start: Mapping[str, float]) -> P
 def join_term(problem: Problem, key: str, start: Mapping[str, float]) -> Problem:
     """Return a problem with one more term that begins at `start`, its choices held at the values there."""
     _, slots = find_term(problem, key)
-    choices = {s.key: start[s.key] for s in slots if s.param.choices and s.key in start}
+    choices = {s.key: start[s.key] for s in slots if s.key in start and is_choice(s, start)}
     if onset_key(key) in problem.system.index:
         choices[onset_key(key)] = start.get(onset_key(key), ALWAYS)
     return problem.hold_values(choices).extend(make_term_parameters(problem, key, slots, start), {key})

@@ -79,6 +79,8 @@ def refit_choices(fit: Fit, keys: Iterable[str]) -> Fit:
     single, problem = use_one_core(fit), fit.problem
     problems = []
     for s in collect_shapes(problem, keys):
+        if s.key in problem.keys:
+            continue
         now = float(problem.full(fit.theta)[problem.system.index[s.key]])
         problems += [single.problem.hold_values({s.key: v}) for v in s.param.choices or () if v != now]
     starts = [raise_random_force(one, fit.theta, max(RAISES)) for one in problems]
