@@ -4,9 +4,10 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from lostmotion.diagnosis.confirming import describe_usual_delay
+from lostmotion.inference.term_sets import SimplestTerms
 
 from lostmotion.codec import to_plain
-from lostmotion.diagnosis.confirming import describe_usual_delay
 from lostmotion.diagnosis.findings import withhold_intervals
 from lostmotion.diagnosis.states import (
     LIKELY,
@@ -20,7 +21,6 @@ from lostmotion.diagnosis.states import (
     sort_findings,
     warn_of_moved_amplitudes,
 )
-from lostmotion.inference.term_sets import SimplestTerms
 from lostmotion.results import Interval
 from lostmotion.results.diagnosis import Mechanism
 from lostmotion.settings import DEFAULT

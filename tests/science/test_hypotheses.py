@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 import pytest
+from explained import made_of
 from scipy.integrate import quad
 from scipy.interpolate import CubicSpline
 from scipy.special import logsumexp
-from test_rival import made_of
 
 from lostmotion.diagnosis.compare import cut_heldout
 from lostmotion.diagnosis.search import list_fitted_keys
