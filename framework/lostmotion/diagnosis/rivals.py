@@ -72,7 +72,7 @@ def describe_confusions(d: SearchResult, rows: Sequence[Confusion], proposals: P
     for key, proposal in proposals.items():
         term, _ = find_term(d.explained.chosen.problem, key)
         p = d.explained.inclusion(key)
-        says = f"{_describe_rival(d, term, p)} {sentence(name_other_recording(d))} would decide."
+        says = f"{_describe_rival(term, p)} {sentence(name_other_recording(d))} would decide."
         described[term.name, term.at] = Confusion(
             mechanism=term.name,
             at=term.at,
@@ -105,13 +105,8 @@ def _make_excitation(d: SearchResult, proposal: Proposal) -> DecidingExcitation:
     )
 
 
-def _describe_rival(d: SearchResult, term: Term, p: float) -> str:
-    if p > d.settings.name.worth:
-        return f"{sentence(_name_term(term))} has a probability of {p:.2f} after this recording."
-    return (
-        f"This recording does not exclude {_name_term(term)}: its probability is {rounded(p)} only because of the prior"
-        " penalty of its further parameters."
-    )
+def _describe_rival(term: Term, p: float) -> str:
+    return f"{sentence(_name_term(term))} has a probability of {p:.2f} after this recording."
 
 
 def _name_term(term: Term) -> str:
@@ -119,7 +114,7 @@ def _name_term(term: Term) -> str:
 
 
 def _describe_proposal(d: SearchResult, term: Term, p: float, proposal: Proposal) -> str:
-    opening = _describe_rival(d, term, p)
+    opening = _describe_rival(term, p)
     gain, repeat = proposal.gain, proposal.repeat
     if gain < d.settings.experiment.least:
         return (

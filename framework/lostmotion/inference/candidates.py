@@ -41,15 +41,13 @@ from lostmotion.inference.natural import (
     sort_slots,
 )
 from lostmotion.inference.rounding import drop_rounding, find_shortest_wave
-from lostmotion.likelihood.problem import LATEST, NOISE, RANDOM, FreeParameter, Problem
+from lostmotion.likelihood.problem import LATEST, FreeParameter, Problem
 from lostmotion.likelihood.system import ALWAYS, Slot, onset_key
 from lostmotion.quantities import FORCE, TIME
 
 CREEP, FINEST = 0.02, 32
 SHARES = (1.0, 0.3, 0.01)
 """Fits begin with these shares of the amplitude that a score test predicts."""
-CALM = 0.05
-"""The noise of a refit without random force, in amplitudes of the response."""
 SPREAD = (0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0)
 """Starting values of the shape of a law that replaces a simpler related law, in units of its typical value."""
 RAISED = 2.0
@@ -333,17 +331,6 @@ def fit_term(fit: Fit, hint: ScoreTest, *, hopeless: float = -math.inf) -> Fit:
             break
     best = max(fits, key=lambda f: f.local.log_posterior)
     return refine_change(refine_onset(best, hint.key), hint.key)
-
-
-def refit_with_noise(fit: Fit) -> Fit:
-    """Return the fit started with the residuals as measurement noise and not as a random force."""
-    problem, theta = fit.problem, fit.theta.copy()
-    for i, free in enumerate(problem.free):
-        if free.level == NOISE:
-            theta[i] = math.log(CALM * problem.observations[0].amplitude_of(free.sensor))
-        elif free.parameter == RANDOM:
-            theta[i] = problem.scales.usual
-    return maximise(problem, theta)
 
 
 def replace_term(fit: Fit, key: str, hint: ScoreTest, *, hopeless: float = -math.inf) -> Fit:

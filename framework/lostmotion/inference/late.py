@@ -10,7 +10,6 @@ import numpy as np
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit, Sensitivity, maximise, restart
 from lostmotion.inference.natural import find_term
-from lostmotion.inference.significance import measure_significance
 from lostmotion.likelihood.problem import FreeParameter, Problem
 from lostmotion.likelihood.system import ALWAYS, onset_key
 from lostmotion.quantities import TIME
@@ -119,21 +118,6 @@ def refine_change(fit: Fit, key: str) -> Fit:
     return found if found.local.log_posterior > fit.local.log_posterior else fit
 
 
-def drop_weak_onsets(fit: Fit) -> Fit:
-    """Return a fit with only those onsets that the evidence supports; all other terms act from the beginning.
-
-    Few machines change during a recording. Where residuals are correlated, an onset gains more evidence than with
-    independent samples, by the square of the ratio of robust to usual standard deviations.
-    """
-    for key in sorted(fit.problem.active):
-        if find_onset(fit.problem, key) > ALWAYS and fit.status != "diverged":
-            ever = maximise(restart(fit).hold_values({onset_key(key): ALWAYS}), fit.theta)
-            needed = _compute_price(fit.problem) * measure_significance(fit).ratio ** 2
-            if ever.status != "diverged" and not fit.log_evidence - ever.log_evidence > needed:
-                fit = ever
-    return fit
-
-
 def estimate_onset(fit: Fit, key: str) -> Interval | None:
     """Return median and central 95 % interval of the onset of a term, other parameters held; None where it has none.
 
@@ -161,9 +145,5 @@ def estimate_onset(fit: Fit, key: str) -> Interval | None:
 
 def compute_onset_price(problem: Problem) -> float:
     """Return the log prior penalty of the onsets of the active terms: of their times, and of a change at all."""
-    return _compute_price(problem) * sum(find_onset(problem, key) > ALWAYS for key in problem.active)
-
-
-def _compute_price(problem: Problem) -> float:
-    """Return the log prior penalty of one onset."""
-    return PRICE + problem.settings.select.onset
+    one = PRICE + problem.settings.select.onset
+    return one * sum(find_onset(problem, key) > ALWAYS for key in problem.active)

@@ -6,11 +6,9 @@ import math
 from collections.abc import Iterable, Sequence
 from functools import partial
 
-import numpy as np
-
 from lostmotion.contracts import Array
-from lostmotion.inference.fit import HOPELESS, ROUGHLY, Fit, hold_free, maximise, raise_random_force, use_one_core
-from lostmotion.inference.natural import collect_shapes, sort_slots
+from lostmotion.inference.fit import HOPELESS, ROUGHLY, Fit, maximise, raise_random_force, use_one_core
+from lostmotion.inference.natural import collect_shapes
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.problem import Problem
 
@@ -24,8 +22,6 @@ BETTER = 2.0
 """It goes on only from a maximum whose log evidence is higher by more than this."""
 VARIED = 8.0
 """The widths of two maxima make their log evidences differ from their log posteriors by up to this."""
-LARGEST = 30.0
-"""Log evidences above that of a fit are cut there: such a mode has all the weight."""
 NEAR = 0.03
 """Maxima with shapes that differ by less, as a logarithm, are the same one."""
 
@@ -86,28 +82,6 @@ def refit_choices(fit: Fit, keys: Iterable[str]) -> Fit:
     starts = [raise_random_force(one, fit.theta, max(RAISES)) for one in problems]
     hopeless = fit.local.log_posterior - HOPELESS
     return max([fit, *_maximise_each(problems, starts, fit, hopeless)], key=lambda found: found.log_evidence)
-
-
-def refit_complete(fit: Fit) -> list[Fit]:
-    """Return the fit of each law that is complete: an amplitude of an active term is held at its greatest value."""
-    problem, found = fit.problem, list[Fit]()
-    for key in sorted(problem.active):
-        for slot in sort_slots(problem, key)[0]:
-            if math.isfinite(slot.param.high) and slot.key in problem.keys:
-                at = problem.keys.index(slot.key)
-                held = hold_free(problem, at, slot.param.high)
-                found.append(maximise(held, held.clip(np.delete(fit.theta, at))))
-    return [one for one in found if one.status == "converged"]
-
-
-def compute_complete_gain(fit: Fit) -> float:
-    """Return what complete laws add to the log evidence of a fit; 0 where no law can be complete.
-
-    Half of the prior of an amplitude with a greatest value is at that value, and half is spread over the values below,
-    which the log evidence of the fit counts as a whole.
-    """
-    complete = [min(one.log_evidence - fit.log_evidence, LARGEST) for one in refit_complete(fit)]
-    return math.log(0.5 * (1.0 + sum(math.exp(gain) for gain in complete))) if complete else 0.0
 
 
 def _maximise_each(problems: Sequence[Problem], starts: Sequence[Array], fit: Fit, hopeless: float) -> list[Fit]:
