@@ -40,7 +40,7 @@ def begin(nominal, *, seconds=600.0, temper=1.0):
 @pytest.fixture(scope="module")
 def climbed(nominal):
     fits = begin(nominal)
-    fits.climb()
+    fits.climb(fits.budget)
     return fits
 
 
@@ -103,7 +103,7 @@ def test_what_each_law_alone_promises_is_remembered(climbed):
 
 def test_a_climb_without_time_fits_nothing(nominal):
     fits = begin(nominal, seconds=0.0)
-    fits.climb()
+    fits.climb(fits.budget)
     assert set(fits.fits) == {NOTHING}
 
 

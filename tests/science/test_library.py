@@ -16,7 +16,6 @@ from lostmotion.inference.far_values import hold_shape
 from lostmotion.inference.late import (
     TIMES,
     can_have_onset,
-    cut_at_onsets,
     estimate_onset,
     find_onset,
     list_onsets,
@@ -184,7 +183,8 @@ def test_cut_sensitivities_are_those_of_a_term_that_sets_in(tmp_path):
         np.vstack([slopes.variances, (seen.variances[1] - seen.variances[0])[None] / small]),
         np.append(slopes.steps, small),
     )
-    found = np.array([g[-1] for _, g, _ in cut_at_onsets(fit.problem, joint, 1)])
+    scores, times = joint.scores()[-1], fit.problem.observations[0].time
+    found = np.array([scores[times[: len(scores)] >= onset].sum() for onset in list_onsets(fit.problem)])
     twin = []
     for time in list_onsets(fit.problem):
         late = wider.hold_values({onset_key("linear_stiffness"): float(time)})

@@ -16,6 +16,7 @@ from lostmotion.inference.candidates import ScoreTest, fit_term, replace_term
 from lostmotion.inference.commoner import rewrite_term
 from lostmotion.inference.curves import drop_all_curves
 from lostmotion.inference.fit import ROUGHLY, Fit, maximise, use_cores, use_one_core
+from lostmotion.inference.late import price_onset
 from lostmotion.inference.natural import find_term
 from lostmotion.inference.other_shapes import has_other_shapes, refit_shapes
 from lostmotion.inference.penalties import compute_price, is_simpler
@@ -91,9 +92,9 @@ class BareFits:
         if fit.status != "diverged" and (terms not in self.fits or self.weigh(fit) > self.weigh(self.fits[terms])):
             self.fits[terms] = fit
 
-    def climb(self) -> None:
+    def climb(self, budget: Budget) -> None:
         """Extend the leading set until neither a further term nor another form makes it better."""
-        while (lead := self.lead) not in self.refitted and not self.budget.spent:
+        while (lead := self.lead) not in self.refitted and not budget.spent:
             if lead in self.extended or len(lead) >= MOST_TERMS:
                 self.refit(lead)
             else:
@@ -127,7 +128,7 @@ class BareFits:
         own = self.fits[mine]
         more = [key for key in self.keys if key not in mine and self._join(mine, key) not in have]
         prices = {key: self.temper * self._price(own, key) for key in more}
-        every = list_promises(beside, more, self.shapes, prices)
+        every = list_promises(beside, more, self.shapes, prices, self.temper * price_onset(bare))
         if not mine:
             self.promised |= {p.key: (p.gain + prices[p.key]) / self.temper for p in every}
         found = [p for p in every if p.gain > 0.0]

@@ -18,6 +18,8 @@ from lostmotion.likelihood.observation import Observation
 
 FIRST = 0.6
 """The share of the processor time for the search on stretches."""
+HALF = 0.5
+"""A search with AR(1) noise is begun if no more than this share of the processor time is used."""
 MOST_WHOLE, REACH = 4, 20.0
 """The number of sets that are weighed on all samples, and the largest distance of their scores from the best one."""
 
@@ -34,7 +36,7 @@ class Course:
     def find_explanations(self, nominal: Fit) -> Explanations:
         """Return the explanations of the data that a nominal model leaves something out of, or nothing."""
         search = self._search(nominal)
-        if not self.budget.spent and (coloured := self._find_memory(search)) is not None:
+        if not self.budget.part(HALF).spent and (coloured := self._find_memory(search)) is not None:
             again = self._search(coloured)
             if again.best.score() > search.best.score():
                 search = again

@@ -26,6 +26,8 @@ CLOSE = 25.0
 """A bare fit within this distance of the best one is weighed with a discrepancy."""
 REACH = 8.0
 """Hypotheses within this distance of the best score are extended."""
+CLIMB = 0.6
+"""The share of the processor time in which sets are fitted without a discrepancy."""
 MOST_UNKNOWN = 2
 """The number of sets with terms, best first, beside which an unknown force is fitted."""
 FAR = 300.0
@@ -63,10 +65,12 @@ class ExplanationSearch:
 
     def run(self) -> ExplanationSearch:
         """Return the search after it has ended by itself, or when its time was used up."""
-        self.bare.climb()
+        self.bare.climb(self.budget.part(CLIMB))
         self.weigh(self.bare.fits[self.bare.lead])
         if frozenset() not in self.found:
             self._drop_all(self.best)
+        for key in sorted(self.best.terms):
+            self._drop(self.best, key)
         self._weigh_close()
         while (target := self._choose_next()) is not None:
             if self.budget.spent:

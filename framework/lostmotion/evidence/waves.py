@@ -71,6 +71,7 @@ def _list_waves(motions: Sequence[SmoothedMotion], key: str, wave: Slot) -> list
     power = np.abs(np.fft.rfft(signal, FINER * len(signal))) ** 2
     ratio = power / _measure_level(power)
     paces = 2.0 * np.pi * np.fft.rfftfreq(FINER * len(signal), dt) / omega
+    ratio[np.abs(paces - 1.0) < 2.0 * FINER * paces[1]] = 0.0  # at the drive frequency it is a scale and a delay
     return [{**shape, wave.key: float(paces[i])} for i in _list_peaks(ratio)]
 
 

@@ -86,9 +86,6 @@ class SelectSettings:
         8.0,
         "A value of an amplitude beyond the reach of a score test is tried when it gains this much in log-likelihood.",
     )
-    late: float = threshold(
-        3.0, "A term is tried as one that begins later when this predicts so much more gain, in addition to its price."
-    )
     onset_first: float = threshold(
         0.04, "An onset before this share of a recording is not considered: the term acts from the beginning.", most=1.0
     )
