@@ -31,7 +31,13 @@ class ParametricStiffness(Term):
         Param("cosine", "share of the stiffness that pulsates as cos(ratio omega t)", NUMBER, null=0.0, typical=0.2),
         Param("sine", "share of the stiffness that pulsates as sin(ratio omega t)", NUMBER, null=0.0, typical=0.2),
         Param(
-            "ratio", "frequency over that of the drive", NUMBER, scale="log", choices=(1.0, 2.0, 3.0, 0.5), wave=True
+            "ratio",
+            "frequency over that of the drive",
+            NUMBER,
+            low=0.0,
+            scale="log",
+            choices=(1.0, 2.0, 3.0, 0.5),
+            wave=True,
         ),
     )
     further = (Param("depth", "share of the stiffness that pulsates", NUMBER), Param("phase", "phase in rad", NUMBER))

@@ -41,6 +41,7 @@ class ExcitationHarmonic(DriveTerm):
             "ratio",
             "frequency over that of the drive",
             NUMBER,
+            low=0.0,
             scale="log",
             choices=(2.0, 3.0, 4.0, 5.0, 0.5, 1.5),
             wave=True,
