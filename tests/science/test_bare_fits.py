@@ -34,7 +34,8 @@ def nominal(tmp_path_factory):
 def begin(nominal, *, seconds=600.0, temper=1.0):
     """Return the bare fits of a few terms, with that of no term."""
     errors = list_channel_errors(nominal, list(nominal.problem.observations))
-    return BareFits(add_all_curves(nominal), nominal.problem.system, KEYS, errors, Budget(seconds), nominal.problem.observations, temper)
+    whole = nominal.problem.observations
+    return BareFits(add_all_curves(nominal), nominal.problem.system, KEYS, errors, Budget(seconds), whole, temper)
 
 
 @pytest.fixture(scope="module")
