@@ -166,18 +166,19 @@ def diagnose(
     jobs: int = 2,
     say: Callable[[str], None] = lambda _: None,
     settings: Settings = DEFAULT,
-    budget: float = 0.0,
 ) -> SearchResult:
     """Return the diagnosis of a case; `system` has the model and all candidate terms.
 
-    The search for explanations ends after `budget` seconds of processor time; 0 stands for `choose_budget`.
+    The search for explanations ends after `select.budget` seconds of processor time; 0 stands for `choose_budget`.
     """
     train, held = split_heldout(observations, settings.heldout)
     _check_moving(held)
     say("fit of the nominal model")
     nominal = search_maximum(make_problem(system, case, train, jobs=jobs, settings=settings), rng)
     pieces = [(piece.observation, piece.begin) for piece in cut_heldout(observations, held)]
-    course = Course(list_fitted_keys(system), pieces, Budget(budget or choose_budget(nominal.problem)), say)
+    course = Course(
+        list_fitted_keys(system), pieces, Budget(settings.select.budget or choose_budget(nominal.problem)), say
+    )
     explained = course.find_explanations(nominal)
     first = SearchResult(
         nominal, nominal, explained, held[0], _NOT_LOCATED, None, _EMPTY, {}, {}, 0.0, train, held, tuple(observations)

@@ -45,6 +45,10 @@ class Budget:
         """Whether the time is used up."""
         return time.process_time() - self.begun > self.seconds
 
+    def end(self) -> None:
+        """Declare the time used up."""
+        self.seconds = 0.0
+
     def part(self, share: float) -> Budget:
         """Return the budget of a first part of the work."""
         return Budget(share * self.seconds, self.begun)

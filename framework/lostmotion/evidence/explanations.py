@@ -7,7 +7,8 @@ information, 1 where the model is right.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -19,8 +20,11 @@ from lostmotion.evidence.hypothesis import UNKNOWN, Hypothesis
 from lostmotion.evidence.search import ExplanationSearch, compute_probabilities
 from lostmotion.inference.curves import drop_all_curves
 from lostmotion.inference.fit import Fit
+from lostmotion.inference.natural import find_term
 from lostmotion.likelihood.space import LEVELS
 
+TIED = math.log(20.0)
+"""Two similar laws are not distinguished by log evidences that differ by less than this."""
 LEAST = 1e-3
 """Parameters are averaged over the hypotheses with at least this probability."""
 
@@ -55,7 +59,7 @@ class Explanations:
         """The posterior probability of each set."""
         allowed = [one for terms, one in self.found.items() if terms - {UNKNOWN} not in self.refuted]
         temper = max(allowed, key=lambda one: one.score()).scatter
-        return compute_probabilities(allowed, temper)
+        return _share_ties(allowed, compute_probabilities(allowed, temper))
 
     @property
     def best(self) -> Hypothesis:
@@ -111,6 +115,32 @@ class Explanations:
                 own = _draw(self.found[terms], keys, len(rows), rng)
                 made[rows] = np.where(np.isfinite(own), own, made[rows])
         return made
+
+
+def _share_ties(found: Sequence[Hypothesis], shares: dict[Terms, float]) -> dict[Terms, float]:
+    """Return probabilities in which laws that the data do not distinguish share theirs by their prior odds.
+
+    They are similar laws with as many parameters, one in place of the other in the same set. Their evidences differ by
+    the widths of their priors alone.
+    """
+    for best in sorted(found, key=lambda one: -one.score()):
+        group = [one for one in found if one is best or _is_tied(best, one)]
+        odds = np.exp([min(one.price for one in group) - one.price for one in group])
+        total = sum(shares[one.terms] for one in group)
+        if len(group) > 1:
+            shares |= {one.terms: total * float(o / odds.sum()) for one, o in zip(group, odds, strict=True)}
+            break
+    return shares
+
+
+def _is_tied(best: Hypothesis, other: Hypothesis) -> bool:
+    """Return whether a hypothesis has a similar law in place of one of another, and about the same evidence."""
+    mine, its = best.terms - other.terms, other.terms - best.terms
+    if len(mine) != 1 or len(its) != 1 or UNKNOWN in mine | its or best.frame.own != other.frame.own:
+        return False
+    one, two = (find_term(best.frame.problem, next(iter(keys)))[0] for keys in (mine, its))
+    alike = {*one.resembles, *one.equals, *two.resembles, *two.equals} & {one.name, two.name}
+    return bool(alike) and abs(best.score() + best.price - other.score() - other.price) < TIED
 
 
 def _draw(found: Hypothesis, keys: list[str], count: int, rng: np.random.Generator) -> Array:

@@ -64,7 +64,19 @@ class ExplanationSearch:
         self.bare = BareFits(wide, plain, self.keys, self.errors, self.budget, recordings, self.temper, self.say)
 
     def run(self) -> ExplanationSearch:
-        """Return the search after it has ended by itself, or when its time was used up."""
+        """Return the search after it has ended by itself, when its time was used up, or when the user cancelled it."""
+        try:
+            self._run()
+        except KeyboardInterrupt:
+            if frozenset() not in self.found:
+                raise
+            self.say("cancelled: the best explanation so far")
+            self.budget.end()
+            self.skipped.append("any set")
+        return self
+
+    def _run(self) -> None:
+        """Climb, weigh what is near the best set, and extend it."""
         self.bare.climb(self.budget.part(CLIMB))
         self.weigh(self.bare.fits[self.bare.lead])
         if frozenset() not in self.found:
@@ -78,7 +90,6 @@ class ExplanationSearch:
                 break
             self.extended.add(target.terms)
             self._extend(target)
-        return self
 
     def weigh_unknown(self) -> None:
         """Fit the best sets, and the model without any term, with an unknown force."""
