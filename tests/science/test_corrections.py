@@ -70,7 +70,7 @@ def test_a_clean_machine_needs_no_correction(hypothesis, clean):
     observation = clean.problem.observations[0]
     assert none.correct(observation) is observation
     assert none.refit(clean) is clean
-    assert list(none.describe()) == []
+    assert list(none.describe(observation)) == []
 
 
 @pytest.mark.parametrize(("deviations", "clear"), [(0.9 * CLEAR, False), (1.1 * CLEAR, True), (-1.1 * CLEAR, True)])
@@ -95,22 +95,22 @@ def test_a_known_value_is_corrected_by_its_factor(hypothesis, clean):
     at = fit.problem.system.index["m"]
     assert fit.problem.known[at] == pytest.approx(factor * clean.problem.known[at])
     assert clean.problem.known[at] == VALUES["m"], "the fit before is unchanged"
-    assert f"m is {factor:.4g} times its known value" in list(found.describe())
+    assert f"m is {factor:.4g} times its known value" in list(found.describe(clean.problem.observations[0]))
 
 
 def test_a_recording_is_corrected_by_sizes_and_shapes(clean):
     observation = clean.problem.observations[0].part(FIRST, FIRST + SAMPLES)
     shape = np.arange(float(clean.problem.observations[0].samples))
-    right = Corrections(
-        ((SensorError(0, {observation.name: (0, shape)}, 0.01), 2e-6), (DriveError(0, False, 0.01), 0.05))
-    )
+    sensor, drive = SensorError(0, 2, {observation.name: (0, shape)}, 0.01), DriveError(0, False, 0.01)
+    right = Corrections(((sensor, 2e-6), (drive, 0.05)), clear=(True, True))
     found = right.correct(observation)
     assert found.readings[:, 0] - observation.readings[:, 0] == pytest.approx(2e-6 * np.arange(FIRST, FIRST + SAMPLES))
     assert found.inputs[:, 0] == pytest.approx(1.05 * observation.inputs[:, 0])
-    assert list(right.describe()) == [
-        "sensor 1 has an error of 0.0002 % of its range",
-        "the scale of input 1 is wrong by 5 %",
+    assert list(right.describe(observation)) == [
+        f"{observation.sensors[0].label} has a quadratic error of 0.0002 % of its range",
+        f"the scale of {observation.driven[0]} is wrong by 5 %",
     ]
+    assert list(replace(right, clear=(False, True)).describe(observation)) == list(right.describe(observation))[1:]
 
 
 def test_a_drive_that_is_late_is_corrected_to_when_it_acted(clean):
@@ -118,11 +118,11 @@ def test_a_drive_that_is_late_is_corrected_to_when_it_acted(clean):
     force, dt = multisine(10.0, 0.5, 5.0, 0), T[1] - T[0]
     observation = clean.problem.observations[0]
     shown = replace(observation, inputs=force(observation.time)[:, None])
-    late = Corrections(((DriveError(0, True, 0.1), -0.3),))
+    late = Corrections(((DriveError(0, True, 0.1), -0.3),), clear=(True,))
     right = late.correct(shown).inputs[:, 0]
     assert right == pytest.approx(force(observation.time - 0.3 * dt), abs=0.3)
     assert np.abs(shown.inputs[:, 0] - force(observation.time - 0.3 * dt)).max() > 0.8
-    assert list(late.describe()) == ["input 1 is late by 0.3 samples"]
+    assert list(late.describe(shown)) == [f"{shown.driven[0]} is late by 0.3 samples"]
 
 
 def test_a_course_finds_friction_and_keeps_the_model_without_it(tmp_path):

@@ -34,9 +34,10 @@ def write_notes(outcome: Outcome, said: Sequence[str]) -> list[str]:
     ]
     doubts += [text for key in d.named for text in warn_of_moved_amplitudes(d, key)]
     if d.corrections:
+        told = ", ".join(d.corrections.describe(d.shown))
         doubts.append(
-            f"Usual errors of channels and known values are corrected: {', '.join(d.corrections.describe())}. They are"
-            " within what acquisition systems and drawings usually have, so nothing is missing in the model for them."
+            f"Usual errors of channels and known values are corrected: {told}. They are within"
+            " what acquisition systems and drawings usually have, so nothing is missing in the model for them."
         )
     doubts += [text for key in d.named for text in warn_of_short_delay(d, key)]
     if d.explained.skipped:

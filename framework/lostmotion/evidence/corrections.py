@@ -22,10 +22,14 @@ CLEAR = 4.0
 
 @dataclass(frozen=True)
 class Corrections:
-    """Errors of channels with their sizes, and factors of known values by name; both are empty without a clear one."""
+    """Errors of channels with their sizes, and factors of known values by name; both are empty without a clear one.
+
+    `clear` tells for each error of a channel whether it is one of the clear ones.
+    """
 
     errors: tuple[tuple[ChannelError, float], ...] = ()
     factors: tuple[tuple[str, float], ...] = ()
+    clear: tuple[bool, ...] = ()
 
     def __bool__(self) -> bool:
         """Whether anything is corrected."""
@@ -48,17 +52,28 @@ class Corrections:
         found = maximise(replace(problem, known=known), fit.theta)
         return fit if found.status == "diverged" else found
 
-    def describe(self) -> Iterator[str]:
-        """Yield a clause for each correction, largest first in the order of the channels."""
-        for error, size in self.errors:
-            if isinstance(error, DriveError) and error.late:
-                yield f"input {error.column + 1} is {'late' if size < 0.0 else 'early'} by {abs(size):.2g} samples"
-            elif isinstance(error, DriveError):
-                yield f"the scale of input {error.column + 1} is wrong by {100.0 * size:.2g} %"
-            else:
-                yield f"sensor {error.sensor + 1} has an error of {100.0 * size:.2g} % of its range"
+    def describe(self, first: Observation) -> Iterator[str]:
+        """Yield a clause for each clear correction; `first` is a recording with the names of the channels."""
+        for (error, size), clear in zip(self.errors, self.clear, strict=True):
+            if clear:
+                yield _describe_error(error, size, first)
         for name, factor in self.factors:
             yield f"{name} is {factor:.4g} times its known value"
+
+
+def _describe_error(error: ChannelError, size: float, first: Observation) -> str:
+    """Return a clause on the error of a channel."""
+    share = f"{100.0 * abs(size):.2g} %"
+    if isinstance(error, DriveError):
+        driven = first.driven or ()
+        name = driven[error.column] if error.column < len(driven) else f"input {error.column + 1}"
+        if error.late:
+            return f"{name} is {'late' if size < 0.0 else 'early'} by {abs(size):.2g} samples"
+        return f"the scale of {name} is wrong by {share}"
+    name = first.sensors[error.sensor].label
+    if error.power == 1:
+        return f"the scale of {name} is wrong by {share}"
+    return f"{name} has a {'quadratic' if error.power == 2 else 'cubic'} error of {share} of its range"
 
 
 def find_corrections(found: Hypothesis) -> Corrections:
@@ -77,4 +92,4 @@ def find_corrections(found: Hypothesis) -> Corrections:
         errors = tuple((error, float(found.at[i])) for i, error in zip(channels, frame.errors, strict=True))
     if any(map(is_clear, known)):
         factors = tuple((frame.problem.keys[i], math.exp(float(found.at[i] - middle[i]))) for i in known)
-    return Corrections(errors, factors)
+    return Corrections(errors, factors, tuple(map(is_clear, channels)) if errors else ())
