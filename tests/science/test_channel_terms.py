@@ -64,14 +64,17 @@ def explained(response, seed):
 
 
 FAULTS = {
-    "delay": ("excitation_delay", "delay", 0.01, moved(delay=0.01)),
+    "delay": ("excitation_delay", "delay", 0.015, moved(delay=0.015)),
     "gain": ("excitation_gain", "error", 0.1, moved(gain=1.1)),
 }
 
 
 @pytest.mark.parametrize("fault", ["delay", pytest.param("gain", marks=pytest.mark.slow)])
 def test_a_fault_of_the_drive_is_named_and_measured(fault):
-    """Each is named alone; the size lies within four standard deviations of the truth. Seeded."""
+    """Each is named alone; the size lies within four standard deviations of the truth. Seeded.
+
+    The delay is 0.75 samples. Acquisition systems are late by some tenths of a sample, so half a sample has 0.947.
+    """
     key, parameter, truth, response = FAULTS[fault]
     found = explained(response, seed=3)
     assert found.terms == {key}

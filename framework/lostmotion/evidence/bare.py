@@ -18,7 +18,7 @@ from lostmotion.inference.curves import drop_all_curves
 from lostmotion.inference.fit import ROUGHLY, Fit, maximise, use_cores, use_one_core
 from lostmotion.inference.late import price_onset
 from lostmotion.inference.natural import find_term
-from lostmotion.inference.other_shapes import has_other_shapes, refit_shapes
+from lostmotion.inference.other_shapes import has_other_shapes, refit_complete, refit_shapes
 from lostmotion.inference.penalties import compute_price, is_simpler
 from lostmotion.inference.shape_scan import scan_shapes
 from lostmotion.kernels.threads import each
@@ -154,12 +154,14 @@ class BareFits:
         return replace_term(bare, simpler, test) if simpler else fit_term(bare, test)
 
     def refit(self, terms: Terms) -> None:
-        """Fit other forms of a set: a rich law as a sum of simple ones, and other shapes of its laws."""
+        """Fit other forms of a set: a rich law as a sum of simple ones, a complete law, other shapes."""
         self.refitted.add(terms)
         bare = self.fits[terms]
         for key in sorted(terms):
             if (problem := rewrite_term(bare, key, self.keys)) is not None:
                 self.keep(maximise(problem, tolerance=ROUGHLY))
+        for complete in refit_complete(bare):
+            self.keep(use_cores(complete, bare.problem.jobs))
         if has_other_shapes(bare.problem):
             self.say(f"other shapes of {name_terms(terms)}")
             self.keep(use_cores(refit_shapes(bare), bare.problem.jobs))

@@ -158,4 +158,6 @@ def _draw(found: Hypothesis, keys: list[str], count: int, rng: np.random.Generat
         if key in places:
             f = free[places[key]]
             made[:, column] = [f.value(at) for at in theta[:, places[key]]]
+        elif key.rpartition(".")[0] in found.frame.terms:
+            made[:, column] = found.frame.problem.known[found.frame.problem.system.index[key]]
     return made

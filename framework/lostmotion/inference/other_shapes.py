@@ -6,9 +6,11 @@ import math
 from collections.abc import Iterable, Sequence
 from functools import partial
 
+import numpy as np
+
 from lostmotion.contracts import Array
-from lostmotion.inference.fit import HOPELESS, ROUGHLY, Fit, maximise, raise_random_force, use_one_core
-from lostmotion.inference.natural import collect_shapes
+from lostmotion.inference.fit import HOPELESS, ROUGHLY, Fit, hold_free, maximise, raise_random_force, use_one_core
+from lostmotion.inference.natural import collect_shapes, sort_slots
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.problem import Problem
 
@@ -82,6 +84,17 @@ def refit_choices(fit: Fit, keys: Iterable[str]) -> Fit:
     starts = [raise_random_force(one, fit.theta, max(RAISES)) for one in problems]
     hopeless = fit.local.log_posterior - HOPELESS
     return max([fit, *_maximise_each(problems, starts, fit, hopeless)], key=lambda found: found.log_evidence)
+
+
+def refit_complete(fit: Fit) -> list[Fit]:
+    """Return the fit of each law that is complete: an amplitude of an active term is held at its greatest value."""
+    problem, found = fit.problem, list[Fit]()
+    for slot in (s for key in sorted(problem.active) for s in sort_slots(problem, key)[0]):
+        if math.isfinite(slot.param.high) and slot.key in problem.keys:
+            at = problem.keys.index(slot.key)
+            held = hold_free(problem, at, slot.param.high)
+            found.append(maximise(held, held.clip(np.delete(fit.theta, at))))
+    return [one for one in found if one.status == "converged"]
 
 
 def _maximise_each(problems: Sequence[Problem], starts: Sequence[Array], fit: Fit, hopeless: float) -> list[Fit]:
