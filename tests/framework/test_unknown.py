@@ -8,6 +8,7 @@ import pytest
 from made_explanations import FRICTION, diagnosis, explanations, hypothesis
 
 from lostmotion.diagnosis import unknowns
+from lostmotion.diagnosis.verdict import rank_candidates
 from lostmotion.inference.curves import _keep_independent
 from lostmotion.inference.learned import OverPhase, OverPosition, compute_spread, list_covariates
 from lostmotion.inference.proposal import Axis, propose_formula
@@ -171,3 +172,11 @@ def test_a_random_force_beyond_the_usual_is_an_unknown_force_if_nothing_was_foun
     d = diagnosis(explanations())
     d.unexplained, d.random_gain = unexplained, 3.0
     assert unknowns.compute_unknown_odds(d) == pytest.approx((p, 3.0 * unexplained))
+
+
+@pytest.mark.parametrize("random_gain", [0.0, 3.0, 30.0])
+def test_nothing_missing_and_something_unknown_are_not_both_probable(random_gain):
+    d = diagnosis(explanations())
+    d.unexplained, d.random_gain = random_gain > 0.0, random_gain
+    rows = {row.mechanism: row.probability for row in rank_candidates(d, (), failed=False)}
+    assert rows["nothing_missing"] + rows["unknown"] <= 1.0 + 1e-9

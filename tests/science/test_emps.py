@@ -44,7 +44,7 @@ def test_friction_and_damping_by_direction_are_found(outcome):
 @pytest.fixture(scope="module")
 def published(outcome):
     """The fit of the published model: dry friction, and a constant force."""
-    fit = outcome.diagnosis.before
+    fit = outcome.diagnosis.explained.nominal
     for key in sorted(PUBLISHED_TERMS):
         fit = fit_term(fit, run_score_test(fit, compute_slopes(fit), key))
     return fit
