@@ -56,6 +56,7 @@ def hypothesis(values, score, *, unknown=False, sd=WIDTH, log_evidence=None):
         unknown=unknown,
         log_evidence=score if log_evidence is None else log_evidence,
         heldout=0.0,
+        price=0.0,
         score=lambda temper=1.0: score / temper,
     )
 

@@ -159,5 +159,6 @@ def _draw(found: Hypothesis, keys: list[str], count: int, rng: np.random.Generat
             f = free[places[key]]
             made[:, column] = [f.value(at) for at in theta[:, places[key]]]
         elif key.rpartition(".")[0] in found.frame.terms:
-            made[:, column] = found.frame.problem.known[found.frame.problem.system.index[key]]
+            held = found.frame.problem.known[found.frame.problem.system.index[key]]
+            made[:, column] = held or math.nan  # a complete law; at zero the amplitude is absent
     return made
