@@ -13,7 +13,7 @@ from lostmotion.diagnosis.compare import Prediction
 from lostmotion.diagnosis.search import SearchResult
 from lostmotion.evidence.hypothesis import UNKNOWN
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.natural import find_term, sort_slots
+from lostmotion.inference.natural import find_term
 from lostmotion.inference.penalties import is_simpler
 from lostmotion.quantities import TIME
 from lostmotion.report.words import to_words
@@ -22,7 +22,6 @@ from lostmotion.results.diagnosis import Mechanism, OpenTerm
 from lostmotion.settings import DEFAULT, NameSettings
 
 NAMED, LIKELY, OPEN = "named", "likely", "open"
-BAND = 1.96
 SHORT = 1.0
 """A delay of no more than this number of samples may be that of the acquisition system."""
 
@@ -93,11 +92,8 @@ def _warn_of_probability(d: SearchResult, key: str) -> Iterator[str]:
 
 def _warn_of_vague_size(d: SearchResult, key: str) -> Iterator[str]:
     """Yield a warning for each amplitude of a term whose interval reaches zero: then a simpler law may be the name."""
-    found, names = d.explained.best, {s.key: s.param for s in sort_slots(d.after.problem, key)[0]}
-    sds = np.sqrt(np.maximum(np.diag(found.covariance), 0.0))
-    for f, at, sd in zip(found.frame.problem.free[: found.frame.own], found.theta, sds, strict=True):
-        if f.key in names and not f.log and abs(at - (names[f.key].null or 0.0)) < BAND * sd:
-            yield f"The interval of its {to_words(names[f.key].name)} reaches zero: the recording does not show it."
+    for name in d.explained.best.list_vague(key):
+        yield f"The interval of its {to_words(name)} reaches zero: the recording does not show it."
 
 
 def _warn_of_rest(d: SearchResult, key: str) -> Iterator[str]:

@@ -21,14 +21,19 @@ from lostmotion.contracts import Array
 from lostmotion.evidence.discrepancy import Choice, JointFrame, Quadratic
 from lostmotion.evidence.expansion import Expansion
 from lostmotion.inference.fit import STRIDE, choose_first_steps, solve_scaled
+from lostmotion.inference.natural import sort_slots
 from lostmotion.likelihood.space import LEVELS
 
 UNKNOWN = "unknown"
 """The name of a smooth force that is larger than the usual discrepancy, among the terms of a set."""
+BAND = 1.96
+"""The half width of a central interval of 95 %, in standard deviations."""
 ROUNDS, TOLERANCE = 10, 0.4
 """The largest number of rounds, and the gain in log posterior below which a fit has converged."""
 SHARES = (0.4, 0.1, 0.02)
 """Shares of a Gauss-Newton step that are tried where the whole step does not gain."""
+USUAL = 3.0
+"""Known values and channels are wrong by at most this many of their standard deviations: a larger error has a name."""
 MOST_LOG, MOST_LEVEL = 1.5, 4.0
 """The largest change of a logarithm in one step: of a parameter, and of a noise level."""
 
@@ -86,6 +91,20 @@ class Hypothesis:
         """The posterior covariance (own, own) of the own coordinates, with the discrepancy integrated."""
         own = self.frame.own
         return np.asarray(solve_scaled(self.precision, np.eye(len(self.used)))[:own, :own])
+
+    def list_vague(self, key: str) -> list[str]:
+        """Return the amplitudes of a term, by the name of the parameter, whose 95 % interval reaches zero."""
+        names = {s.key: s.param for s in sort_slots(self.frame.problem, key)[0]}
+        sds = np.sqrt(np.maximum(np.diag(self.covariance), 0.0))
+        rows = zip(self.frame.problem.free[: self.frame.own], self.theta, sds, strict=True)
+        amplitudes = [(names[f.key], at, sd) for f, at, sd in rows if f.key in names and not f.log]
+        return [param.name for param, at, sd in amplitudes if abs(at - (param.null or 0.0)) < BAND * sd]
+
+    def is_vague(self, key: str) -> bool:
+        """Return whether the 95 % interval of each amplitude of a term reaches zero."""
+        free = {f.key for f in self.frame.problem.free[: self.frame.own] if not f.log}
+        amplitudes = [s for s in sort_slots(self.frame.problem, key)[0] if s.key in free]
+        return bool(amplitudes) and len(self.list_vague(key)) == len(amplitudes)
 
     @property
     def used(self) -> NDArray[np.intp]:
@@ -190,16 +209,28 @@ def compute_step(frame: JointFrame, expansion: Expansion, choice: Choice) -> tup
     free, at = frame.problem.free[: frame.own], expansion.at
     precision = _compute_precision(frame, expansion, choice)
     gradient = expansion.gradient - precision * (at - np.concatenate([expansion.middle[: frame.own], frame.middle]))
-    low = [i for i, f in enumerate(free) if at[i] <= f.low and gradient[i] < 0.0]
-    high = [i for i, f in enumerate(free) if at[i] >= f.high and gradient[i] > 0.0]
-    step = solve_posterior(frame, expansion, choice, low + high)
+    low, high = _list_bounds(frame)
+    pressed = ((at <= low) & (gradient < 0.0)) | ((at >= high) & (gradient > 0.0))
+    step = solve_posterior(frame, expansion, choice, np.flatnonzero(pressed).tolist())
     for i, f in enumerate(free):
         if f.log or f.key.startswith("log_"):
             most = MOST_LEVEL if f.level in LEVELS else MOST_LOG
             step[i] = min(max(step[i], -most), most)
-        step[i] = min(max(at[i] + step[i], f.low), f.high) - at[i]
+    step = np.clip(at + step, low, high) - at
     curved = float(step @ expansion.information @ step) + float(np.sum(precision * step**2))
     return step, float(gradient @ step) - 0.5 * curved
+
+
+def _list_bounds(frame: JointFrame) -> tuple[Array, Array]:
+    """Return the bounds (count,) of the coordinates; coefficients of smooth forces have none."""
+    low, high = np.full(frame.count, -math.inf), np.full(frame.count, math.inf)
+    free = frame.problem.free[: frame.own]
+    low[: frame.own], high[: frame.own] = [f.low for f in free], [f.high for f in free]
+    widths = USUAL * frame.widths(frame.none)
+    for part in (frame.known, frame.channels):
+        middle, width = (values[part.start - frame.own : part.stop - frame.own] for values in (frame.middle, widths))
+        low[part], high[part] = middle - width, middle + width
+    return low, high
 
 
 def _compute_log_posterior(frame: JointFrame, expansion: Expansion, choice: Choice) -> float:

@@ -91,6 +91,15 @@ class ExplanationSearch:
             self.extended.add(target.terms)
             self._extend(target)
 
+    def drop_vague(self) -> None:
+        """Weigh the best set without each term of which no amplitude is told from zero, until it has no such term."""
+        tried: set[Terms] = set()
+        while (best := self.best).terms not in tried:
+            tried.add(best.terms)
+            for key in sorted(best.frame.terms):
+                if best.is_vague(key):
+                    self._drop(best, key)
+
     def weigh_unknown(self) -> None:
         """Fit the best sets, and the model without any term, with an unknown force."""
         ranked = sorted((one for one in self.found.values() if one.terms), key=self.score, reverse=True)
@@ -116,7 +125,8 @@ class ExplanationSearch:
     def _extend(self, target: Hypothesis) -> None:
         """Weigh the subsets of a set, and the sets with one more term that promise to be better."""
         for key in sorted(target.terms):
-            self._drop(target, key)
+            if not self.budget.spent:
+                self._drop(target, key)
         self.bare.extend(target.terms)
         self._weigh_close()
         if target.smooth > 0.0 and not self.budget.spent:
@@ -182,7 +192,7 @@ class ExplanationSearch:
         less = target.terms - {key}
         known, least = self.found.get(less), self.score(self.best) - FAR
         far = known is not None and self.score(known) < least
-        if far or (target.terms, less) in self.dropped or self.budget.spent:
+        if far or (target.terms, less) in self.dropped:
             return
         self.dropped.add((target.terms, less))
         problem = self.bare.fits[target.terms].problem.remove_term(key, self._get_own_values(target))

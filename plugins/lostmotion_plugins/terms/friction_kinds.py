@@ -24,6 +24,7 @@ class DirectionalFriction(Term):
 
     at: str = "ground"
     name: ClassVar[str] = "directional_friction"
+    unlikely: ClassVar[float] = 3.0
     extends: ClassVar[tuple[str, ...]] = ("coulomb_friction",)
     physics: ClassVar[str] = (
         "Dry friction opposes the motion: {forward} in positive direction, {backward} in negative direction"
