@@ -13,6 +13,7 @@ from functools import partial
 
 import numpy as np
 
+from fuzz_door import door
 from fuzz_seeds import CASE, COLUMNS, TABLES, N
 from lostmotion.analysis import source
 from lostmotion.analysis.source import WantedChannel, load_source
@@ -28,7 +29,7 @@ from lostmotion.recording.formats import table_of
 from lostmotion.registry import Registry, default
 
 STORED = ("diagnosis", "analysis", "chain", "map", "campaign")
-KINDS = (*TABLES, "case", "values", "plugin", *STORED)
+KINDS = (*TABLES, "case", "values", "plugin", *STORED, "door")
 SPEC = RecordingSpec("run", "time", None, (Channel("u", "force", "N"),), (Channel("x", "position", "m"),))
 NASTY = [
     b"1e999", b"-1e308", b"nan", b"inf", b"0x1p-1080", b"9" * 400, b"0x" + b"f" * 5000, b"1" * 5000, b"", b"\x00",
@@ -300,5 +301,5 @@ TARGETS = {
     "case": case, "values": values, "plugin": plugin,
     "diagnosis": partial(report, "diagnosis", "diagnosis.json", "arrays.nc"),
     "analysis": partial(report, "analysis", "analysis.json", "analysis.nc"), "chain": chain,
-    "map": stored_map, "campaign": campaign,
+    "map": stored_map, "campaign": campaign, "door": door,
 }  # fmt: skip

@@ -25,7 +25,8 @@ if TYPE_CHECKING:
     from lostmotion.errors import LostMotionError
     from lostmotion.errors import LostMotionError as LostmotionError
     from lostmotion.notebook.case import Case, model
-    from lostmotion.notebook.doors import analyse, diagnose, identify, load, map, simulate
+    from lostmotion.notebook.doors import analyse, diagnose, identify, load
+    from lostmotion.notebook.models import map, simulate
     from lostmotion.notebook.priors import HalfNormal, LogNormal, LogUniform, Normal, Uniform
     from lostmotion.recording import Recording
     from lostmotion.settings import Settings
@@ -37,7 +38,8 @@ __all__ = [
     "simulate", "surrogate_test",
 ]  # fmt: skip
 _TARGETS = {
-    **{name: f"notebook.doors:{name}" for name in ("analyse", "diagnose", "identify", "load", "map", "simulate")},
+    **{name: f"notebook.doors:{name}" for name in ("analyse", "diagnose", "identify", "load")},
+    **{name: f"notebook.models:{name}" for name in ("map", "simulate")},
     **{name: f"notebook.case:{name}" for name in ("Case", "model")},
     **{name: f"notebook.priors:{name}" for name in ("HalfNormal", "LogNormal", "LogUniform", "Normal", "Uniform")},
     "LostMotionError": "errors:LostMotionError",

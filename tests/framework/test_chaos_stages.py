@@ -9,7 +9,7 @@ from lostmotion.analysis.denoise import denoise
 from lostmotion.analysis.embed import embed
 from lostmotion.analysis.quantify import quantify
 from lostmotion.contracts import Denoiser, Embedder, Quantifier, Series
-from lostmotion.errors import ContractError, DataError
+from lostmotion.errors import CaseError, ContractError, DataError
 from lostmotion.results import Embedding, Estimate
 from lostmotion.signals import checked, delay_vectors
 
@@ -85,12 +85,12 @@ def test_a_huge_offset_costs_no_more_digits_than_the_recording_has_lost():
 
 @pytest.mark.parametrize("dt", [0.0, -1.0, np.nan, np.inf])
 def test_a_step_that_is_no_time_is_refused(dt):
-    with pytest.raises(DataError, match="sampling step"):
+    with pytest.raises(CaseError, match=r"dt is .*: expected a number above 0"):
         embed(wave(), Plain(), dt=dt)
 
 
 def test_a_period_that_is_no_time_is_refused():
-    with pytest.raises(DataError, match="period"):
+    with pytest.raises(CaseError, match="period is -1.0"):
         embed(wave(), Plain(), dt=0.1, period=-1.0)
 
 

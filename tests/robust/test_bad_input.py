@@ -247,7 +247,7 @@ def test_the_fuzz_campaign_finds_nothing() -> None:
         "--first",
         "7",
     ]
-    kinds = ("csv", "mat5", "h5", "case", "values", "plugin", "chain", "campaign")
+    kinds = ("csv", "mat5", "h5", "case", "values", "plugin", "chain", "campaign", "door")
     done = subprocess.run(
         [*line, *(word for kind in kinds for word in ("--only", kind))], capture_output=True, text=True, check=False
     )

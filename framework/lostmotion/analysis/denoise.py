@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from lostmotion.arguments import checked, instance, random
 from lostmotion.contracts import Array, Denoiser, Quantifier, Series
 from lostmotion.errors import ContractError
 from lostmotion.results import Estimate
@@ -20,6 +21,12 @@ class Denoised:
     after: Estimate
 
 
+@checked(
+    series=instance(Series, "a Series, as lm.embed returns it"),
+    denoiser=instance(Denoiser, "a denoiser, such as lm.registry.default().make('denoiser', NAME)"),
+    meter=instance(Quantifier, "a quantifier, such as lm.registry.default().make('quantifier', NAME)"),
+    rng=random,
+)
 def denoise(series: Series, denoiser: Denoiser, meter: Quantifier[Series], *, rng: np.random.Generator) -> Denoised:
     """Return the cleaned series; `meter` measures the noise, as a share of the signal's standard deviation.
 

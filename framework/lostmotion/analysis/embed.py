@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import math
-
 from numpy.typing import ArrayLike
 
+from lostmotion import arguments
 from lostmotion.contracts import Embedder, Series
 from lostmotion.errors import ContractError, DataError
 from lostmotion.results import STATUSES, Embedding
@@ -15,15 +14,16 @@ MIN_DELAY_VECTORS = 100
 """Smallest number of delay vectors that is accepted."""
 
 
+@arguments.checked(
+    embedder=arguments.instance(Embedder, "an embedder, such as lm.registry.default().make('embedder', NAME)"),
+    dt=arguments.positive,
+    period=arguments.maybe(arguments.positive),
+)
 def embed(values: ArrayLike, embedder: Embedder, *, dt: float, period: float | None = None) -> Series:
     """Return the centred series of `values` (n,), sampled every `dt` s, with the embedding that `embedder` chooses.
 
     `period` (s) is that of the drive, if there is one. Raises `DataError` for values that cannot be analysed.
     """
-    if not (math.isfinite(dt) and dt > 0.0):
-        raise DataError(f"the sampling step is {dt:g} s: a positive number of seconds is needed")
-    if period is not None and not (math.isfinite(period) and period > 0.0):
-        raise DataError(f"the period of the drive is {period:g} s: give a positive one, or none")
     x = checked(values)
     chosen = embedder.choose(x.copy(), dt=dt)
     _require_sound(chosen, embedder.name)

@@ -6,16 +6,22 @@ import math
 
 import numpy as np
 
-from lostmotion.contracts import Data, Quantifier
+from lostmotion.arguments import checked, error, instance, random
+from lostmotion.contracts import Data, Quantifier, Series
 from lostmotion.errors import ContractError
 from lostmotion.results import STATUSES, Estimate
 
 
+@checked(
+    quantifier=instance(Quantifier, "a quantifier, such as lm.registry.default().make('quantifier', NAME)"), rng=random
+)
 def quantify(data: Data, quantifier: Quantifier[Data], *, rng: np.random.Generator) -> Estimate:
     """Return the estimate of `quantifier` on a `Series`, or on the `Flow` of a model.
 
     A refusal is a status with a sentence. Raises `ContractError` when the quantifier breaks its contract.
     """
+    if quantifier.reads == "series" and not isinstance(data, Series):
+        raise error(data, "data", f"a Series, as lm.embed returns it, for {quantifier.name}")
     estimate = quantifier.estimate(data, rng=rng)
     if wrong := _explain_violation(estimate):
         raise ContractError(f"{quantifier.name} {wrong}: write to its author")

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from lostmotion.arguments import checked, error, instance, positive, random, whole
 from lostmotion.contracts import Quantifier, Series, Surrogate
 from lostmotion.errors import ContractError, DataError
 from lostmotion.kernels.threads import spread
@@ -51,6 +52,14 @@ class SurrogateTest:
         return self.p <= level
 
 
+@checked(
+    series=instance(Series, "a Series, as lm.embed returns it"),
+    surrogate=instance(Surrogate, "a surrogate, such as lm.registry.default().make('surrogate', NAME)"),
+    draws=whole(0, 1_000_000),
+    rng=random,
+    jobs=whole(0),
+    level=positive,
+)
 def surrogate_test(
     series: Series,
     surrogate: Surrogate,
@@ -68,6 +77,8 @@ def surrogate_test(
     recording as the surrogates. Each draw has a random stream of its own, so the result does not depend on `jobs`.
     Raises `DataError` for a number of draws with which `level` cannot be reached.
     """
+    if not callable(statistic) and not isinstance(statistic, Quantifier):
+        raise error(statistic, "statistic", "a quantifier, or a function of the samples (m,)")
     _require_enough(draws, sided, level)
     for_draws, for_original, *streams = rng.spawn(draws + 2)
     drawn = np.asarray(surrogate.draw(series, draws=draws, rng=for_draws), dtype=float)
@@ -109,7 +120,14 @@ def _check_piece(series: Series, surrogate: Surrogate, drawn: Array, draws: int)
 def _compute_statistic(statistic: Statistic, series: Series, rng: np.random.Generator) -> tuple[float, str]:
     """Return the statistic, NaN where it is refused, and the reason."""
     if not isinstance(statistic, Quantifier):
-        return float(statistic(series.x)), ""
+        try:
+            return float(statistic(series.x)), ""
+        except (TypeError, ValueError) as err:
+            said = " ".join(str(err).split())
+            raise DataError(
+                f"the statistic {_name_statistic(statistic)} returns no number ({said}): give a function of the"
+                " samples (m,) that returns one"
+            ) from err
     estimate = statistic.estimate(series, rng=rng)
     return float(estimate.value), estimate.says
 

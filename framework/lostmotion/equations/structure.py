@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
+from lostmotion.equations.constants import check_constants
 from lostmotion.equations.dimensions import Condition, Kind, conditions_of, force_condition, make_error, solve
 from lostmotion.equations.linear import ONE, minus, negative, split_linear, times
 from lostmotion.equations.read import CONSTANTS, FUNCTIONS, Node, error, read
@@ -76,6 +77,9 @@ def equations_of(
     if not 0 < len(texts) <= MOST:
         raise CaseError(f"equations has {len(texts)} entries: expected one equation for each body, {MOST} at most")
     sides = [read(text) for text in texts]
+    for line, pair in zip(texts, sides, strict=True):
+        for side in pair:
+            check_constants(line, side)
     every = [node for pair in sides for side in pair for node in side.nodes()]
     coordinates = find_coordinates(texts, sides)
     names = dict.fromkeys(node.text for node in every if node.kind == "name" and node.text not in coordinates)

@@ -281,7 +281,8 @@ class System(Layout):
             self, chosen, self.pack(full[None], 1.0), moved.reshape(-1, moved.shape[2]), tiled
         )
         rates = rates.reshape(moved.shape)[:, :, :m]
-        jacobians = np.moveaxis((rates[1:] - rates[0]) / spread[:, None, None], 0, 2)
+        with np.errstate(over="ignore", invalid="ignore"):
+            jacobians = np.moveaxis((rates[1:] - rates[0]) / spread[:, None, None], 0, 2)
         if not np.all(np.isfinite(jacobians)):
             return math.inf
         return float(np.abs(np.linalg.eigvals(jacobians)).max(initial=0.0))

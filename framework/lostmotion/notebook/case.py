@@ -11,10 +11,12 @@ from typing import Any
 
 import numpy as np
 
+from lostmotion.arguments import Rule, checked, choice, describe, instance, mapping, maybe, text, words
 from lostmotion.case import GUESSED, WRITTEN, CaseFile, Experiment, Prior, SensorSpec, check_same_sensors, dump_case
 from lostmotion.contracts import Model
 from lostmotion.equations import name_inputs
 from lostmotion.errors import CaseError, PluginError, nearest
+from lostmotion.notebook.rules import KNOWN, PRIORS, modelled
 from lostmotion.preparation.prepare import Prepared, case_of, prepare_loaded
 from lostmotion.preparation.vetting import make_plugin
 from lostmotion.recording import Recording, load_recording
@@ -24,6 +26,12 @@ from lostmotion.storage import folder_for, save_table
 from lostmotion.written import Written, is_equation, model_of
 
 
+@checked(
+    text=words,
+    units=maybe(mapping(text, "{'k': 'N/m'}")),
+    motion=maybe(choice("translation", "rotation")),
+    params=words,
+)
 def model(text: str | Sequence[str], **options: Any) -> Model:
     """Return a model by its name, or one made from equations of motion: `lm.model("m*x'' + c*x' + k*x = force")`.
 
@@ -37,6 +45,25 @@ def model(text: str | Sequence[str], **options: Any) -> Model:
     cls: Any = model_of(lines, **options)
     made: Model = cls()
     return made
+
+
+_RULES: Mapping[str, Rule] = {
+    "model": modelled,
+    "known": KNOWN,
+    "estimate": PRIORS,
+    "title": text,
+    "truth": KNOWN,
+    "sensor": instance(SensorSpec, "a SensorSpec"),
+    "experiment": instance(Experiment, "an Experiment"),
+}
+
+
+def _list_recordings(given: Any) -> tuple[Recording, ...]:
+    several = (given,) if isinstance(given, Recording) else given if isinstance(given, (list, tuple)) else ()
+    if not several or not all(isinstance(one, Recording) for one in several):
+        found = "" if several else f", and recordings is {describe(given)}"
+        raise CaseError(f"a case needs a Recording, or a list of them{found}: lm.Recording.from_arrays(...) makes one")
+    return tuple(several)
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,15 +87,11 @@ class Case:
     notes: tuple[str, ...] = field(default=(), repr=False)
 
     def __post_init__(self) -> None:
-        several = (self.recordings,) if isinstance(self.recordings, Recording) else tuple(self.recordings)
-        if not several or not all(isinstance(one, Recording) for one in several):
-            raise CaseError("a case needs a Recording, or a list of them: lm.Recording.from_arrays(...) makes one")
+        several = _list_recordings(self.recordings)
+        for name, rule in _RULES.items():
+            object.__setattr__(self, name, rule(getattr(self, name), name))
         object.__setattr__(self, "recordings", several)
         check_same_sensors(tuple(_describe_sensors(one) for one in several))
-        if wrong := [name for name, prior in self.estimate.items() if not isinstance(prior, Prior)]:
-            raise CaseError(
-                f"the prior of {wrong[0]!r} is {self.estimate[wrong[0]]!r}: expected lm.LogUniform(1, 100) or the like"
-            )
         if both := sorted(set(self.known) & set(self.estimate)):
             raise CaseError(f"{both[0]!r} is both known and estimated: remove it from one of the two")
         made, notes = self._name_inputs(self._make_model())

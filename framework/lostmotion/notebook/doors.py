@@ -6,33 +6,47 @@ Each function uses the registry of this process unless another one is given: plu
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from lostmotion.arguments import (
+    checked,
+    choice,
+    describe,
+    flag,
+    list_texts,
+    maybe,
+    path,
+    paths,
+    positive,
+    text,
+    whole,
+    words,
+)
 from lostmotion.case import GUESSED, Prior
 from lostmotion.contracts import Model
 from lostmotion.defaults import EMBEDDER
 from lostmotion.errors import CaseError, DataError, nearest
 from lostmotion.notebook.analysis import AnalysisResult, load_analysis
-from lostmotion.notebook.case import Case, model
+from lostmotion.notebook.case import Case
 from lostmotion.notebook.diagnosis import DiagnosisResult, load_diagnosis
 from lostmotion.notebook.posterior import IdentificationResult, load_identification
+from lostmotion.notebook.progress import show_progress
 from lostmotion.notebook.recorded import read_recorded_case
+from lostmotion.notebook.rules import CASE, RUN
+from lostmotion.rates import UNITS
 from lostmotion.recording import Recording
 from lostmotion.recording.checks import fill_lost
 from lostmotion.recording.formats import is_recording
 from lostmotion.registry import Registry, default
 from lostmotion.settings import DEFAULT, Settings, read
-from lostmotion.simulation import simulate as _simulate
 
 if TYPE_CHECKING:
-    import xarray
+    pass
 
 Modelled = Model | type[Model] | str | Sequence[str]
 LOADERS: Mapping[str, Callable[[Path], Any]] = {
@@ -42,6 +56,7 @@ LOADERS: Mapping[str, Callable[[Path], Any]] = {
 }
 
 
+@checked(**CASE)
 def diagnose(
     case: Case | Recording | str | Path,
     model: Modelled | None = None,
@@ -78,6 +93,15 @@ def diagnose(
     return found
 
 
+@checked(
+    **CASE,
+    ess=positive,
+    max_steps=whole(1),
+    walkers=maybe(whole(2)),
+    route=maybe(choice("trajectory", "quantifiers")),
+    maps=paths,
+    fresh=flag,
+)
 def identify(
     case: Case | Recording | str | Path,
     model: Modelled | None = None,
@@ -113,7 +137,7 @@ def identify(
     limits = read(settings)
     plan = SamplingPlan(ess, max_steps, walkers, limits.chain)
     order = IdentificationRequest(
-        _to_texts(terms), seed, jobs, plan, route, tuple(Path(m) for m in maps), fresh, limits
+        list_texts(terms), seed, jobs, plan, route, tuple(Path(m) for m in maps), fresh, limits
     )
     with show_progress("identify", progress) as say, TemporaryDirectory() as spare:
         place = Path(out) if out is not None else Path(spare)
@@ -132,6 +156,21 @@ def identify(
     return found
 
 
+@checked(
+    **RUN,
+    channel=maybe(text),
+    columns=words,
+    time=maybe(text),
+    rate=maybe(positive),
+    every=whole(1),
+    period=maybe(positive),
+    embedder=text,
+    denoiser=maybe(text),
+    quantifiers=words,
+    surrogates=words,
+    draws=whole(1, 100_000),
+    unit=choice(*UNITS),
+)
 def analyse(
     recording: Recording | str | Path,
     *,
@@ -167,14 +206,14 @@ def analyse(
     from lostmotion.analysis.source import WantedChannel, extract_source, load_source
 
     request = AnalysisRequest(
-        columns=_to_texts(columns),
+        columns=list_texts(columns),
         rate=rate,
         every=every,
         period=period,
         embedder=embedder,
         denoiser=denoiser,
-        quantifiers=_to_texts(quantifiers),
-        surrogates=_to_texts(surrogates),
+        quantifiers=list_texts(quantifiers),
+        surrogates=list_texts(surrogates),
         draws=draws,
         unit=unit,
         seed=seed,
@@ -183,10 +222,12 @@ def analyse(
         time=time,
     )
     known_to = registry or default()
+    if not isinstance(recording, (Recording, str, Path)):
+        raise DataError(f"recording is {describe(recording)}: expected a Recording, or the path of one")
     if isinstance(recording, Recording):
         source = extract_source(recording, _find_sensor(recording, channel))
     else:
-        wanted = WantedChannel(request.columns or _to_texts(channel or ()), request.rate, request.every, time)
+        wanted = WantedChannel(request.columns or list_texts(channel or ()), request.rate, request.every, time)
         source = load_source(Path(recording), wanted, known_to, request.settings.recording)
     with show_progress("analyse", progress) as say:
         result, arrays = analyse_source(source, known_to, request, say)
@@ -196,6 +237,7 @@ def analyse(
     return found
 
 
+@checked(folder=path)
 def load(folder: str | Path) -> Any:
     """Return the result that a command or `.save` wrote into a folder: a diagnosis, identification or analysis."""
     place = Path(folder)
@@ -203,93 +245,6 @@ def load(folder: str | Path) -> Any:
         if (place / name).is_file():
             return reader(place)
     raise DataError(f"{place} contains no result: a folder with one of {', '.join(LOADERS)} is needed")
-
-
-def simulate(
-    model: str,
-    *,
-    terms: str | Iterable[str] = (),
-    drives: str | Iterable[str],
-    motion: str | None = None,
-    registry: Registry | None = None,
-    out: str | Path | None = None,
-    values: Mapping[str, float],
-    duration: float,
-    rate: float,
-    initial: Mapping[str, float] | None = None,
-    noise: float = 0.0,
-    seed: int = 0,
-) -> _simulate.SimulatedTable:
-    """Return the table of a simulated machine, with columns (samples,) by name; `out` (.csv, .nc) is an optional file.
-
-    `values` and `initial` are values of parameters and states by name, in SI units. `drives` are texts such as
-    "harmonic:amplitude=1,frequency=2"; `duration` is in s and `rate` in Hz. `noise` is white, as a share of the
-    standard deviation of each channel. `motion` ("translation", "rotation") selects one kind where a model allows both.
-    """
-    known = registry or default()
-    assembly, own = _simulate.assembly_of(known, model, _to_texts(terms), motion)
-    used = [("model", model), *(("term", term.name) for term in assembly.terms)]
-    every = {**own, **values}
-    plan = _simulate.Plan(
-        assembly, every, _to_texts(drives), duration, rate, initial or {}, noise, seed, known.origins(*used)
-    )
-    table = _simulate.simulate(plan)
-    if out is not None:
-        table.save(Path(out))
-    return table
-
-
-def map(
-    model: str,
-    out: str | Path | None = None,
-    *,
-    axes: str | Iterable[str],
-    registry: Registry | None = None,
-    jobs: int = 0,
-    refine: int = 0,
-    fresh: bool = False,
-    sets: str | Iterable[str] = (),
-    terms: str | Iterable[str] = (),
-    drive: str = "",
-    quantities: str | Iterable[str] = (),
-    periods: int = 600,
-    transient: int = 200,
-    starts: int = 4,
-    unit: str = "nat",
-    seed: int = 0,
-    motion: str | None = None,
-    progress: bool = True,
-) -> xarray.Dataset:
-    """Return a map of a model over `axes` (NAME=LOW:HIGH:N); with `out` (.zarr, .nc) it is stored and continued there.
-
-    `sets` are texts NAME=VALUE, `terms` NAME[@PLACE][:param=value], `drive` a text such as
-    "harmonic:amplitude=1,omega=2", `quantities` names of quantifiers beside the largest exponent; `unit` is "nat" or
-    "bit". Each cell has `starts` initial states, followed over `periods` after a `transient`; `refine` is the number of
-    times that cells are halved where neighbours differ.
-    """
-    from lostmotion.maps.run import Request, RunOptions, make_map, make_study
-    from lostmotion.maps.sweep import Workers
-
-    request = Request(
-        model,
-        _to_texts(axes),
-        periods,
-        transient,
-        starts,
-        _to_texts(sets),
-        _to_texts(terms),
-        drive,
-        _to_texts(quantities),
-        unit,
-        seed,
-        motion,
-    )
-    study = make_study(request, registry or default())
-    options = RunOptions(Workers(jobs), refine, fresh)
-    with show_progress("map", progress) as say, TemporaryDirectory() as spare:
-        place = Path(out) if out is not None else Path(spare) / "map.nc"
-        made = make_map(study, place, options, lambda done, of: say(f"{done} of {of} cells")).dataset
-        return made.load() if out is None else made
 
 
 def make_case(
@@ -306,6 +261,11 @@ def make_case(
         if given is None:
             raise CaseError("a recording alone is no case: give a model beside it, such as lm.model('lin_backlash')")
         return _guess_case(case, given, known or {}, estimate or {})
+    if not isinstance(case, (Case, str, Path)):
+        raise CaseError(
+            f"case is {describe(case)}: expected a Case, a Recording (lm.Recording.from_pandas makes one of a data"
+            " frame), or the path of one"
+        )
     if not isinstance(case, Case) and is_recording(case):
         return read_recorded_case(Path(case), given, known or {}, estimate or {}, registry, limits)
     if given is not None or known or estimate:
@@ -349,32 +309,4 @@ def _find_sensor(recording: Recording, channel: str | None) -> int:
     raise DataError(f"{recording.name} has no sensor {channel!r}{nearest(channel, known)}: it has {', '.join(known)}")
 
 
-@contextmanager
-def show_progress(what: str, wanted: bool) -> Iterator[Callable[[str], None]]:
-    """Yield a callback that shows each step as a line in a terminal or a notebook."""
-    if not (wanted and _is_watched()):
-        yield lambda _step: None
-        return
-    from tqdm.auto import tqdm
-
-    with tqdm(desc=what, unit=" steps", leave=False, bar_format="{desc} {elapsed} · {n} steps{postfix}") as bar:
-
-        def say(step: str) -> None:
-            bar.set_postfix_str(step, refresh=False)
-            bar.update()
-
-        yield say
-
-
-def _is_watched() -> bool:
-    """Return whether a line of progress is visible: in a terminal or a notebook, but not in a log file."""
-    shell = sys.modules.get("IPython")
-    return sys.stderr.isatty() or (shell is not None and shell.get_ipython() is not None)
-
-
-def _to_texts(given: str | Iterable[str]) -> tuple[str, ...]:
-    """Return one text or several texts as a tuple."""
-    return (given,) if isinstance(given, str) else tuple(given)
-
-
-__all__ = ["Case", "Modelled", "analyse", "diagnose", "identify", "load", "map", "model", "simulate"]
+__all__ = ["Case", "Modelled", "analyse", "diagnose", "identify", "load"]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -10,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from lostmotion.arguments import checked, mapping, maybe, number, positive
 from lostmotion.contracts import Array, Assembly, Model, Term
 from lostmotion.diagnosis.findings import Outcome
 from lostmotion.errors import CaseError, DataError, nearest
@@ -40,6 +40,11 @@ class FittedModel:
         """The model plus its terms."""
         return Assembly(self.model, self.terms)
 
+    @checked(
+        duration=maybe(positive),
+        rate=maybe(positive),
+        initial=maybe(mapping(number, "{'position': 0.01}")),
+    )
     def simulate(
         self,
         inputs: Mapping[str, Signal] | Recording,
@@ -112,7 +117,7 @@ def _read_signals(inputs: Mapping[str, Signal] | Recording, rate: float | None) 
     """Return the signals by input, and the rate (Hz) at which arrays are sampled."""
     if isinstance(inputs, Recording):
         return {str(a.attrs["of"]): np.asarray(a) for a in inputs.inputs}, inputs.rate
-    if rate is None or not 0.0 < rate < math.inf:
+    if rate is None:
         raise CaseError("the rate is missing: give rate=, the samples per second of the arrays and of the simulation")
     if not isinstance(inputs, Mapping):
         raise CaseError("the inputs are not a mapping: give {'force': array} or {'force': function of time}")

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal
 
+from lostmotion.arguments import flag, number
 from lostmotion.case import Prior
 from lostmotion.errors import CaseError
 
 
-def _make_prior(**numbers: Any) -> Prior:
+def _make_prior(*, each: bool, scale: Literal["linear", "log"] = "linear", **numbers: float) -> Prior:
+    given: dict[str, Any] = {name: number(value, f"the {name} of a prior") for name, value in numbers.items()}
     try:
-        return Prior(**numbers)
+        return Prior(**given, scale=scale, each=flag(each, "each"))
     except CaseError as err:
         raise CaseError(f"the prior {err}") from err
 

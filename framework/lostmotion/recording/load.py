@@ -10,13 +10,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from lostmotion.arguments import Rule, anything, checked, choice, describe, mapping, maybe, path, positive, text
 from lostmotion.errors import DataError
 from lostmotion.provenance import digest
 from lostmotion.quantities import si_factor
 from lostmotion.recording.checks import check_finite, check_length, check_sensor, check_values, fill_input, note_stuck
 from lostmotion.recording.clock import checked_clock, note_repeated_rows, read_time
 from lostmotion.recording.formats import read_table
-from lostmotion.recording.spec import Channel, Hold, RecordingSpec
+from lostmotion.recording.spec import KINDS, Channel, Hold, RecordingSpec
 from lostmotion.recording.table import Table
 from lostmotion.recording.timing import EvenClock, check_step, resample_channel
 from lostmotion.recording.units import note_unit
@@ -28,6 +29,23 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
+_COMMON: Mapping[str, Rule] = {
+    "inputs": maybe(mapping(anything, "{'force': ...}")),
+    "sensors": mapping(anything, "{'position': ...}"),
+    "units": maybe(mapping(text, "{'force': 'N', 'position': 'mm'}")),
+    "rate": maybe(positive),
+    "noise": maybe(mapping(choice(*KINDS), "{'position': 'white'}")),
+    "hold": choice("smooth", "step"),
+    "name": text,
+}
+"""The rules of the arguments of all constructors of `Recording`."""
+_COLUMNS: Mapping[str, Rule] = {
+    **_COMMON,
+    "inputs": maybe(mapping(text, "{'force': column}")),
+    "sensors": mapping(text, "{'position': column}"),
+    "time": maybe(text),
+}
+"""The rules of those that take the names of columns."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,6 +115,7 @@ class Recording:
         return f"<Recording {self.name!r}: {', '.join(channels)}; {length}{'; see .warnings' if self.notes else ''}>"
 
     @classmethod
+    @checked(**_COMMON)
     def from_arrays(
         cls,
         time: ArrayLike | None = None,
@@ -129,6 +148,7 @@ class Recording:
         return make_recording({**times, **columns}, layout, settings)
 
     @classmethod
+    @checked(**_COLUMNS)
     def from_pandas(
         cls,
         frame: Any,
@@ -151,6 +171,9 @@ class Recording:
         """
         from lostmotion.recording.made import RecordingLayout, make_recording, time_index
 
+        lazy = isinstance(frame, type) or hasattr(frame, "collect")
+        if lazy or not (hasattr(frame, "columns") and hasattr(frame, "__getitem__")):
+            raise DataError(f"frame is {describe(frame)}: expected a data frame of pandas or polars (not a lazy one)")
         columns = {str(column): frame[column] for column in frame.columns}
         if time is None and rate is None and (index := time_index(frame)) is not None:
             time = str(index.name or "index")
@@ -162,6 +185,7 @@ class Recording:
         return make_recording(columns, layout, settings)
 
     @classmethod
+    @checked(**_COLUMNS)
     def from_xarray(
         cls,
         dataset: xr.Dataset,
@@ -183,6 +207,8 @@ class Recording:
 
         from lostmotion.recording.made import RecordingLayout, make_recording
 
+        if not isinstance(dataset, xr.Dataset):
+            raise DataError(f"dataset is {describe(dataset)}: expected a Dataset of xarray")
         decoded = xr.decode_cf(dataset, decode_times=False)  # fill values become NaN, packed numbers are unpacked
         columns = {str(key): value.values for key, value in decoded.variables.items() if value.ndim == 1}
         stated = {
@@ -192,6 +218,7 @@ class Recording:
         return make_recording(columns, layout, settings)
 
     @classmethod
+    @checked(**_COLUMNS, path=path)
     def read(
         cls,
         path: str | Path,

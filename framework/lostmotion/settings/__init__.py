@@ -14,6 +14,7 @@ from contextlib import suppress
 from dataclasses import asdict, dataclass, field, fields, replace
 from typing import NamedTuple
 
+from lostmotion.arguments import anything, error, mapping, to_number
 from lostmotion.errors import CaseError, nearest
 from lostmotion.settings.diagnosis import (
     HeldOutSettings,
@@ -86,7 +87,7 @@ class Settings:
     def changed(self, values: Mapping[str, float | str]) -> Settings:
         """Return the settings with some values changed, by `stage.name`; unknown keys or values raise `CaseError`."""
         made, known = self, {setting.key: setting for setting in self}
-        for key, value in values.items():
+        for key, value in mapping(anything, "{'select.decisive': 4.0}")(values, "settings").items():
             if key not in known:
                 raise CaseError(f"there is no setting {key!r}{nearest(key, known)}: `lostmotion settings` lists them")
             stage, _, name = key.partition(".")
@@ -111,19 +112,20 @@ DEFAULT = Settings()
 
 def _check_value(setting: Setting, value: object) -> float:
     """Return a value for a setting as a number; raise `CaseError` where it is no number in the allowed range."""
-    try:
-        number = float(value)  # type: ignore[arg-type]
-    except (TypeError, ValueError):
-        number = math.nan
+    number = math.nan
+    if isinstance(value, str):  # as the command line has it
+        with suppress(ValueError):
+            number = float(value)
+    elif (found := to_number(value)) is not None:
+        number = found
     if not setting.least <= number <= setting.most or not math.isfinite(number):
-        wanted = f"a number from {setting.least:g} to {setting.most:g}"
-        raise CaseError(f"the setting {setting.key} is {value!r}: expected {wanted}")
+        raise error(value, f"the setting {setting.key}", f"a number from {setting.least:g} to {setting.most:g}")
     return number
 
 
 def read(pairs: Mapping[str, float | str] | Settings | None) -> Settings:
     """Return settings from the argument of a caller: settings, a mapping of changes, or None."""
-    return pairs if isinstance(pairs, Settings) else DEFAULT.changed(pairs or {})
+    return pairs if isinstance(pairs, Settings) else DEFAULT.changed({} if pairs is None else pairs)
 
 
 def restore(stages: object) -> Settings:

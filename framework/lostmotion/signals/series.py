@@ -18,7 +18,10 @@ def checked(values: ArrayLike, *, least: int = LEAST) -> Array:
     The mean is subtracted first, so that a large offset (an encoder that counts from 1e9) causes no further loss of
     precision.
     """
-    raw = np.asarray(values)
+    try:
+        raw = np.asarray(values)
+    except ValueError as err:  # rows of different lengths
+        raise DataError("the series has entries of several lengths: give a list of numbers") from err
     if np.iscomplexobj(raw):
         raise DataError("the series is complex: give its real part, or one channel")
     try:
