@@ -132,3 +132,23 @@ def lostmotion_engines() -> dict[str, str]:
     """Return the built-in engines, which are parts of the framework itself."""
     at = "lostmotion.likelihood"
     return {"lanes": f"{at}.lanes:Lanes", "reference": f"{at}.reference:Reference"}
+
+
+@hookimpl
+def lostmotion_readers() -> dict[str, tuple[str, str]]:
+    """Return the readers of formats whose libraries are extras; they are parts of the framework itself."""
+    at = "lostmotion.recording.readers"
+    sheet = (f"{at}.sheets:read_sheet", "lostmotion[xlsx]")
+    bag = (f"{at}.bags:read_bag", "lostmotion[rosbag]")
+    mdf = (f"{at}.mdf:read_mdf", "lostmotion[mf4]")
+    uff = (f"{at}.uff:read_uff", "lostmotion[uff]")
+    return {
+        **dict.fromkeys(("xlsx", "xlsm", "xlsb", "xls", "ods"), sheet),
+        **dict.fromkeys(("mf4", "mdf"), mdf),
+        **dict.fromkeys(("bag", "db3"), bag),
+        **dict.fromkeys(("uff", "unv"), uff),
+        "lvm": (f"{at}.lvm:read_lvm", "lostmotion[lvm]"),
+        "mcap": (f"{at}.bags:read_mcap", "lostmotion[mcap]"),
+        "parquet": (f"{at}.parquet:read_parquet", "lostmotion[parquet]"),
+        "tdms": (f"{at}.tdms:read_tdms", "lostmotion[tdms]"),
+    }
