@@ -13,7 +13,6 @@ def lostmotion_models() -> dict[str, str]:
         "clearance_chain": f"{_HERE}.models.clearance_chain:ClearanceChain",
         "current_motor": f"{_HERE}.models.dc_motor:CurrentMotor",
         "dc_motor": f"{_HERE}.models.dc_motor:DcMotor",
-        "dc_motor_slow": f"{_HERE}.models.dc_motor:DcMotorSlow",
         "duffing": f"{_HERE}.models.duffing:Duffing",
         "gear_mesh": f"{_HERE}.models.gear_mesh:GearMesh",
         "gear_pair": f"{_HERE}.models.gear_pair:GearPair",

@@ -68,7 +68,14 @@ def find_term(problem: Problem, key: str) -> tuple[Term, list[Slot]]:
     return term, slots if term.acts == "motion" else [_convert_dimension(problem, term, slot) for slot in slots]
 
 
-SHOWN = {"position": LENGTH, "velocity": SPEED, "acceleration": Dimension(0, 1, -2), "force": FORCE, "current": CURRENT, "voltage": VOLTAGE}
+SHOWN = {
+    "position": LENGTH,
+    "velocity": SPEED,
+    "acceleration": Dimension(0, 1, -2),
+    "force": FORCE,
+    "current": CURRENT,
+    "voltage": VOLTAGE,
+}
 
 
 def _convert_dimension(problem: Problem, term: Term, slot: Slot) -> Slot:

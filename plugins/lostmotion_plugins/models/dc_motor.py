@@ -22,8 +22,8 @@ class DcMotor(Model):
     """V = R i + L di/dt + K w, J w' = K i - c w + force: a motor under a recorded voltage V.
 
     The current i is a state and a channel, beside the angle and the speed w. `force` is a further torque on the shaft,
-    such as that of a brake. A term acts in the bearing of the shaft (`ground`). If L/R is far below the sampling step,
-    leave the current out of the states: use `dc_motor_slow`.
+    such as that of a brake. A term acts in the bearing of the shaft (`ground`). A value of L that no
+    sample resolves (L/R far below the sampling step) does not matter: give it a range, as a parameter to estimate.
     """
 
     name: ClassVar[str] = "dc_motor"
@@ -50,35 +50,6 @@ class DcMotor(Model):
         seen[1] = y[1]
         seen[2] = dydt[1]
         seen[3] = y[2]
-
-
-@dataclass(frozen=True)
-class DcMotorSlow(Model):
-    """V = R i + K w, J w' = K i - c w + force: a motor whose current follows the voltage within a sampling step.
-
-    This is `dc_motor` without inductance: the channel "current" is (V - K w) / R.
-    """
-
-    name: ClassVar[str] = "dc_motor_slow"
-    paper: ClassVar[str] = _PAPER
-    motion = "rotation"
-    states = ("position", "velocity")
-    inputs = ("voltage", "force")
-    channels = ("position", "velocity", "acceleration", "current")
-    params = (_INERTIA, _DAMPING, _CONSTANT, _RESISTANCE)
-    interfaces = (_GROUND,)
-
-    @staticmethod
-    def rhs(t: float, y: Array, u: Array, p: Array, dydt: Array) -> None:
-        dydt[0] = y[1]
-        dydt[1] = (p[2] * (u[0] - p[2] * y[1]) / p[3] - p[1] * y[1] + u[1]) / p[0]
-
-    @staticmethod
-    def observe(t: float, y: Array, dydt: Array, u: Array, p: Array, seen: Array) -> None:
-        seen[0] = y[0]
-        seen[1] = y[1]
-        seen[2] = dydt[1]
-        seen[3] = (u[0] - p[2] * y[1]) / p[3]
 
 
 @dataclass(frozen=True)
