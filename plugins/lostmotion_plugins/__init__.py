@@ -48,6 +48,8 @@ def lostmotion_terms() -> dict[str, str]:
         "excitation_gain": f"{_HERE}.terms.drive:ExcitationGain",
         "excitation_harmonic": f"{_HERE}.terms.drive:ExcitationHarmonic",
         "friction_drift": f"{_HERE}.terms.friction_kinds:FrictionDrift",
+        "friction_drift_travel": f"{_HERE}.terms.friction_kinds:FrictionDriftTravel",
+        "friction_drift_twice": f"{_HERE}.terms.friction_kinds:FrictionDriftTwice",
         "gap_drift": f"{_HERE}.terms.changing:GapDrift",
         "gravity_pendulum": f"{_HERE}.terms.elastic:GravityPendulum",
         "hertz_contact": f"{_HERE}.terms.contact:HertzContact",
