@@ -49,6 +49,7 @@ def diagnose(held: dict[str, Array], *, also: tuple[str, ...] = ()) -> Any:
     return lm.diagnose(case, progress=False, terms=["coulomb_friction", "viscous_damping", "offset_force", *also])
 
 
+@pytest.mark.slow
 def test_friction_that_falls_over_a_time_and_its_picture(tmp_path: Path) -> None:
     found = diagnose(run_machine(lambda t, way: 3.2 - 2.2 * (1.0 - np.exp(-t / 5.0))), also=DRIFTS)
     drift = found.found[0]
