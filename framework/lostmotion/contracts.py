@@ -18,6 +18,8 @@ import numpy as np
 from lostmotion.errors import ContractError, nearest
 from lostmotion.parts import PSEUDO_NEEDS, Array, Drive, Group, Input, Interface, Motion, Param, Values
 from lostmotion.quantities import Dimension
+from lostmotion.recording.arrays import table_of_arrays
+from lostmotion.recording.table import Table
 from lostmotion.results import Embedding, Estimate
 from lostmotion.subjects import Data, Flow, Orbit, Series
 
@@ -28,7 +30,7 @@ if TYPE_CHECKING:
 __all__ = [
     "KINDS", "PSEUDO_NEEDS", "Array", "Assembly", "Data", "Denoiser", "Drive", "DriveTerm", "Embedder", "Engine",
     "Flow", "Group", "Input", "Interface", "Model", "Motion", "Orbit", "Param", "Quantifier", "SensorTerm", "Series",
-    "Surrogate", "Term", "Values", "place_of"]  # fmt: skip
+    "Surrogate", "Table", "Term", "Values", "place_of", "table_of_arrays"]  # fmt: skip
 
 _NOWHERE = Interface("", -1, "", lambda y, u: (0.0, 0.0))
 

@@ -74,3 +74,14 @@ def lostmotion_commands() -> Mapping[str, tuple[str, str]]:
     A name that the framework's own command line uses is refused.
     """
     raise NotImplementedError
+
+
+@hookspec
+def lostmotion_readers() -> Mapping[str, tuple[str, str]]:
+    """Return `{"xyz": ("package.module:function", "requirement")}` for each ending of a file name, without its dot.
+
+    The function takes the `Path` of a recording and returns a `Table` (`contracts`). It runs in a process of its own,
+    with limits of time and memory. If it raises `ImportError`, users are told to install the requirement with pip. An
+    ending that the framework reads itself is refused.
+    """
+    raise NotImplementedError

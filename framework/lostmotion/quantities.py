@@ -18,6 +18,8 @@ SI = {
     "acceleration": "m/s^2",
     "base_position": "m",
     "base_acceleration": "m/s^2",
+    "voltage": "V",
+    "current": "A",
     "time": "s",
 }
 ANGULAR = {
@@ -28,17 +30,22 @@ ANGULAR = {
     "base_acceleration": "rad/s^2",
     "force": "N m",
     "torque": "N m",
+    "voltage": "V",
+    "current": "A",
 }
 ROTATES = dict.fromkeys(SI.values(), "translation") | dict.fromkeys(ANGULAR.values(), "rotation")
 """The kind of motion to which the unit of a channel or an input belongs."""
-_NAMED: dict[tuple[str, float, float, float, float], str] = {
-    ("translation", 1, -1, 2, 0): "kg",
-    ("rotation", 1, -1, 2, 0): "kg m^2",
-    ("rotation", 1, 0, 2, -2): "kg",
-    ("translation", 0, 0, 0, 0): "1",
-    ("rotation", 0, 0, 0, 0): "1",
-    ("translation", 0, 0, -1, 0): "Hz",
-    ("rotation", 0, 0, -1, 0): "Hz",
+_NAMED: dict[tuple[str | float, ...], str] = {
+    ("translation", 1, -1, 2, 0, 0): "kg",
+    ("rotation", 1, -1, 2, 0, 0): "kg m^2",
+    ("rotation", 1, 0, 2, -2, 0): "kg",
+    ("translation", 0, 0, 0, 0, 0): "1",
+    ("rotation", 0, 0, 0, 0, 0): "1",
+    ("translation", 0, 0, -1, 0, 0): "Hz",
+    ("rotation", 0, 0, -1, 0, 0): "Hz",
+    **{(motion, 1, 1, -1, 0, -1): "V" for motion in ("translation", "rotation")},
+    **{(motion, 1, 1, -1, 0, -2): "ohm" for motion in ("translation", "rotation")},
+    **{(motion, 1, 1, 0, 0, -2): "H" for motion in ("translation", "rotation")},
 }
 
 
@@ -49,7 +56,7 @@ _POWER = re.compile(r"[^\W\d_]\s*(?:\*\*|\^)\s*\(?\s*[+-]?\d(?:\.\d+)?(?![\d.])"
 """A unit to a power of one digit. Other powers are refused: pint would compute 9 ** 9 ** 9 for hours."""
 
 
-QUANTITIES = ("position", "velocity", "acceleration", "force")
+QUANTITIES = ("position", "velocity", "acceleration", "force", "voltage", "current")
 """The quantities of channels and inputs of a model."""
 
 
@@ -83,20 +90,22 @@ def unit_of(name: str, motion: str) -> str:
 class Dimension(NamedTuple):
     """Powers of generalised force, length and time: `Dimension(1, -1, 1)` is a damping coefficient.
 
-    In rotation, force means torque and length means angle; `metre` is the power of a length in m besides them.
+    In rotation, force means torque and length means angle; `metre` is the power of a length in m besides them, and
+    `ampere` that of a current: a voltage is force times speed over current.
     """
 
     force: float = 0
     length: float = 0
     time: float = 0
     metre: float = 0
+    ampere: float = 0
 
     def unit(self, motion: str) -> str:
         """Return the SI unit, for instance `N s/m` in translation and `N m s/rad` in rotation."""
         named = _NAMED.get((motion, *self))
         if named:
             return named
-        symbols = ("N", "m", "s", "m") if motion == "translation" else ("N m", "rad", "s", "m")
+        symbols = ("N", "m", "s", "m", "A") if motion == "translation" else ("N m", "rad", "s", "m", "A")
         powers = list(zip(symbols, self, strict=True))
         above = [_format_power(s, n) for s, n in powers if n > 0] or ["1"]
         below = [_format_power(s, -n) for s, n in powers if n < 0]
@@ -120,6 +129,11 @@ DAMPING = Dimension(1, -1, 1)
 STIFFNESS = Dimension(1, -1, 0)
 NUMBER = Dimension(0, 0, 0)
 FREQUENCY = Dimension(0, 0, -1)
+VOLTAGE = Dimension(1, 1, -1, 0, -1)
+CURRENT = Dimension(0, 0, 0, 0, 1)
+RESISTANCE = Dimension(1, 1, -1, 0, -2)
+INDUCTANCE = Dimension(1, 1, 0, 0, -2)
+FORCE_PER_CURRENT = Dimension(1, 0, 0, 0, -1)
 
 
 _NEWTON_METRE = re.compile(r"(?<![^\W\d_])([kmM]?N)([cm]?m)(?!\w)")

@@ -11,6 +11,8 @@ def lostmotion_models() -> dict[str, str]:
     return {
         "backlash_slider": f"{_HERE}.models.slider:BacklashSlider",
         "clearance_chain": f"{_HERE}.models.clearance_chain:ClearanceChain",
+        "current_motor": f"{_HERE}.models.dc_motor:CurrentMotor",
+        "dc_motor": f"{_HERE}.models.dc_motor:DcMotor",
         "duffing": f"{_HERE}.models.duffing:Duffing",
         "gear_mesh": f"{_HERE}.models.gear_mesh:GearMesh",
         "gear_pair": f"{_HERE}.models.gear_pair:GearPair",
@@ -46,6 +48,8 @@ def lostmotion_terms() -> dict[str, str]:
         "excitation_gain": f"{_HERE}.terms.drive:ExcitationGain",
         "excitation_harmonic": f"{_HERE}.terms.drive:ExcitationHarmonic",
         "friction_drift": f"{_HERE}.terms.friction_kinds:FrictionDrift",
+        "friction_drift_travel": f"{_HERE}.terms.friction_kinds:FrictionDriftTravel",
+        "friction_drift_twice": f"{_HERE}.terms.friction_kinds:FrictionDriftTwice",
         "gap_drift": f"{_HERE}.terms.changing:GapDrift",
         "gravity_pendulum": f"{_HERE}.terms.elastic:GravityPendulum",
         "hertz_contact": f"{_HERE}.terms.contact:HertzContact",
@@ -132,3 +136,23 @@ def lostmotion_engines() -> dict[str, str]:
     """Return the built-in engines, which are parts of the framework itself."""
     at = "lostmotion.likelihood"
     return {"lanes": f"{at}.lanes:Lanes", "reference": f"{at}.reference:Reference"}
+
+
+@hookimpl
+def lostmotion_readers() -> dict[str, tuple[str, str]]:
+    """Return the readers of formats whose libraries are extras; they are parts of the framework itself."""
+    at = "lostmotion.recording.readers"
+    sheet = (f"{at}.sheets:read_sheet", "lostmotion[xlsx]")
+    bag = (f"{at}.bags:read_bag", "lostmotion[rosbag]")
+    mdf = (f"{at}.mdf:read_mdf", "lostmotion[mf4]")
+    uff = (f"{at}.uff:read_uff", "lostmotion[uff]")
+    return {
+        **dict.fromkeys(("xlsx", "xlsm", "xlsb", "xls", "ods"), sheet),
+        **dict.fromkeys(("mf4", "mdf"), mdf),
+        **dict.fromkeys(("bag", "db3"), bag),
+        **dict.fromkeys(("uff", "unv"), uff),
+        "lvm": (f"{at}.lvm:read_lvm", "lostmotion[lvm]"),
+        "mcap": (f"{at}.bags:read_mcap", "lostmotion[mcap]"),
+        "parquet": (f"{at}.parquet:read_parquet", "lostmotion[parquet]"),
+        "tdms": (f"{at}.tdms:read_tdms", "lostmotion[tdms]"),
+    }

@@ -109,4 +109,5 @@ def test_the_command_stops_with_one_sentence(shared_cases, tmp_path):
     assert "Speed [rpm] does not decay, so it is no free decay (Voltage [V] and Current [A] may drive it)" in (
         result.output
     )
+    assert "for a motor write a case with the model dc_motor" in result.output
     assert result.output.count("\n") == 1

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from types import ModuleType
 
 import h5py
 import numpy as np
 import pytest
-import pyuff
 import scipy.io
 import xarray as xr
 
@@ -84,11 +84,12 @@ def to_h5(path: Path) -> None:
 
 
 def to_uff(path: Path) -> None:
+    pyuff = pytest.importorskip("pyuff", reason="the extra uff is not installed")
     for name in ("force", "x"):
-        pyuff.UFF(str(path)).write_sets([function(name)], "add")
+        pyuff.UFF(str(path)).write_sets([function(pyuff, name)], "add")
 
 
-def function(name: str) -> dict[str, object]:
+def function(pyuff: ModuleType, name: str) -> dict[str, object]:
     head = pyuff.prepare_58(
         binary=0, id1=name, func_type=1, rsp_node=1, rsp_dir=1, ref_node=1, ref_dir=1, data=COLUMNS[name], x=TIME,
         abscissa_spacing=1, abscissa_min=0.0, abscissa_inc=0.001, num_pts=N, ord_data_type=4,
@@ -196,4 +197,4 @@ def test_wrong_places(tmp_path: Path) -> None:
     with pytest.raises(DataError, match="single array"):
         columns_of(tmp_path / "one.npz")
     with pytest.raises(DataError, match="expected one of csv"):
-        columns_of(tmp_path / "run.xlsx")
+        columns_of(tmp_path / "run.doc")

@@ -14,8 +14,8 @@ import pytest
 
 from lostmotion import hookspecs
 from lostmotion.cli import main
+from lostmotion.offers import HOOKS
 from lostmotion.registry import Registry
-from lostmotion.registry.hooks import HOOKS
 
 ROOT = Path(__file__).parents[2]
 HEAVY = ("numpy", "numba", "scipy", "xarray", "matplotlib", "emcee", "arviz", "pint", "h5py", "jinja2", "tqdm", "zarr")

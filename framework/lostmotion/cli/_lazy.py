@@ -13,9 +13,9 @@ import click
 from click.shell_completion import CompletionItem
 
 from lostmotion.errors import LostMotionError, PluginWarning, nearest
+from lostmotion.offers import COMMAND
 from lostmotion.registry import KINDS, Registry, default
 from lostmotion.registry.classes import import_target
-from lostmotion.registry.hooks import COMMAND
 
 EXIT_INTERRUPTED = 130
 MAX_MESSAGE_LENGTH = 1500

@@ -9,6 +9,7 @@ import numpy as np
 from lostmotion.contracts import Array
 from lostmotion.diagnosis.attractors import take_section
 from lostmotion.diagnosis.findings import Outcome
+from lostmotion.diagnosis.levels import list_levels
 from lostmotion.diagnosis.search import ForceLocation, SearchResult, list_physical_keys
 from lostmotion.inference.fit import Fit
 from lostmotion.quantities import unit_of
@@ -28,6 +29,7 @@ def list_arrays(
 ) -> tuple[dict[str, StoredArray], dict[str, StoredArray]]:
     """Return the variables and the coordinates of `arrays.nc`; `motions` are those of `list_motions`."""
     d = outcome.diagnosis
+    levels, level_time = list_levels(outcome, name_units(d)["force"])
     variables = {
         **_list_series(outcome),
         **_list_further_sensors(outcome),
@@ -35,8 +37,10 @@ def list_arrays(
         **_list_portraits(d, motions),
         **_list_growth(outcome),
         **_list_draws(outcome),
+        **levels,
     }
     coords = {
+        **level_time,
         "time": StoredArray(("time",), d.shown.time, "s", "time from the start of the recording"),
         "covariate": StoredArray(("covariate",), list(d.located.curves)),
         "lead": StoredArray(("lead",), outcome.before.lead, "s", "time from the start of a free run"),

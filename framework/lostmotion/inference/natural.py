@@ -11,7 +11,7 @@ import numpy as np
 from lostmotion.contracts import Param, Term
 from lostmotion.likelihood.problem import FreeParameter, Problem, Scales
 from lostmotion.likelihood.system import Slot
-from lostmotion.quantities import FORCE, FREQUENCY, LENGTH, SPEED, Dimension, quantity_of
+from lostmotion.quantities import CURRENT, FORCE, FREQUENCY, LENGTH, SPEED, VOLTAGE, Dimension, quantity_of
 
 SCANNED = 8
 """The number of values of a parameter with a scan that score tests try, evenly over the logarithm of its range."""
@@ -73,7 +73,14 @@ def find_term(problem: Problem, key: str) -> tuple[Term, list[Slot]]:
     return term, slots if term.acts == "motion" else [_convert_dimension(problem, term, slot) for slot in slots]
 
 
-SHOWN = {"position": LENGTH, "velocity": SPEED, "acceleration": Dimension(0, 1, -2), "force": FORCE}
+SHOWN = {
+    "position": LENGTH,
+    "velocity": SPEED,
+    "acceleration": Dimension(0, 1, -2),
+    "force": FORCE,
+    "current": CURRENT,
+    "voltage": VOLTAGE,
+}
 
 
 def _convert_dimension(problem: Problem, term: Term, slot: Slot) -> Slot:

@@ -105,7 +105,7 @@ def _compute_sizes(system: System, observations: Sequence[Observation], known: A
 
 def choose_main_sensor(observation: Observation) -> int:
     """Return the number of the sensor that gives the size of the motion: a position, else the next best there is."""
-    order = (*ORDERS, "force")
+    order = (*ORDERS, "force", "current", "voltage")
     kinds = [order.index(quantity_of(sensor.channel)) for sensor in observation.sensors]
     return int(np.argmin(kinds))
 

@@ -47,11 +47,12 @@ def _check_decay(outline: Outline) -> None:
         return
     others = list(find_coherent(outline))
     beside = f"{' and '.join(_format_column(one) for one in others)} may drive it" if others else "nothing else moves"
+    motor = "; for a motor write a case with the model dc_motor" if any(o.unit in ("V", "A") for o in others) else ""
     which = shlex.quote(others[0].name) if others else "COLUMN"
     raise CaseError(
         f"no column of {outline.file} is a force or a motion of the base, and {response.name} does not decay, so it is"
         f" no free decay ({beside}): run `lostmotion init` with --drive {which}, and its --unit and --factor, such as"
-        " newtons per volt, or with --drive none if nothing drives the machine"
+        f" newtons per volt, or with --drive none if nothing drives the machine{motor}"
     )
 
 

@@ -1,10 +1,10 @@
-"""Reading of the columns of a file in any supported format; third-party readers are imported only when needed."""
+"""Reading of the columns of a file: some formats are read here, others by readers that packages offer by ending."""
 
 from __future__ import annotations
 
 import warnings
 import zipfile
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -12,15 +12,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.errors import DataError, nearest
-from lostmotion.recording.limits import TEXT, check_bytes
+from lostmotion.recording.limits import check_bytes, check_numbers
+from lostmotion.recording.nested import KINDS, table_of_nested
+from lostmotion.recording.offered import find_offered, offered_readers
 from lostmotion.recording.subprocess_reader import read_in_subprocess
-from lostmotion.recording.table import Table, make_table
+from lostmotion.recording.table import Table
 from lostmotion.recording.text import read_text
 from lostmotion.recording.unpacked import check_hdf5, check_mat, check_npz
 
 Array = NDArray[np.float64]
-KINDS = "fiub"
-"""NumPy kinds of numbers in a column: real, integer, boolean."""
 
 
 def read_columns(path: Path) -> dict[str, Array]:
@@ -46,8 +46,7 @@ def table_of(path: Path) -> Table:
     """Return the numeric columns of a file by name, each (n,), with units where the file gives them.
 
     Single numbers are left out. A two-dimensional array `a` becomes `a[0]`, `a[1]`, ..., with time along the longer
-    axis. A field `b` of a structure or group `a` is named `a.b` (MAT) or `a/b` (netCDF, HDF5). A function in UFF has
-    its first id line as name, where that is unique, and its number among the functions: `58[0]`.
+    axis. A field `b` of a structure or group `a` is named `a.b` (MAT) or `a/b` (netCDF, HDF5).
     """
     reader = _find_reader(path)
     try:
@@ -62,6 +61,7 @@ def table_of(path: Path) -> Table:
             f"{path.name} cannot be read as {path.suffix[1:].lower()} ({_first_line(err)}): "
             "it may be incomplete or of another format; export it again, for instance as csv"
         ) from err
+    check_numbers(sum(column.size for column in table.columns.values()), path.name)
     if not table.columns:
         raise DataError(f"{path.name} holds no column of numbers: expected at least one series of samples")
     return table
@@ -69,16 +69,17 @@ def table_of(path: Path) -> Table:
 
 def is_recording(path: str | Path) -> bool:
     """Return whether the ending of a file is that of a recording, and not of a case."""
-    return Path(path).suffix[1:].lower() in ENDINGS
+    return Path(path).suffix[1:].lower() in ENDINGS or Path(path).suffix[1:].lower() in offered_readers()
 
 
 def _find_reader(path: Path) -> Callable[[Path], Table]:
     ending = path.suffix[1:].lower()
-    if ending not in ENDINGS:
-        raise DataError(
-            f"{path.name} ends in {ending!r}: expected one of {', '.join(ENDINGS)}; export it for instance as csv"
-        )
-    return ENDINGS[ending]
+    if ending in ENDINGS:
+        return ENDINGS[ending]
+    if reader := find_offered(ending):
+        return reader.read
+    known = ", ".join((*ENDINGS, *sorted(offered_readers())))
+    raise DataError(f"{path.name} ends in {ending!r}: expected one of {known}; export it for instance as csv")
 
 
 def _require_file(path: Path) -> None:
@@ -115,7 +116,7 @@ def _read_npz(path: Path) -> Table:
     if not isinstance(archive, np.lib.npyio.NpzFile):
         raise DataError(f"{path.name} holds a single array: expected an archive of named arrays, as np.savez writes it")
     with archive:
-        return _make_table({name: _read_member(archive, name, path) for name in archive.files})
+        return table_of_nested({name: _read_member(archive, name, path) for name in archive.files})
 
 
 def _read_member(archive: Any, name: str, path: Path) -> Any:
@@ -141,7 +142,7 @@ def _read_mat(path: Path) -> Table:
     else:
         check_mat(path)
     content = pymatreader.read_mat(path)
-    return _make_table({k: v for k, v in content.items() if not k.startswith("__")})
+    return table_of_nested({k: v for k, v in content.items() if not k.startswith("__")})
 
 
 def _read_nc(path: Path) -> Table:
@@ -151,7 +152,7 @@ def _read_nc(path: Path) -> Table:
         classic = raw.read(3) == b"CDF"
     if classic:  # netCDF 3 has no groups
         with xr.open_dataset(path, engine="scipy", decode_times=False) as data:
-            return _make_table(
+            return table_of_nested(
                 {str(n): v.values for n, v in data.variables.items()},
                 {str(n): _unit_of(v.attrs) for n, v in data.variables.items()},
             )
@@ -164,7 +165,7 @@ def _read_nc(path: Path) -> Table:
     finally:
         for data in groups.values():
             data.close()
-    return _make_table(found, units)
+    return table_of_nested(found, units)
 
 
 def _path_in_file(group: str, name: object) -> str:
@@ -180,7 +181,7 @@ def _read_h5(path: Path) -> Table:
             held: dict[str, Any] = {}  # data sets of h5py, which has no types
             file.visititems(lambda name, item: held.update({name: item} if _is_numeric(item) else {}))
             units = {name: _unit_of(item.attrs) for name, item in held.items()}
-            return _make_table({name: item[()] for name, item in held.items()}, units)
+            return table_of_nested({name: item[()] for name, item in held.items()}, units)
     return _read_nc(path)
 
 
@@ -188,64 +189,11 @@ def _is_numeric(item: Any) -> bool:
     return getattr(item, "dtype", None) is not None and item.dtype.kind in KINDS
 
 
-def _read_uff(path: Path) -> Table:
-    import pyuff
-
-    check_bytes(path.stat().st_size, path.name, TEXT)
-    with path.open("rb") as raw:
-        if sum(line.rstrip() == b"    -1" for line in raw) % 2:  # pyuff skips a set without an end silently
-            raise DataError(f"{path.name}: the last data set has no end: the file is incomplete, export it again")
-    file = pyuff.UFF(str(path))
-    numbers = [i for i, kind in enumerate(file.get_set_types()) if int(kind) == 58]
-    sets = [file.read_sets(i) for i in numbers]
-    found = {f"58[{k}]": s["data"] for k, s in enumerate(sets)}
-    ids = [str(s.get("id1") or "").strip() for s in sets]
-    units = {f"58[{k}]": str(s.get("ordinate_axis_units_lab") or "").strip() for k, s in enumerate(sets)}
-    for k, (name, s) in enumerate(zip(ids, sets, strict=True)):
-        if name and ids.count(name) == 1:
-            found[name], units[name] = s["data"], units[f"58[{k}]"]
-    if sets and "time" not in found and all(np.array_equal(s["x"], sets[0]["x"]) for s in sets):
-        found["time"] = sets[0]["x"]
-        units["time"] = str(sets[0].get("abscissa_axis_units_lab") or "").strip()
-    return _make_table(found, {name: unit for name, unit in units.items() if unit.upper() != "NONE"})
-
-
 def _unit_of(attributes: Any) -> str:
     """Return the unit in the attributes of an array, or an empty text."""
     unit = attributes.get("units", attributes.get("unit", ""))
     word = unit.decode("utf-8", "replace") if isinstance(unit, bytes) else unit
     return word.strip() if isinstance(word, str) else ""
-
-
-def _make_table(content: Mapping[str, object], units: Mapping[str, str] | None = None) -> Table:
-    """Return the table of some arrays; the unit of a two-dimensional array is that of its columns."""
-    columns = dict(_flatten_all(content))
-    known = {name: (units or {}).get(name) or (units or {}).get(name.rpartition("[")[0], "") for name in columns}
-    return make_table(columns, known)
-
-
-def _flatten_all(content: Mapping[str, object]) -> Iterator[tuple[str, Array]]:
-    for name, value in content.items():
-        yield from _flatten(name, value)
-
-
-def _flatten(name: str, value: Any) -> Iterator[tuple[str, Array]]:
-    if isinstance(value, Mapping):
-        yield from _flatten_all({f"{name}.{key}": item for key, item in value.items()})
-    elif isinstance(value, (list, tuple)) and any(np.ndim(item) for item in value if not isinstance(item, Mapping)):
-        yield from _flatten_all({f"{name}[{i}]": item for i, item in enumerate(value)})
-    elif not isinstance(value, (str, bytes)):
-        yield from _list_series(name, np.squeeze(np.asarray(value)))
-
-
-def _list_series(name: str, array: NDArray[Any]) -> Iterator[tuple[str, Array]]:
-    if array.dtype.kind not in KINDS:
-        return
-    if array.ndim == 1:
-        yield name, array.astype(np.float64)
-    elif array.ndim == 2:
-        rows = array if array.shape[0] < array.shape[1] else array.T
-        yield from ((f"{name}[{i}]", row.astype(np.float64)) for i, row in enumerate(rows))
 
 
 ENDINGS: Mapping[str, Callable[[Path], Table]] = {
@@ -257,7 +205,5 @@ ENDINGS: Mapping[str, Callable[[Path], Table]] = {
     "nc": _read_nc,
     "h5": _read_h5,
     "hdf5": _read_h5,
-    "uff": _read_uff,
-    "unv": _read_uff,
 }
-"""The supported file name endings, with their readers."""
+"""The endings of file names that need no extra, with their readers."""

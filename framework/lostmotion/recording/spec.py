@@ -11,8 +11,8 @@ Hold = Literal["smooth", "step"]
 Kind = Literal["white", "ar1", "quantised"]
 """The noise of a sensor, as `lostmotion.likelihood.sensors` names it."""
 
-EXCITATIONS = ("force", "torque", "base_position", "base_acceleration")
-RESPONSES = ("position", "velocity", "acceleration", "force", "torque")
+EXCITATIONS = ("force", "torque", "base_position", "base_acceleration", "voltage", "current")
+RESPONSES = ("position", "velocity", "acceleration", "force", "torque", "voltage", "current")
 KINDS: tuple[Kind, ...] = ("white", "ar1", "quantised")
 
 

@@ -85,8 +85,11 @@ def _make_error(path: Path, why: str) -> DataError:
 
 def _pack_table(table: Table) -> bytes:
     out = io.BytesIO()
-    head = json.dumps({"columns": list(table.columns), "units": dict(table.units), "starts": dict(table.starts)})
-    held: dict[str, Any] = {f"column_{i}": column for i, column in enumerate(table.columns.values())}
+    kept: dict[int, int] = {}  # a column with a second name is written once
+    places = [kept.setdefault(id(column), len(kept)) for column in table.columns.values()]
+    told = {"units": dict(table.units), "starts": dict(table.starts), "refused": dict(table.refused)}
+    head = json.dumps({"columns": list(table.columns), "places": places, "line": table.line, **told})
+    held: dict[str, Any] = {f"column_{i}": c for i, c in zip(places, table.columns.values(), strict=True)}
     held[_HEAD] = np.frombuffer(head.encode(), dtype=np.uint8)
     np.savez(out, **held)
     return out.getvalue()
@@ -95,8 +98,9 @@ def _pack_table(table: Table) -> bytes:
 def _unpack_table(raw: bytes) -> Table:
     with np.load(io.BytesIO(raw), allow_pickle=False) as archive:
         head = json.loads(archive[_HEAD].tobytes())
-        columns = {name: archive[f"column_{i}"] for i, name in enumerate(head["columns"])}
-    return Table(columns, head["units"], head["starts"])
+        arrays = {place: archive[f"column_{place}"] for place in set(head["places"])}
+    columns = {name: arrays[place] for name, place in zip(head["columns"], head["places"], strict=True)}
+    return Table(columns, head["units"], head["starts"], head["refused"], head["line"])
 
 
 def _limit_resources(path: Path) -> None:

@@ -17,6 +17,7 @@ from typing import Any
 
 from lostmotion.errors import LostMotionError, PluginError, nearest
 from lostmotion.hookspecs import GROUP
+from lostmotion.offers import COMMAND, FAILURES, KINDS, READER, Host, RefusedError, call_guarded, first_line
 from lostmotion.provenance import digest
 from lostmotion.registry.classes import (
     class_of,
@@ -29,7 +30,6 @@ from lostmotion.registry.classes import (
     sources,
     warn_if_slow,
 )
-from lostmotion.registry.hooks import COMMAND, FAILURES, KINDS, Host, RefusedError, call_guarded, first_line
 
 __all__ = ["KINDS", "Entry", "Registry", "default", "import_texts", "sources"]
 
@@ -42,7 +42,7 @@ class Entry:
     """One offered name, or a faulty package that offers nothing (kind "package").
 
     `state` is "ready", "broken", "clash" or "misspelt hook"; `why` is one sentence when it is not "ready". `about` is
-    the help line of a command.
+    the help line of a command, or what the library of a reader is called for pip.
     """
 
     kind: str
@@ -120,7 +120,7 @@ class Registry:
 
     def entries(self) -> tuple[Entry, ...]:
         """Return all offered names, sorted by kind and name, with the reason where one cannot be used."""
-        order = {kind: i for i, kind in enumerate((*KINDS, COMMAND, _PACKAGE))}
+        order = {kind: i for i, kind in enumerate((*KINDS, COMMAND, READER, _PACKAGE))}
         checked = (self._checked_for_clash(e) for e in self._offers)
         return tuple(sorted(checked, key=lambda e: (order[e.kind], e.name, e.owner)))
 

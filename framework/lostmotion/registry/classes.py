@@ -17,7 +17,7 @@ from types import ModuleType
 from typing import Any
 
 from lostmotion.errors import PluginError, PluginWarning, nearest
-from lostmotion.registry.hooks import FAILURES, first_line
+from lostmotion.offers import FAILURES, first_line
 from lostmotion.registry.words import find_misfit
 
 SLOW = 2.0

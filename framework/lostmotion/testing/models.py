@@ -15,7 +15,7 @@ from lostmotion.testing.probes import Point, compile_function, make_blank, point
 from lostmotion.testing.rules import join_words, rule
 from lostmotion.testing.shared import find_repeated
 
-INPUTS = ("force", "base_position", "base_velocity", "base_acceleration")
+INPUTS = ("force", "base_position", "base_velocity", "base_acceleration", "voltage", "current")
 """The names of inputs; one that ends in `_force` acts on a further body."""
 RATE_OF = {"velocity": "position", "acceleration": "velocity"}
 _SMALL = 1e-6
@@ -55,7 +55,7 @@ def motion_is_known(model: Model) -> str:
 
 @rule("model", declaration=True)
 def inputs_and_channels_are_named(model: Model) -> str:
-    """Name inputs "force", "second_force", "base_position" followed by "base_velocity", or "base_acceleration".
+    """Name inputs "force", "second_force", "base_position" followed by "base_velocity", "base_acceleration", "voltage".
 
     The name of a force on a further body ends in "_force". Give each channel a unique name.
     """
@@ -74,7 +74,7 @@ def inputs_and_channels_are_named(model: Model) -> str:
 
 @rule("model", declaration=True)
 def channels_are_named_by_quantity(model: Model) -> str:
-    """End the name of each channel in its quantity: position, velocity, acceleration, force or torque.
+    """End the name of each channel in its quantity: position, velocity, acceleration, force, torque or current.
 
     The part before it names the body, as in "second_position". Units and derivatives follow from the name.
     """

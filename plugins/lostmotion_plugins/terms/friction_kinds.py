@@ -1,4 +1,4 @@
-"""Dry friction whose level depends on something: the direction, the load, the time since the start."""
+"""Dry friction whose level depends on something: the direction, the load, the time since the start, the way."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from lostmotion.contracts import Array, Model, Param, Term, Values
-from lostmotion.quantities import FORCE, NUMBER, TIME
+from lostmotion.quantities import FORCE, LENGTH, NUMBER, TIME
 from lostmotion_plugins.laws import resist_sliding, subtract_gap
 from lostmotion_plugins.terms.friction import NEGLIGIBLE_SHARE
 
@@ -105,7 +105,7 @@ class FrictionDrift(Term):
         ),
     )  # fmt: skip
     needs = ("mobility",)
-    resembles = ("coulomb_friction",)
+    resembles = ("coulomb_friction", "friction_drift_travel")
 
     def commoner(self, values: Mapping[str, float]) -> Mapping[str, Mapping[str, float]]:
         """Return Coulomb friction of the level at the start where the change is negligible."""
@@ -116,3 +116,84 @@ class FrictionDrift(Term):
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
         level = max(p[0] + p[1] * (1.0 - math.exp(-t / p[2])), 0.0)
         return resist_sliding(v, level, (abs(p[0]) + abs(p[1])) * p[3])
+
+
+@dataclass(frozen=True)
+class FrictionDriftTravel(Term):
+    """Dry friction that changes with the distance travelled, because surfaces run in or wear; the distance is a state.
+
+    Under a steady motion it resembles a change over time; it rests where the machine rests.
+    """
+
+    at: str = "ground"
+    name: ClassVar[str] = "friction_drift_travel"
+    extends: ClassVar[tuple[str, ...]] = ("coulomb_friction",)
+    physics: ClassVar[str] = (
+        "Dry friction opposes the motion: {force} at the start, and {change} more after a long way, with a distance of"
+        " {distance}"
+    )
+    formula: ClassVar[str] = "-max(force + change * (1 - exp(-s/distance)), 0) * sign(v),  s' = |v|"
+    paper: ClassVar[str] = "Blau, Tribology International 38 (2005) 1007-1012: running-in"
+    params = (
+        Param("force", "friction at the start", FORCE, low=0.0, null=0.0),
+        Param("change", "change of the friction after a long way", FORCE, null=0.0, typical=0.5),
+        Param(
+            "distance", "way in which it changes by 63 %", LENGTH, low=0.0, scale="log", typical=100.0,
+            scan=(0.03, 10.0),
+        ),
+    )  # fmt: skip
+    states = ("travelled",)
+    needs = ("mobility",)
+    resembles = ("friction_drift", "coulomb_friction")
+    commoner = FrictionDrift.commoner
+
+    @staticmethod
+    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
+        level = max(p[0] + p[1] * (1.0 - math.exp(-s[0] / p[2])), 0.0)
+        return resist_sliding(v, level, (abs(p[0]) + abs(p[1])) * p[3])
+
+    @staticmethod
+    def rate(t: float, x: float, v: float, u: Array, p: Values, s: Values, dsdt: Array) -> None:
+        dsdt[0] = abs(v)
+
+
+@dataclass(frozen=True)
+class FrictionDriftTwice(Term):
+    """Dry friction that changes over two times: that of the lubricant in the contact, and that of the whole machine."""
+
+    at: str = "ground"
+    name: ClassVar[str] = "friction_drift_twice"
+    extends: ClassVar[tuple[str, ...]] = ("friction_drift", "coulomb_friction")
+    unlikely: ClassVar[float] = 1.0
+    physics: ClassVar[str] = (
+        "Dry friction opposes the motion: {force} at the start, {change} more with a time constant of {time}, and"
+        " {later} more with {slower}"
+    )
+    formula: ClassVar[str] = "-max(force + change * (1 - exp(-t/time)) + later * (1 - exp(-t/slower)), 0) * sign(v)"
+    paper: ClassVar[str] = "Simoni, Beschi, Legnani, Visioli, IEEE/RSJ Int. Conf. Intelligent Robots (2015) 3524-3529"
+    params = (
+        Param("force", "friction at the start", FORCE, low=0.0, null=0.0),
+        Param("change", "change with the shorter time", FORCE, null=0.0, typical=0.5),
+        Param("later", "change with the longer time", FORCE, null=0.0, typical=0.5),
+        Param("time", "shorter time constant", TIME, low=0.0, scale="log", typical=0.06, lasting=True),
+        Param("slower", "longer time constant", TIME, low=0.0, scale="log", typical=0.6, lasting=True),
+    )
+    needs = ("mobility",)
+    resembles = ("friction_drift", "coulomb_friction")
+
+    def commoner(self, values: Mapping[str, float]) -> Mapping[str, Mapping[str, float]]:
+        """Return a change over one time where the other is negligible, or Coulomb friction where both are."""
+        force, first, second = values["force"], values["change"], values["later"]
+        small = NEGLIGIBLE_SHARE * (force + abs(first) + abs(second))
+        if abs(first) < small and abs(second) < small:
+            return {"coulomb_friction": {"force": force}}
+        if abs(second) < small:
+            return {"friction_drift": {"force": force, "change": first, "time": values["time"]}}
+        if abs(first) < small:
+            return {"friction_drift": {"force": force, "change": second, "time": values["slower"]}}
+        return {}
+
+    @staticmethod
+    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
+        changed = p[1] * (1.0 - math.exp(-t / p[3])) + p[2] * (1.0 - math.exp(-t / p[4]))
+        return resist_sliding(v, max(p[0] + changed, 0.0), (abs(p[0]) + abs(p[1]) + abs(p[2])) * p[5])

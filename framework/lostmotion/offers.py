@@ -12,15 +12,17 @@ from lostmotion import hookspecs
 from lostmotion.errors import nearest
 
 KINDS = ("model", "term", "embedder", "quantifier", "surrogate", "denoiser", "engine")
-COMMAND = "command"
-HOOKS = {f"lostmotion_{kind}s": kind for kind in (*KINDS, COMMAND)}
+COMMAND, READER = "command", "reader"
+_SAID = {COMMAND: "One line of help.", READER: "what to install with pip if its library is absent"}
+"""The kinds that are functions; a second text belongs to each of their names."""
+HOOKS = {f"lostmotion_{kind}s": kind for kind in (*KINDS, COMMAND, READER)}
 FAILURES = (Exception, SystemExit)
 """The exceptions of third-party code during import and in hooks that are handled; Ctrl-C is not."""
 _TARGET = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*")
 
 
 class Offer(NamedTuple):
-    """One name that a plugin offers; `about` is the help line of a command, and empty otherwise."""
+    """One name that a plugin offers; `about` is the help line of a command, or what a reader needs, else empty."""
 
     kind: str
     name: str
@@ -103,13 +105,13 @@ def call_guarded(function: Callable[[], Any], complaint: str) -> Any:
 
 def _check_offers(offer: Any, hook: str, kind: str) -> Iterator[Offer]:
     """Yield the offers in the result of a hook; raise `RefusedError` unless it is a mapping of names to targets."""
-    example = ("package.module:command", "One line of help.")
-    wanted = f'return {{"name": {example}}}' if kind == COMMAND else 'return {"name": "package.module:Class"}'
+    example = ("package.module:function", _SAID.get(kind, ""))
+    wanted = f'return {{"name": {example}}}' if kind in _SAID else 'return {"name": "package.module:Class"}'
     if not isinstance(offer, Mapping):
         raise RefusedError("broken", f"hook {hook!r} returned {type(offer).__name__}: {wanted}")
     for name, value in offer.items():
-        parts = tuple(value) if kind == COMMAND and isinstance(value, (tuple, list)) else (value,)
+        parts = tuple(value) if kind in _SAID and isinstance(value, (tuple, list)) else (value,)
         texts = all(isinstance(text, str) for text in (name, *parts))
-        if not texts or len(parts) != (2 if kind == COMMAND else 1) or not _TARGET.fullmatch(parts[0]):
+        if not texts or len(parts) != (2 if kind in _SAID else 1) or not _TARGET.fullmatch(parts[0]):
             raise RefusedError("broken", f"hook {hook!r} returned {{{name!r}: {value!r}}}: {wanted}")
         yield Offer(kind, name, *parts)
