@@ -151,7 +151,6 @@ def lostmotion_readers() -> dict[str, tuple[str, str]]:
         **dict.fromkeys(("mf4", "mdf"), mdf),
         **dict.fromkeys(("bag", "db3"), bag),
         **dict.fromkeys(("uff", "unv"), uff),
-        "lvm": (f"{at}.lvm:read_lvm", "lostmotion[lvm]"),
         "mcap": (f"{at}.bags:read_mcap", "lostmotion[mcap]"),
         "parquet": (f"{at}.parquet:read_parquet", "lostmotion[parquet]"),
         "tdms": (f"{at}.tdms:read_tdms", "lostmotion[tdms]"),

@@ -90,7 +90,7 @@ def test_a_step_that_is_no_time_is_refused(dt):
 
 
 def test_a_period_that_is_no_time_is_refused():
-    with pytest.raises(CaseError, match="period is -1.0"):
+    with pytest.raises(CaseError, match=r"period is -1\.0"):
         embed(wave(), Plain(), dt=0.1, period=-1.0)
 
 

@@ -25,7 +25,7 @@ TIME = np.arange(N) / 100.0
 FORCE = 40.0 * np.sin(7.0 * TIME)
 PLACE = 30.0 * np.cos(7.0 * TIME)
 LIBRARIES = {
-    "xlsx": "python_calamine", "tdms": "nptdms", "mf4": "asammdf", "parquet": "pyarrow", "lvm": "lvm_read",
+    "xlsx": "python_calamine", "tdms": "nptdms", "mf4": "asammdf", "parquet": "pyarrow",
     "mcap": "mcap", "bag": "rosbags", "uff": "pyuff",
 }  # fmt: skip
 
@@ -113,19 +113,6 @@ def to_parquet(path: Path) -> None:
     pyarrow.parquet.write_table(pyarrow.table([TIME, FORCE, PLACE], schema=schema), path)
 
 
-def to_lvm(path: Path) -> None:
-    lines = [f"{t:.6f}\t{f!r}\t{x!r}\t" for t, f, x in np.column_stack([TIME, FORCE, PLACE]).tolist()]
-    rows = "\n".join(lines).replace(".", ",")
-    path.write_text(
-        "LabVIEW Measurement\t\nWriter_Version\t2\nReader_Version\t2\nSeparator\tTab\nDecimal_Separator\t,\n"
-        "Multi_Headings\tNo\nX_Columns\tOne\nTime_Pref\tRelative\nDate\t2025/03/04\nTime\t10:11:12,5\n"
-        "***End_of_Header***\t\n\t\nChannels\t2\t\t\nSamples\t200\t200\t\nDate\t2025/03/04\t2025/03/04\t\n"
-        "Time\t10:11:12,5\t10:11:12,5\t\nY_Unit_Label\tN\tmm\t\nX_Dimension\tTime\tTime\t\n"
-        "X0\t0,0E+0\t0,0E+0\t\nDelta_X\t0,010000\t0,010000\t\n***End_of_Header***\t\t\t\n"
-        f"X_Value\tMotor force\tPosition\tComment\n{rows}\n"
-    )
-
-
 def to_mcap(path: Path) -> None:
     """Write messages of ROS 2 about both, and one topic of words."""
     from mcap_ros2.writer import Writer
@@ -161,7 +148,7 @@ def to_bag(path: Path) -> None:
 
 
 WRITERS: dict[str, Callable[[Path], None]] = {
-    "xlsx": to_xlsx, "tdms": to_tdms, "mf4": to_mf4, "parquet": to_parquet, "lvm": to_lvm,
+    "xlsx": to_xlsx, "tdms": to_tdms, "mf4": to_mf4, "parquet": to_parquet,
 }  # fmt: skip
 
 
@@ -220,20 +207,12 @@ def test_two_sheets_with_numbers_are_asked_about(tmp_path: Path) -> None:
         read_table(tmp_path / "run.xlsx")
 
 
-def test_a_pickle_beside_a_file_of_labview_is_not_run(tmp_path: Path) -> None:
-    path = written(tmp_path, "lvm", to_lvm)
-    (tmp_path / "run.lvm.pkl").write_bytes(b"cos\nmkdir\n(V" + str(tmp_path / "made").encode() + b"\ntR.")
-    assert len(read_table(path).columns["time"]) == N
-    assert not (tmp_path / "made").exists()
-
-
 @pytest.mark.parametrize("ending", [*WRITERS, "mcap", "bag"])
 def test_a_damaged_file_is_told_so(tmp_path: Path, ending: str) -> None:
     writers = {**WRITERS, "mcap": to_mcap, "bag": to_bag}
     path = written(tmp_path, ending, writers[ending])
     raw = path.read_bytes()
-    cut = raw[: len(raw) // 20] if ending != "lvm" else raw[:200]  # a text of fewer rows is no damage
-    for content in (np.random.default_rng(1).bytes(5000), cut):
+    for content in (np.random.default_rng(1).bytes(5000), raw[: len(raw) // 20]):
         path.write_bytes(content)
         with pytest.raises(DataError, match=rf"run\.{ending}"):
             read_table(path)

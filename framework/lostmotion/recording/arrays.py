@@ -7,7 +7,7 @@ seconds from the first one.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from datetime import datetime
+from datetime import datetime, time, timedelta
 from typing import Any
 
 import numpy as np
@@ -77,6 +77,11 @@ def _unwrap(name: str, array: NDArray[Any]) -> NDArray[Any]:
     if len(there) and there.map(lambda cell: isinstance(cell, datetime)).all():
         zoned = pd.to_datetime(series, utc=True)
         return np.asarray(zoned.dt.tz_localize(None).to_numpy())
+    if len(there) and there.map(lambda cell: isinstance(cell, timedelta)).all():
+        return np.asarray(pd.to_timedelta(series).to_numpy())
+    if len(there) and there.map(lambda cell: isinstance(cell, time)).all():
+        series = series.map(lambda cell: cell.isoformat(), na_action="ignore")
+        there = series[series.notna()]
     if len(there) and there.map(lambda cell: isinstance(cell, str)).all():
         return np.array(["" if gone else cell for cell, gone in zip(series, series.isna(), strict=True)], dtype=str)
     try:

@@ -200,6 +200,7 @@ ENDINGS: Mapping[str, Callable[[Path], Table]] = {
     "csv": read_text,
     "tsv": read_text,
     "txt": read_text,
+    "lvm": read_text,
     "npz": _read_npz,
     "mat": _read_mat,
     "nc": _read_nc,

@@ -54,7 +54,7 @@ def find_header(file: str, lines: list[str]) -> Header:
     """Return the header of a table from the first lines of its file; `DataError` if there is none."""
     rows = [(i, line) for i, line in enumerate(lines) if line.strip() and not is_comment(line)]
     notes = [(i, line) for i, line in enumerate(lines) if is_comment(line)]
-    if rows and (beside := _read_beside(rows)):
+    if rows and (beside := _read_beside(rows) or _read_waveform(rows)):
         return beside
     if rows and _has_only_values(rows[0][1]):
         return _read_comment(file, [note for note in notes if note[0] < rows[0][0]], rows)
@@ -73,11 +73,28 @@ def _read_beside(rows: list[Line]) -> Header | None:
     stated = {row[0].strip().lower(): row[1].strip() for row in cells}
     if "record length" not in stated:
         return None
-    name = stated.get("source") or "reading"
-    units = {"time": stated.get("horizontal units", ""), name: stated.get("vertical units", "")}
-    names = ["", "", "", "time", name, *[""] * (len(cells[0]) - 5)]
+    names, units = [""] * len(cells[0]), {"time": stated.get("horizontal units", "")}
+    blocks = [j for j, cell in enumerate(cells[0][:-4]) if cell.strip().lower() == "record length"]
+    for begin in blocks:  # for each channel: two columns of settings, an empty one, time and reading
+        own = {row[begin].strip().lower(): row[begin + 1].strip() for row in cells if len(row) > begin + 1}
+        name = own.get("source") or f"reading {blocks.index(begin) + 1}"
+        names[begin + 3 : begin + 5] = ["" if begin else "time", name]
+        units[name] = own.get("vertical units", "")
     kept = {key: unit for key, unit in units.items() if is_unit(unit)}
     return Header(names, kept, ",", rows[0][0] + 1, trailing=False, stamped=frozenset())
+
+
+def _read_waveform(rows: list[Line]) -> Header | None:
+    """Return the header of a waveform of Keysight: settings, a line `Data:` without names, then time and reading."""
+    split = [cells_of(line, ",") for _, line in rows]
+    end = next((k for k, cells in enumerate(split[:LAST]) if cells and cells[0].strip() == "Data:"), None)
+    if end is None or end + 1 >= len(rows) or not all(_is_number(cell) for cell in split[end + 1]):
+        return None
+    stated = {cells[0].strip(" :").lower(): cells[1].strip() for cells in split[:end] if len(cells) > 1}
+    names = ["time", "reading", *(f"reading {k}" for k in range(2, len(split[end + 1])))][: len(split[end + 1])]
+    units = {"time": stated.get("x units", ""), **dict.fromkeys(names[1:], stated.get("y units", ""))}
+    kept = {name: unit for name, unit in units.items() if is_unit(unit)}
+    return Header(names, kept, ",", rows[end + 1][0] + 1, trailing=False, stamped=frozenset())
 
 
 def _no_numbers(file: str) -> DataError:
@@ -272,4 +289,5 @@ def _is_filled(cell: str) -> bool:
     if is_missing(text):
         return False
     number, _, unit = text.partition(" ")
-    return _is_number(text) or is_stamp(text) or is_date(text) or (is_unit(unit) and _is_number(number))
+    measured = is_unit(unit) and not unit.startswith(("(", "[")) and _is_number(number)  # `101 (V)` is a name
+    return _is_number(text) or is_stamp(text) or is_date(text) or measured

@@ -17,14 +17,19 @@ from lostmotion.errors import DataError
 
 Array = NDArray[np.float64]
 Whole = NDArray[np.int64]
-_DAY_FIRST = r"\d{1,2}[./-]\d{1,2}[./-](?:\d{4}|\d{2})"
+_DAY_FIRST = r"\d{1,2}[./-]\d{1,2}[./-](?:\d{4}|\d{2})|\d{1,2}\. \d{1,2}\. ?(?:\d{4}|\d{2})"
 _MONTHS = ("jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec")
 _NAMED = r"\d{1,2}[- .]+[A-Za-z]{3,9}[-, .]+(?:\d{4}|\d{2})|[A-Za-z]{3,9}\.? \d{1,2},? \d{4}"
 _YEAR_FIRST = r"\d{4}-\d{1,2}-\d{1,2}|\d{4}/\d{1,2}/\d{1,2}|\d{4}\.\d{1,2}\.\d{1,2}|\d{8}"
 _DATE = rf"({_YEAR_FIRST}|{_DAY_FIRST}|{_NAMED})"
+_ZONES = {
+    "WET": 0, "WEST": 1, "BST": 1, "CET": 1, "CEST": 2, "MEZ": 1, "MESZ": 2, "EET": 2, "EEST": 3, "MSK": 3, "JST": 9,
+    "EST": -5, "EDT": -4, "CST": -6, "CDT": -5, "MST": -7, "MDT": -6, "PST": -8, "PDT": -7,
+}  # fmt: skip
+"""Names of time zones, with their hours ahead of UTC."""
 _STAMP = re.compile(
     rf"(?:{_DATE}[T ,_]\s*)?(\d{{1,2}}):([0-5]\d):([0-5]\d)(?:[.,](\d{{1,9}})|:(\d{{1,3}}))?\s*([AaPp]\.?[Mm]\.?)?\s*"
-    r"(?:(Z|[+-]\d\d:?\d\d|(?:GMT|UTC)(?:[+-]\d\d?(?::?\d\d)?)?)(?:\[[\w/+-]+\])?)?"
+    rf"(?:(Z|[+-]\d\d:?\d\d|{'|'.join(_ZONES)}|(?:GMT|UTC)(?:[+-]\d\d?(?::?\d\d)?)?)(?:\[[\w/+-]+\])?)?"
 )
 _ONLY_DATE = re.compile(_DATE)
 _WRITTEN = str.maketrans({"年": "-", "月": "-", "日": " ", "時": ":", "分": ":", "秒": None})
@@ -113,6 +118,8 @@ def _since_midnight(fields: Sequence[Sequence[str | None]]) -> Whole:
 
 def _utc_offset(offset: str | None) -> int:
     """Return the offset (s) of local time from UTC."""
+    if offset in _ZONES:
+        return 3600 * _ZONES[offset]
     found = re.fullmatch(r"(?:GMT|UTC)?([+-])(\d\d?):?(\d\d)?", offset or "")
     if not found:
         return 0

@@ -20,13 +20,17 @@ from numpy.typing import NDArray
 from lostmotion.errors import DataError
 from lostmotion.recording.header import HEAD, Header, cells_of, find_header, is_comment
 from lostmotion.recording.limits import check_columns, check_line, check_numbers
+from lostmotion.recording.lvm import FIRST, read_lvm
 from lostmotion.recording.numbers import RAW, Mark, NumberColumn, choose_mark, is_missing
 from lostmotion.recording.stamps import Stamps
 from lostmotion.recording.table import Table, make_table
+from lostmotion.recording.words import MILLISECONDS, has_foreign_name
 
 Array = NDArray[np.float64]
 AT_ONCE = 4096
 """Lines that are processed at once where each cell is parsed separately."""
+ENCODINGS = ("cp932", "cp1251", "euc_jp", "koi8-r", "cp866", "gbk")
+"""Encodings of Japanese, Russian and Chinese, in the order in which they are tried."""
 _BLOCK = 1 << 20
 _UTF_16 = (b"\xff\xfe", b"\xfe\xff")
 
@@ -85,7 +89,11 @@ def read_text(path: Path) -> Table:
     the cells of the file leave no doubt. Columns of time stamps are in seconds from the first stamp. A column that
     cannot be read is kept with the reason.
     """
-    text = _open_text(path)
+    encoding = _encoding(path)
+    with path.open(encoding=encoding) as stream:
+        if stream.readline().startswith(FIRST):
+            return read_lvm(path.name, _check_lines(path.name, stream))
+    text = _open_text(path, encoding)
     found = _read_plain(text)
     return (
         _read_cells(text)
@@ -116,8 +124,14 @@ def _encoding(path: Path) -> str:
 def _guess_encoding(head: bytes) -> str:
     """Return the encoding of a text in one of the older encodings: Japanese, Russian, else that of Western Europe.
 
-    Japanese characters begin with a byte that is no letter elsewhere; Russian words consist of high bytes only.
+    The one in which a column has a known name is taken. Else, Japanese characters begin with a byte that is no letter
+    elsewhere, and Russian words consist of high bytes only.
     """
+    lines = head[: head.rfind(b"\n") + 1]
+    for encoding in ENCODINGS:
+        with suppress(UnicodeDecodeError):
+            if has_foreign_name(lines.decode(encoding)):
+                return encoding
     if re.search(rb"[\x81-\x84\x88-\x9f][\x40-\xfc]", head):
         with suppress(UnicodeDecodeError):
             head[: head.rfind(b"\n") + 1].decode("cp932")
@@ -125,8 +139,7 @@ def _guess_encoding(head: bytes) -> str:
     return "cp1251" if re.search(rb"[\xc0-\xff]{3}", head) else "latin-1"
 
 
-def _open_text(path: Path) -> _Text:
-    encoding = _encoding(path)
+def _open_text(path: Path, encoding: str) -> _Text:
     with path.open(encoding=encoding, errors="strict") as stream:
         header = find_header(path.name, list(_check_lines(path.name, islice(stream, HEAD))))
     with path.open(encoding=encoding) as stream:
@@ -244,9 +257,24 @@ def _collect(text: _Text, columns: list[NumberColumn | _StampColumn], units: dic
         else:
             found[one.name] = one.finish(own or "point")
             units[one.name] = next(iter(one.units), "") or units[one.name]
+    _add_milliseconds(found, starts)
     if refused and not found:
         raise DataError(next(iter(refused.values())))
     return make_table(found, units, starts, refused, line)
+
+
+def _add_milliseconds(found: dict[str, Array], starts: dict[str, str]) -> None:
+    """Add a column of milliseconds (0 to 999) to the only column of time stamps, which has whole seconds."""
+    parts = [name for name in found if MILLISECONDS.fullmatch(name.strip()) and name not in starts]
+    if len(parts) != 1 or len(starts) != 1:
+        return
+    ((stamped, first),), milli = starts.items(), found[parts[0]]
+    whole = found[stamped]
+    if not (np.all((milli >= 0.0) & (milli < 1000.0)) and np.array_equal(whole, np.rint(whole)) and "." not in first):
+        return
+    found[stamped] = whole + (milli - milli[0]) / 1e3
+    starts[stamped] = f"{first}.{int(milli[0]):03d}"
+    del found[parts[0]]
 
 
 def _add_rows(text: _Text, columns: Sequence[NumberColumn | _StampColumn | None], block: list[tuple[int, str]]) -> None:

@@ -19,14 +19,14 @@ NAMES: Mapping[str, re.Pattern[str]] = {
         re.IGNORECASE,
     ),
     "position": re.compile(
-        r"pos|disp|angle|enc|travel|gauge|laser|^[xqy]([_ \d.,\[(/]|$)|theta|phi|stroke|^weg|winkel|変位|位置|角度"
+        r"pos|disp|angle|enc|travel|gauge|laser|^[xqy]([_ \d.,\[(/]|$)|theta|phi|stroke|^weg|winkel|変位|位置|角度|位移"
         r"|перемещение|положение|угол",
         re.IGNORECASE,
     ),
 }
 TIME = re.compile(
     r"(^|[_ .])(t|time|date ?time|date|datum|zeit|uhrzeit|zeitstempel|seconds?|timestamp|stamp|clock|elapsed|x_value|"
-    r"temps|tiempo|tempo)([_ \[(.,/]|$)|時間|時刻|日時|日付|время|дата",
+    r"temps|tiempo|tempo)([_ \[(.,/]|$)|時間|時刻|日時|日付|时间|日期|время|дата",
     re.IGNORECASE,
 )
 COUNTER = re.compile(
@@ -35,6 +35,16 @@ COUNTER = re.compile(
     re.IGNORECASE,
 )
 """Names of columns that count rows, samples or pulses."""
+
+MILLISECONDS = re.compile(r"ms|msec|milli ?sec(ond)?s?|millisekunden?|ミリ秒|мс", re.IGNORECASE)
+"""Names of a column of the milliseconds that belong to a time stamp."""
+_ASCII = re.compile(r"[\x00-\x7f]+")
+
+
+def has_foreign_name(text: str) -> bool:
+    """Return whether a text has a word for time or for a quantity in letters beyond those of English."""
+    foreign = _ASCII.sub(" ", text)
+    return TIME.search(foreign) is not None or kind_named(foreign) != ""
 
 
 def names_time(name: str) -> bool:
