@@ -3,7 +3,7 @@
 Prints each hypothesis that was fitted: score less the best one, log evidence of the fitted and of the held-out data,
 the part of it that smooth forces add, and its parameters with their standard deviations. Then the probability of each
 term.
-This is the engine of `lostmotion.evidence`, which does not decide in `lostmotion diagnose` yet.
+This is the search of `lostmotion diagnose`, without its course over stretches of long recordings.
 """
 
 from __future__ import annotations
