@@ -49,7 +49,7 @@ class Course:
         bare = nominal if short is nominal.problem else maximise(short, nominal.theta)
         if bare is nominal or bare.status == "diverged":
             whole.run()
-            whole.drop_vague()
+            whole.drop_each()
             whole.weigh_unknown()
             return whole
         self.say(f"search on {short.samples} samples in {len(short.observations)} stretches")
@@ -71,7 +71,7 @@ class Course:
                 whole.weigh(fit, found.values, found.choice)
         whole.skipped += first.skipped
         whole.bare.promised |= first.bare.promised
-        whole.drop_vague()
+        whole.drop_each()
         whole.weigh_unknown()
         return whole
 

@@ -100,12 +100,6 @@ class Hypothesis:
         amplitudes = [(names[f.key], at, sd) for f, at, sd in rows if f.key in names and not f.log]
         return [param.name for param, at, sd in amplitudes if abs(at - (param.null or 0.0)) < BAND * sd]
 
-    def is_vague(self, key: str) -> bool:
-        """Return whether the 95 % interval of each amplitude of a term reaches zero."""
-        free = {f.key for f in self.frame.problem.free[: self.frame.own] if not f.log}
-        amplitudes = [s for s in sort_slots(self.frame.problem, key)[0] if s.key in free]
-        return bool(amplitudes) and len(self.list_vague(key)) == len(amplitudes)
-
     @property
     def used(self) -> NDArray[np.intp]:
         """The indices of the coordinates that are free."""

@@ -91,14 +91,13 @@ class ExplanationSearch:
             self.extended.add(target.terms)
             self._extend(target)
 
-    def drop_vague(self) -> None:
-        """Weigh the best set without each term of which no amplitude is told from zero, until it has no such term."""
+    def drop_each(self) -> None:
+        """Weigh the best set without each of its terms, until the best set stays the same."""
         tried: set[Terms] = set()
         while (best := self.best).terms not in tried:
             tried.add(best.terms)
             for key in sorted(best.frame.terms):
-                if best.is_vague(key):
-                    self._drop(best, key)
+                self._drop(best, key)
 
     def weigh_unknown(self) -> None:
         """Fit the best sets, and the model without any term, with an unknown force."""
@@ -107,8 +106,9 @@ class ExplanationSearch:
             self._weigh_unknown(target)
 
     def score(self, found: Hypothesis) -> float:
-        """Return the score of a hypothesis."""
-        return found.score(self.temper)
+        """Return the score of a hypothesis over the temper of all, the scatter of the best one."""
+        scatter = max(self.found.values(), key=lambda one: one.score(self.temper)).scatter
+        return found.score(self.temper * scatter)
 
     @property
     def best(self) -> Hypothesis:
