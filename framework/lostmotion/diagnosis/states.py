@@ -11,7 +11,7 @@ import numpy as np
 from lostmotion.contracts import Term
 from lostmotion.diagnosis.compare import Prediction
 from lostmotion.diagnosis.search import SearchResult
-from lostmotion.evidence.hypothesis import UNKNOWN
+from lostmotion.evidence.hypothesis import UNKNOWN, list_vague
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.natural import find_term
 from lostmotion.inference.penalties import is_simpler
@@ -92,7 +92,7 @@ def _warn_of_probability(d: SearchResult, key: str) -> Iterator[str]:
 
 def _warn_of_vague_size(d: SearchResult, key: str) -> Iterator[str]:
     """Yield a warning for each amplitude of a term whose interval reaches zero: then a simpler law may be the name."""
-    for name in d.explained.best.list_vague(key):
+    for name in list_vague(d.explained.best, key):
         yield f"The interval of its {to_words(name)} reaches zero: the recording does not show it."
 
 

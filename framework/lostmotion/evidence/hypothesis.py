@@ -92,14 +92,6 @@ class Hypothesis:
         own = self.frame.own
         return np.asarray(solve_scaled(self.precision, np.eye(len(self.used)))[:own, :own])
 
-    def list_vague(self, key: str) -> list[str]:
-        """Return the amplitudes of a term, by the name of the parameter, whose 95 % interval reaches zero."""
-        names = {s.key: s.param for s in sort_slots(self.frame.problem, key)[0]}
-        sds = np.sqrt(np.maximum(np.diag(self.covariance), 0.0))
-        rows = zip(self.frame.problem.free[: self.frame.own], self.theta, sds, strict=True)
-        amplitudes = [(names[f.key], at, sd) for f, at, sd in rows if f.key in names and not f.log]
-        return [param.name for param, at, sd in amplitudes if abs(at - (param.null or 0.0)) < BAND * sd]
-
     @property
     def used(self) -> NDArray[np.intp]:
         """The indices of the coordinates that are free."""
@@ -110,6 +102,15 @@ class Hypothesis:
         """The posterior precision (used, used) of the free coordinates."""
         prior = _compute_precision(self.frame, self.expansion, self.choice)
         return np.asarray(self.expansion.information[np.ix_(self.used, self.used)] + np.diag(prior[self.used]))
+
+
+def list_vague(found: Hypothesis, key: str) -> list[str]:
+    """Return the amplitudes of a term, by the name of the parameter, whose 95 % interval reaches zero."""
+    names = {s.key: s.param for s in sort_slots(found.frame.problem, key)[0]}
+    sds = np.sqrt(np.maximum(np.diag(found.covariance), 0.0))
+    rows = zip(found.frame.problem.free[: found.frame.own], found.theta, sds, strict=True)
+    amplitudes = [(names[f.key], at, sd) for f, at, sd in rows if f.key in names and not f.log]
+    return [param.name for param, at, sd in amplitudes if abs(at - (param.null or 0.0)) < BAND * sd]
 
 
 def fit_hypothesis(frame: JointFrame, begin: Array, price: float, choice: Choice | None = None) -> Hypothesis:
