@@ -3,10 +3,10 @@
 import pytest
 
 from lostmotion import testing
-from lostmotion.registry import Registry
+from lostmotion.registry import KINDS, Registry
 
 REGISTRY = Registry.discover()
-OURS = [e for e in REGISTRY.entries() if e.owner == "lostmotion" and e.kind != "command"]
+OURS = [e for e in REGISTRY.entries() if e.owner == "lostmotion" and e.kind in KINDS]
 
 
 def test_all_of_ours_are_ready():

@@ -23,14 +23,14 @@ Level = Callable[[float, float], float]
 
 
 def run_machine(level: Level, *, samples: int = 1500, busy: float = 1.0) -> dict[str, Array]:
-    """Return time, force, position (noise: 20 um) and way; the force acts in a share `busy` of each 5 s."""
+    """Return time, force, position (noise: 20 um) and way; the force is large in a share `busy` of each 5 s."""
     rng, h = np.random.default_rng(4), DT / INNER
     x = v = way = 0.0
     rows = []
     for n in range(samples * INNER):
         t = n * h
-        on = 1.0 if busy == 1.0 or (t % 5.0) < 5.0 * busy else 0.0
-        u = on * (6.0 * np.sin(9.0 * t) + 4.0 * np.sin(23.0 * t + 1.0))
+        on = 1.5 if (t % 5.0) < 5.0 * busy else 0.6
+        u = on * (6.0 * np.sin(9.0 * t) + 6.0 * np.sin(23.0 * t + 1.0))
         if n % INNER == 0:
             rows.append((t, u, x, way))
         free = v + h / M * (u - C * v - K * x)
@@ -67,12 +67,12 @@ def test_friction_that_falls_over_a_time_and_its_picture(tmp_path: Path) -> None
 
 @pytest.mark.slow
 def test_friction_that_falls_over_the_way() -> None:
-    held = run_machine(lambda t, way: 3.0 - 2.0 * (1.0 - np.exp(-way / 0.4)), busy=0.5, samples=3000)
+    held = run_machine(lambda t, way: 3.0 - 2.0 * (1.0 - np.exp(-way / 1.5)), busy=0.5, samples=3000)
     found = diagnose(held, also=DRIFTS)
     drift = found.found[0]
     assert drift.mechanism == "friction_drift_travel"
     assert drift.parameters["force"].median == pytest.approx(3.0, rel=0.05)
-    assert drift.parameters["distance"].median == pytest.approx(0.4, rel=0.15)
+    assert drift.parameters["distance"].median == pytest.approx(1.5, rel=0.15)
 
 
 @pytest.mark.slow
