@@ -37,7 +37,7 @@ def best_wrong(result):
     """Return the best log-likelihood gained by one wrong term: neither friction in any form nor damping."""
     right = (FRICTION, "stribeck_friction", "lugre_friction", "quadratic_damping")
     fitted = {k: g for k, g in result["gains"].items() if k and "+" not in k and k not in right}
-    tested = {k: g for k, g in result["hints"].items() if k not in right and k not in fitted}
+    tested = {k: g for k, g in result["promised"].items() if k not in right and k not in fitted}
     name, gain = max({**tested, **fitted}.items(), key=lambda pair: pair[1], default=("-", 0.0))
     return f"{gain:.1f} ({name})"
 
@@ -62,7 +62,7 @@ def table(args):
 
 def table_row(r):
     ignored, force, c, theirs = PROTOTYPE[r["hidden"]]
-    gains = {**r["hints"], **r["gains"]}
+    gains = {**r["promised"], **r["gains"]}
     ours = [f"{gains[k]:.0f}" for k in (FRICTION, "quadratic_damping")]
     return [
         f"{r['hidden']:g} N",

@@ -61,22 +61,18 @@ def findings(d):
     from lostmotion.diagnosis.findings import compute_intervals, draw_parameters
 
     rng = np.random.default_rng(1)
-    course = d.selection
-    bottom = course.nominal
-    gains = {"+".join(sorted(k)): v.fit.log_likelihood - bottom.log_likelihood for k, v in course.fitted_sets.items()}
-    friction = d.after if FRICTION in d.found else None
-    if frozenset({FRICTION}) in course.fitted_sets and friction is None:
-        friction = course.fitted_sets[frozenset({FRICTION})].fit
+    explained = d.explained
+    bottom = explained.nominal.log_likelihood
+    friction = d.after if FRICTION in d.found else explained.fits.get(frozenset({FRICTION}))
     wide = {"before": d.before, "after": d.after, **({"friction": friction} if friction else {})}
     return {
         "found": list(d.found),
-        "probability": {k: course.inclusion(k) for k in d.after.problem.system.keys},
-        "nothing": course.probabilities().get(frozenset(), 0.0),
-        "gains": gains,
-        "hints": {h.key: h.gain for h in sorted(course.hints, key=lambda h: h.gain)},
-        "evidence": {"+".join(sorted(k)): v.weight for k, v in course.fitted_sets.items()},
-        "status": {"+".join(sorted(k)): f"{v.fit.status} {v.fit.rounds}" for k, v in course.fitted_sets.items()},
-        "declined": sorted(course.declined),
+        "probability": {k: explained.inclusion(k) for k in d.after.problem.system.keys},
+        "nothing": explained.probabilities.get(frozenset(), 0.0),
+        "gains": {"+".join(sorted(k)): fit.log_likelihood - bottom for k, fit in explained.fits.items()},
+        "promised": dict(sorted(explained.promised.items(), key=lambda row: row[1])),
+        "scores": {"+".join(sorted(k)): found.score() for k, found in explained.found.items()},
+        "status": {"+".join(sorted(k)): f"{fit.status} {fit.rounds}" for k, fit in explained.fits.items()},
         "random_gain": d.random_gain,
         "verdict": [*d.named, *["unknown"] * d.unknown] or ["random_force"] * d.unexplained,
         "levels": {n: dict(zip(f.problem.keys, map(float, f.theta), strict=True)) for n, f in wide.items()},

@@ -48,7 +48,8 @@ class Param:
     `choices` are values that are tried in turn and not fitted, `words` what a sentence says in place of each of them.
     `far` lists multiples of `typical` that are tried as further starts. `scan` is the smallest and largest multiple of
     `typical` between which a recording is searched for the number, for an amplitude too if the response is far from
-    linear in it. `angular`: a number per time is in rad/s, not in Hz. Example:
+    linear in it. `wave`: a frequency in units of that of the drive, which a spectrum finds; it is fitted where it is
+    none of `choices`. `angular`: a number per time is in rad/s, not in Hz. Example:
     `Param("coefficient", "viscous damping", DAMPING, low=0.0, null=0.0)`.
     """
 
@@ -66,6 +67,7 @@ class Param:
     lasting: bool = False
     far: tuple[float, ...] = ()
     scan: tuple[float, float] | None = None
+    wave: bool = False
     angular: bool = False
 
     def unit(self, motion: str) -> str:

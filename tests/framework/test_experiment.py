@@ -5,6 +5,7 @@ import math
 import sys
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -27,7 +28,8 @@ from lostmotion.diagnosis.rehearsal import (
     simulate_recording,
 )
 from lostmotion.errors import CaseError
-from lostmotion.inference.term_sets import Selection, TermSet
+from lostmotion.evidence.explanations import Explanations
+from lostmotion.evidence.hypothesis import UNKNOWN
 from lostmotion.likelihood.drive import DriveHarmonic
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.space import AR1_LEVEL, AR1_MEMORY, FreeParameter
@@ -210,27 +212,53 @@ def test_limits_that_cannot_be_meant_are_refused(tmp_path, line, says):
         load_case(path)
 
 
-class Outcome:
-    """As much of a diagnosis as the words about rivals need."""
+def outcome_of(scores, fits, *, learned=None):
+    """Return as much of a diagnosis as the words about rivals need; `scores` are those of each set of terms."""
+    found = {
+        terms: SimpleNamespace(terms=terms, scatter=1.0, score=lambda temper=1.0, own=score: own / temper)
+        for terms, score in scores.items()
+    }
+    explained = Explanations({fit.problem.active: fit for fit in fits}, found)
+    return SimpleNamespace(
+        explained=explained,
+        found=tuple(explained.terms),
+        before=fits[0],
+        learned=learned,
+        shown=fits[0].problem.observations[0],
+        settings=DEFAULT,
+    )
 
-    def __init__(self, fit, fitted_sets):
-        self.found = tuple(fit.problem.active)
-        self.selection = Selection(fit, fit, fitted_sets)
-        self.shown = fit.problem.observations[0]
-        self.settings = DEFAULT
+
+CUBIC, LINEAR = frozenset({"cubic_stiffness"}), frozenset({"linear_stiffness"})
 
 
 @pytest.fixture
 def diagnosed(springs):
-    *_, (truth, other) = springs
-    fits = {f.problem.active: f for f in (truth, other)}
-    return Outcome(truth, {k: TermSet(k, f, 0.0 if f is truth else -2.0) for k, f in fits.items()})
+    *_, fits = springs
+    return outcome_of({CUBIC: 10.0, LINEAR: 8.0}, fits)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("behind", "named"), [(4.0, True), (5.0, False)])
+def test_a_rival_has_a_probability_that_is_worth_telling(springs, behind, named):
+    """A hundredth is: 4 in score are odds of 55, 5 are odds of 148."""
+    *_, fits = springs
+    rivals_of = rivals.find_rivals(outcome_of({CUBIC: 10.0, LINEAR: 10.0 - behind}, fits))
+    assert bool(rivals_of) is named
+    assert not named or rivals_of["linear_stiffness"] is fits[1]
+
+
+@pytest.mark.slow
+def test_there_is_no_rival_where_a_curve_was_learned_or_beside_an_unknown_force(springs):
+    *_, fits = springs
+    assert rivals.find_rivals(outcome_of({CUBIC: 10.0, LINEAR: 9.0}, fits, learned=object())) == {}
+    assert rivals.find_rivals(outcome_of({CUBIC: 10.0, LINEAR | {UNKNOWN}: 9.0}, fits)) == {}
 
 
 @pytest.mark.slow
 def test_a_rival_is_named_with_the_experiment_that_decides(diagnosed):
     assert list(rivals.find_rivals(diagnosed)) == ["linear_stiffness"]
-    observation = diagnosed.selection.chosen.problem.observations[0]
+    observation = diagnosed.explained.chosen.problem.observations[0]
     offered = list_candidates(observation, 100, choose_limits(observation, FREQUENCY), np.random.default_rng(0))
     proposals = {"linear_stiffness": Proposal(max(offered, key=lambda e: e.level), (40.0, 50.0), (4.0, 6.0), (0, 1))}
     rows = [Confusion(mechanism=name, at=at, says="") for name, at in RIVALS]
@@ -244,7 +272,7 @@ def test_a_rival_is_named_with_the_experiment_that_decides(diagnosed):
 
 @pytest.mark.slow
 def test_without_an_experiment_that_decides_it_says_so(diagnosed):
-    observation = diagnosed.selection.chosen.problem.observations[0]
+    observation = diagnosed.explained.chosen.problem.observations[0]
     offered = list_candidates(observation, 100, choose_limits(observation, FREQUENCY), np.random.default_rng(0))
     proposals = {"linear_stiffness": Proposal(offered[0], (1.0, 0.5), (0.0, 0.0), (0, 1))}
     (only,) = rivals.describe_confusions(diagnosed, [], proposals)
@@ -252,23 +280,7 @@ def test_without_an_experiment_that_decides_it_says_so(diagnosed):
 
 
 @pytest.mark.slow
-def test_a_relative_is_named_by_its_evidence_and_not_by_its_price(diagnosed, monkeypatch):
-    """A set with a further parameter pays for it: what the recording cannot rule out is named all the same."""
-    monkeypatch.setattr(rivals, "are_related", lambda a, b: True)
-    fitted_sets = diagnosed.selection.fitted_sets
-    (other,) = [v for v in fitted_sets.values() if v.terms != diagnosed.selection.chosen.problem.active]
-    fitted_sets[other.terms] = replace(other, weight=-9.0)
-    level = diagnosed.selection.chosen.log_evidence
-    for short, named in ((2.0, True), (5.0, False)):
-        local = replace(
-            other.fit.local, log_posterior=other.fit.local.log_posterior + level - short - other.fit.log_evidence
-        )
-        fitted_sets[other.terms] = replace(other, weight=-9.0, fit=replace(other.fit, local=local))
-        assert bool(rivals.find_rivals(diagnosed)) is named
-
-
-@pytest.mark.slow
 def test_no_rival_no_experiment(springs):
-    *_, (truth, _) = springs
-    alone = Outcome(truth, {truth.problem.active: TermSet(truth.problem.active, truth, 0.0)})
+    *_, fits = springs
+    alone = outcome_of({CUBIC: 0.0}, fits)
     assert rivals.propose_experiments(alone, Experiment(), rng=np.random.default_rng(0)) == {}

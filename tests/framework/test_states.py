@@ -1,118 +1,62 @@
 """Named, likely, open: how sure a diagnosis is, and what is withheld."""
 
+import math
 from types import SimpleNamespace
 
-import numpy as np
 import pytest
+from made_explanations import (
+    CHANGE,
+    DELAY,
+    FRICTION,
+    STRIBECK,
+    diagnosis,
+    explanations,
+    fit_of,
+    hypothesis,
+    missing,
+)
 
 from lostmotion.codec import to_plain
-from lostmotion.diagnosis.confirming import describe_usual_delay
 from lostmotion.diagnosis.findings import withhold_intervals
 from lostmotion.diagnosis.states import (
     LIKELY,
     NAMED,
     OPEN,
     choose_state,
+    compute_gain,
+    compute_probability,
     is_valid,
     limit_confidence,
     list_open_terms,
     list_warnings,
     sort_findings,
     warn_of_moved_amplitudes,
+    warn_of_short_delay,
 )
-from lostmotion.inference.term_sets import SimplestTerms
 from lostmotion.results import Interval
 from lostmotion.results.diagnosis import Mechanism
 from lostmotion.settings import DEFAULT
-from lostmotion_plugins.terms.bodies import InertiaChange
-from lostmotion_plugins.terms.drive import ExcitationDelay
-from lostmotion_plugins.terms.friction import CoulombFriction
 
-FRICTION, DELAY, CHANGE = "coulomb_friction@ground", "excitation_delay@drive", "inertia_change@ground"
-
-
-def fit_of(values, active, sds=None):
-    terms = (CoulombFriction(at="ground"), ExcitationDelay(at="drive"), InertiaChange(at="ground"))
-    system = SimpleNamespace(keys=(FRICTION, DELAY, CHANGE), terms=terms)
-    slots = {
-        FRICTION: [SimpleNamespace(key=f"{FRICTION}.force", param=CoulombFriction.params[0])],
-        DELAY: [SimpleNamespace(key=f"{DELAY}.delay", param=ExcitationDelay.params[0])],
-        CHANGE: [SimpleNamespace(key=f"{CHANGE}.{q.name}", param=q) for q in InertiaChange.params],
-    }
-    system.own = slots
-    free = [SimpleNamespace(key=k, log=False, unit="N" if "force" in k else "s") for k in values]
-    problem = SimpleNamespace(system=system, active=frozenset(active), free=free, scales=SimpleNamespace(time=1.0))
-    problem.observations = (SimpleNamespace(time=np.arange(100.0), samples=100, dt=1.0),)
-    sds = sds or dict.fromkeys(values, 0.01)
-    return SimpleNamespace(problem=problem, values=values, sd=sds, log_evidence=0.0)
+RUB = {f"{FRICTION}.force": 1.0}
+BRISTLES = {f"{STRIBECK}.force": 1.0, f"{STRIBECK}.excess": 0.5, f"{STRIBECK}.velocity": 0.1}
+LATE = {f"{DELAY}.delay": 0.2}
 
 
-def missing(size):
-    """What is told of a force that is missing, here of a given standard deviation."""
-    return SimpleNamespace(missing=SimpleNamespace(force=np.array([size, -size])))
-
-
-def diagnosis(after, probabilities, fitted_sets=None, **course):
-    sets = {frozenset(k): p for k, p in probabilities.items()}
-    selection = SimpleNamespace(
-        chosen=after,
-        fitted_sets={frozenset(k): SimpleNamespace(fit=f) for k, f in (fitted_sets or {}).items()}
-        | course.get("weights", {}),
-        gain=lambda key: 10.0,
-        probabilities=lambda: sets,
-        inclusion=lambda key: sum(p for terms, p in sets.items() if key in terms),
-        tied=course.get("tied", set()),
-        declined=course.get("declined", set()),
-        heldout_gains=course.get("heldout_gains", {}),
-        simplest=course.get("simplest"),
-        withdrawn=frozenset(),
-    )
-    found = tuple(after.problem.active)
-    return SimpleNamespace(
-        selection=selection,
-        after=after,
-        before=after,
-        found=found,
-        named=found,
-        learned=course.get("learned"),
-        left=course.get("left"),
-        located=missing(1.0),
-        unexplained=course.get("left") is not None,
-        withdrawn=course.get("withdrawn", ()),
-        settings=DEFAULT,
-    )
-
-
-@pytest.fixture(autouse=True)
-def _slots(monkeypatch):
-    def term_of(problem, key):
-        system = problem.system
-        return system.terms[system.keys.index(key)], system.own[key]
-
-    monkeypatch.setattr("lostmotion.diagnosis.states.find_term", term_of)
-    monkeypatch.setattr("lostmotion.diagnosis.confirming.find_term", term_of)
-
-
-@pytest.mark.parametrize(("gain", "sure"), [(29.0, False), (31.0, True)])
-def test_a_name_has_to_win_three_times_what_has_no_name_beside_it(gain, sure):
-    after = fit_of({f"{FRICTION}.force": 1.0}, [FRICTION])
-    weights = {frozenset({FRICTION}): SimpleNamespace(weight=gain), frozenset(): SimpleNamespace(weight=0.0)}
-    d = diagnosis(after, {(FRICTION,): 1.0}, weights=weights, learned=SimpleNamespace(gain=10.0))
-    doubts = list_warnings(d, FRICTION)
-    assert doubts == [] if sure else ["29 in log evidence" in doubt for doubt in doubts] == [True]
+def rubbing(score=10.0, **more):
+    """Return a diagnosis that found friction with a score of so much over nothing missing."""
+    return diagnosis(explanations(hypothesis(RUB, score)), **more)
 
 
 @pytest.mark.parametrize(("time", "sure"), [(3.0, False), (50.0, True)])
 def test_a_change_at_the_very_beginning_may_be_a_wrong_known_value(time, sure):
-    after = fit_of({f"{CHANGE}.change": 1.0, f"{CHANGE}.time": time}, [CHANGE])
-    doubts = list_warnings(diagnosis(after, {(CHANGE,): 1.0}), CHANGE)
+    change = hypothesis({f"{CHANGE}.change": 1.0, f"{CHANGE}.time": time}, 10.0)
+    doubts = list_warnings(diagnosis(explanations(change)), CHANGE)
     assert doubts == [] if sure else ["first 3 % of the recording" in doubt for doubt in doubts] == [True]
 
 
 @pytest.mark.parametrize(("left", "sure"), [(0.6, False), (0.4, True)])
 def test_a_name_that_leaves_most_of_the_force_missing_is_likely(left, sure):
-    after = fit_of({f"{FRICTION}.force": 1.0}, [FRICTION])
-    doubts = list_warnings(diagnosis(after, {(FRICTION,): 1.0}, left=missing(left)), FRICTION)
+    doubts = list_warnings(rubbing(left=missing(left)), FRICTION)
     assert doubts == [] if sure else ["60 % of the missing force is still" in doubt for doubt in doubts] == [True]
 
 
@@ -126,95 +70,88 @@ def test_a_name_that_leaves_most_of_the_force_missing_is_likely(left, sure):
     ],
 )
 def test_a_term_that_leaves_most_of_the_force_missing_in_a_model_that_is_not_valid_is_open(left, valid, doubts, state):
-    after = fit_of({f"{FRICTION}.force": 1.0}, [FRICTION])
-    assert choose_state(diagnosis(after, {(FRICTION,): 1.0}, left=missing(left)), doubts, valid=valid) == state
+    assert choose_state(rubbing(left=missing(left)), doubts, valid=valid) == state
 
 
-def test_a_sure_term_is_named_and_one_with_rivals_is_not():
-    after = fit_of({f"{FRICTION}.force": 1.0}, [FRICTION])
-    assert list_warnings(diagnosis(after, {(FRICTION,): 0.99, (): 0.01}), FRICTION) == []
-    (doubt,) = list_warnings(diagnosis(after, {(FRICTION,): 0.8, (DELAY,): 0.2}), FRICTION)
-    assert doubt == "Its probability is 0.8; the alternative is excitation delay."
-    (doubt,) = list_warnings(diagnosis(after, {(FRICTION,): 0.8, (): 0.2}), FRICTION)
-    assert doubt.endswith("the alternative is a generic smooth force.")
+def test_a_sure_term_is_named():
+    assert list_warnings(rubbing(math.log(99.0)), FRICTION) == []
 
 
-@pytest.mark.parametrize(
-    ("gain", "told"),
-    [
-        (12.34, "held-out data decide for the term, by 12 in log score."),
-        (0.0, "free runs over held-out data decide for the term."),
-    ],
-)
-def test_a_term_for_which_held_out_data_decide_is_told_so(gain, told):
-    after, sets = fit_of({f"{FRICTION}.force": 1.0}, [FRICTION]), {(FRICTION,): 0.99, (): 0.01}
-    (doubt,) = list_warnings(
-        diagnosis(after, sets, tied={FRICTION}, heldout_gains={frozenset({FRICTION}): gain}), FRICTION
-    )
-    assert doubt.endswith(told)
+def test_a_term_with_an_alternative_is_not_named_and_says_which():
+    d = diagnosis(explanations(hypothesis(RUB, 20.0), hypothesis(LATE, 20.0 - math.log(4.0))))
+    assert compute_probability(d, FRICTION) == pytest.approx(0.8)
+    assert list_warnings(d, FRICTION) == ["Its probability is 0.8; the alternative is excitation delay."]
 
 
-@pytest.mark.parametrize(("behind", "sure"), [(2.0, False), (4.0, True)])
-def test_another_cause_that_explains_the_fitted_data_as_well_is_a_doubt(behind, sure):
-    """A delay and a friction are no relatives: which of them it is was decided by prior odds alone."""
-    after, other = fit_of({f"{FRICTION}.force": 1.0}, [FRICTION]), fit_of({f"{DELAY}.delay": 1.0}, [DELAY])
-    other.log_evidence = -behind
-    doubts = list_warnings(diagnosis(after, {(FRICTION,): 0.99, (DELAY,): 0.01}, {(DELAY,): other}), FRICTION)
-    assert doubts == [] if sure else ["Excitation delay explains the fitted data as well" in doubts[0]] == [True]
+def test_a_term_that_nothing_missing_rivals_is_not_named():
+    (doubt,) = list_warnings(rubbing(math.log(4.0)), FRICTION)
+    assert doubt == "Its probability is 0.8; the alternative is a small smooth force without a name."
 
 
-def test_a_set_without_the_term_that_is_a_part_of_what_was_found_is_no_other_cause():
-    after = fit_of({f"{FRICTION}.force": 1.0, f"{CHANGE}.time": 50.0}, [FRICTION, CHANGE])
-    part = fit_of({f"{CHANGE}.time": 50.0}, [CHANGE])
-    assert list_warnings(diagnosis(after, {(FRICTION, CHANGE): 0.99}, {(CHANGE,): part}), FRICTION) == []
+def test_a_law_that_contains_the_term_counts_for_it():
+    """Where friction grows towards rest, there is friction; a delay says nothing about friction."""
+    d = diagnosis(explanations(hypothesis(RUB, 20.0), hypothesis(BRISTLES, 20.0)))
+    assert compute_probability(d, FRICTION) == pytest.approx(1.0)
+    assert list_warnings(d, FRICTION) == []
+    d = diagnosis(explanations(hypothesis(RUB, 20.0), hypothesis(LATE, 20.0)))
+    assert compute_probability(d, FRICTION) == pytest.approx(0.5)
 
 
-@pytest.mark.parametrize(("curve", "than"), [(30.0, "any learned curve"), (0.0, "the model alone")])
-def test_the_simplest_explanation_is_likely_and_says_why(curve, than):
-    """A learned curve is mentioned where there was one."""
-    after = fit_of({f"{FRICTION}.force": 1.0}, [FRICTION])
-    (doubt,) = list_warnings(
-        diagnosis(after, {(FRICTION,): 0.45}, simplest=SimplestTerms({FRICTION: 0.45}, curve, 0.55, 0.0)), FRICTION
-    )
-    assert f"better than {than} and predicts held-out data" in doubt
-    assert doubt.endswith("its probability is 0.45.")
+def test_an_unknown_force_beside_a_term_is_a_doubt():
+    with_it = hypothesis(RUB, 20.0 - math.log(9.0), unknown=True)
+    (doubt,) = list_warnings(diagnosis(explanations(hypothesis(RUB, 20.0), with_it)), FRICTION)
+    assert "an unknown force" in doubt
+    assert "the probability 0.1" in doubt
+    rare = hypothesis(RUB, 20.0 - math.log(99.0), unknown=True)
+    assert list_warnings(diagnosis(explanations(hypothesis(RUB, 20.0), rare)), FRICTION) == []
 
 
-def test_a_simplest_explanation_lists_what_these_data_cannot_distinguish():
-    """Terms with less than a twentieth of its probability are left out."""
-    after, simplest = fit_of({f"{DELAY}.delay": 0.2}, [DELAY]), {DELAY: 0.3, FRICTION: 0.19, CHANGE: 0.01}
-    d = diagnosis(after, {(DELAY,): 0.3}, simplest=SimplestTerms(simplest, 30.0, 0.5, 0.0))
-    why, usual = list_warnings(d, DELAY)
-    assert why.endswith("it cannot be distinguished from: Coulomb friction.")
-    assert usual.startswith("A delay of 0.2 samples is usual in acquisition systems")
+@pytest.mark.parametrize(("sd", "sure"), [(0.6, False), (0.4, True)])
+def test_a_size_whose_interval_reaches_zero_is_a_doubt(sd, sure):
+    doubts = list_warnings(diagnosis(explanations(hypothesis(RUB, 10.0, sd=sd))), FRICTION)
+    assert doubts == [] if sure else ["interval of its force reaches zero" in doubt for doubt in doubts] == [True]
+
+
+def test_the_gain_of_a_found_term_is_that_beside_the_others():
+    both = hypothesis(RUB | LATE, 30.0)
+    d = diagnosis(explanations(both, hypothesis(RUB, 20.0), hypothesis(LATE, 5.0)))
+    assert compute_gain(d, DELAY) == pytest.approx(10.0)
+    assert compute_gain(d, FRICTION) == pytest.approx(25.0)
 
 
 def test_a_long_delay_is_no_more_than_likely():
-    period = 2.0 * np.pi
+    period = 2.0 * math.pi
     for share, doubts in ((0.5 * DEFAULT.name.late, 0), (2.0 * DEFAULT.name.late, 1)):
-        after = fit_of({f"{DELAY}.delay": share * period}, [DELAY])
-        assert len(list_warnings(diagnosis(after, {(DELAY,): 1.0}), DELAY)) == doubts
+        d = diagnosis(explanations(hypothesis({f"{DELAY}.delay": share * period}, 10.0)))
+        assert len(list_warnings(d, DELAY)) == doubts
 
 
 def test_a_level_that_moves_when_a_delay_comes_in_is_told_and_the_delay_doubted():
-    after = fit_of({f"{FRICTION}.force": 0.27, f"{DELAY}.delay": 0.01}, [FRICTION, DELAY])
-    before = fit_of({f"{FRICTION}.force": 0.68}, [FRICTION])
-    d = diagnosis(after, {(FRICTION, DELAY): 1.0}, {(FRICTION,): before})
+    both = hypothesis({f"{FRICTION}.force": 0.27, f"{DELAY}.delay": 0.1}, 40.0)
+    d = diagnosis(explanations(both, hypothesis({f"{FRICTION}.force": 0.68}, 20.0)))
     (told,) = warn_of_moved_amplitudes(d, DELAY)
     assert "0.68 N without excitation delay and 0.27 N with it" in told
     assert list_warnings(d, DELAY) == [told]
     assert list_warnings(d, FRICTION) == []
-    still = fit_of({f"{FRICTION}.force": 0.28}, [FRICTION])
-    assert not list(warn_of_moved_amplitudes(diagnosis(after, {(FRICTION, DELAY): 1.0}, {(FRICTION,): still}), DELAY))
+    still = diagnosis(explanations(both, hypothesis({f"{FRICTION}.force": 0.28}, 20.0)))
+    assert list(warn_of_moved_amplitudes(still, DELAY)) == []
 
 
 def test_what_stays_open_is_told_with_the_reason_once():
-    after = fit_of({}, [])
-    d = diagnosis(after, {(): 1.0}, tied={FRICTION}, declined={FRICTION, DELAY}, withdrawn=("unknown",))
+    alone = (fit_of(RUB, log_evidence=30.0), fit_of(LATE, log_evidence=25.0))
+    d = diagnosis(explanations(fits=alone), withdrawn=(DELAY, "unknown"))
     rows = list_open_terms(d)
-    assert [row.mechanism for row in rows] == ["coulomb_friction", "excitation_delay"]
-    assert "generic smooth force explains as much" in rows[0].says
-    assert "residuals are autocorrelated" in rows[1].says
+    assert [row.mechanism for row in rows] == ["excitation_delay", "coulomb_friction"]
+    assert "held-out data are predicted worse" in rows[0].says
+    assert "generic smooth force explains as much" in rows[1].says
+
+
+@pytest.mark.parametrize(("gain", "open_"), [(0.9, False), (1.1, True)])
+def test_a_term_is_open_if_it_alone_would_raise_the_evidence_by_much(gain, open_):
+    alone = fit_of(RUB, log_evidence=gain * DEFAULT.rival.much)
+    assert bool(list_open_terms(diagnosis(explanations(fits=(alone,))))) is open_
+    likely = explanations(hypothesis(RUB, -math.log(9.0)), fits=(alone,))
+    assert list_open_terms(diagnosis(likely)) == ()
 
 
 @pytest.mark.parametrize(("error", "floor", "good"), [(0.2, 0.01, True), (0.35, 0.1, True), (5.92, 0.01, False),
@@ -230,12 +167,12 @@ def test_intervals_are_withheld_with_the_reason():
     assert kept == {"median": 1.0, "low": None, "high": None, "unit": "N s/m", "withheld": "because"}
 
 
-@pytest.mark.parametrize(("delay", "told"), [(0.004, True), (0.006, False)])
-def test_a_delay_of_less_than_half_a_sample_is_usual(delay, told):
-    fit = fit_of({f"{DELAY}.delay": delay}, {DELAY})
-    fit.problem.observations = (SimpleNamespace(dt=0.01),)
-    d = SimpleNamespace(after=fit, values=fit.values, settings=DEFAULT)
-    assert bool(describe_usual_delay(d, DELAY)) == told
+@pytest.mark.parametrize(("delay", "told"), [(0.9, True), (1.1, False)])
+def test_a_delay_of_no_more_than_a_sample_is_usual(delay, told):
+    """Samples are 1 s apart."""
+    d = diagnosis(explanations(hypothesis({f"{DELAY}.delay": delay}, 10.0)))
+    assert bool(list(warn_of_short_delay(d, DELAY))) == told
+    assert not list(warn_of_short_delay(rubbing(), FRICTION))
 
 
 def entry(**told):

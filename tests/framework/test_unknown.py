@@ -1,21 +1,20 @@
 """Unknown is an answer: curves that are learned, their kernels, their smoothness, and the formula that is proposed."""
 
+import math
 import re
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from made_explanations import FRICTION, diagnosis, explanations, hypothesis
 
 from lostmotion.diagnosis import unknowns
+from lostmotion.diagnosis.verdict import rank_candidates
 from lostmotion.inference.curves import _keep_independent
 from lostmotion.inference.learned import OverPhase, OverPosition, compute_spread, list_covariates
 from lostmotion.inference.proposal import Axis, propose_formula
 from lostmotion.inference.surfaces import KINDS, OverHistory, Surface, list_all_curves
-from lostmotion.likelihood.system import System
 from lostmotion.quantities import DAMPING, FORCE, LENGTH, SPEED
 from lostmotion.registry import default
-from lostmotion.settings import DEFAULT
-from lostmotion_plugins.terms.friction import CoulombFriction
 
 X = Axis("x", LENGTH, FORCE, "translation")
 INPUT = np.zeros(1)
@@ -154,18 +153,30 @@ def test_what_free_parameters_cover_promises_nothing():
     assert information == pytest.approx(np.diag([0.0, 3.0]), abs=1e-9)
 
 
-@pytest.mark.parametrize(
-    ("gain", "says"),
-    [
-        (60.0, "that cannot be named: Coulomb friction explains it, but a generic smooth force explains as much"),
-        (20.0, "that no term of the library explains"),
-    ],
-)
-def test_an_unknown_says_where_a_law_explains_it_as_well(gain, says):
-    """No report says that no term explains a force, and ranks one above the curve."""
-    system = System(default().make("model", "linear_oscillator"), (CoulombFriction(),))
-    selection = SimpleNamespace(tied={"coulomb_friction"}, gain=lambda key: gain)
-    d = SimpleNamespace(
-        selection=selection, before=SimpleNamespace(problem=SimpleNamespace(system=system)), settings=DEFAULT
-    )
-    assert unknowns._explain_missing_name(d, SimpleNamespace(gain=58.0)).lower() == says.lower()
+def test_the_odds_of_an_unknown_force_are_those_of_the_explanations_that_have_it():
+    """Scores 5 and 3 with it, 4 without: log odds of 1."""
+    d = diagnosis(
+        explanations(
+            hypothesis({f"{FRICTION}.force": 1.0}, 4.0), hypothesis({}, 5.0, unknown=True),
+            hypothesis({f"{FRICTION}.force": 1.0}, 3.0, unknown=True),
+        )
+    )  # fmt: skip
+    weights = np.exp([4.0, 5.0, 3.0, 0.0])
+    p, gain = unknowns.compute_unknown_odds(d)
+    assert p == pytest.approx((weights[1] + weights[2]) / weights.sum())
+    assert gain == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(("unexplained", "p"), [(False, 0.0), (True, 1.0 - math.exp(-3.0))])
+def test_a_random_force_beyond_the_usual_is_an_unknown_force_if_nothing_was_found(unexplained, p):
+    d = diagnosis(explanations())
+    d.unexplained, d.random_gain = unexplained, 3.0
+    assert unknowns.compute_unknown_odds(d) == pytest.approx((p, 3.0 * unexplained))
+
+
+@pytest.mark.parametrize("random_gain", [0.0, 3.0, 30.0])
+def test_nothing_missing_and_something_unknown_are_not_both_probable(random_gain):
+    d = diagnosis(explanations())
+    d.unexplained, d.random_gain = random_gain > 0.0, random_gain
+    rows = {row.mechanism: row.probability for row in rank_candidates(d, (), failed=False)}
+    assert rows["nothing_missing"] + rows["unknown"] <= 1.0 + 1e-9

@@ -38,7 +38,7 @@ def test_hidden_friction_is_named_and_measured(rubbing):
     assert rubbing[1].found == (FRICTION,)
     assert found.low <= 3.0 <= found.high
     assert abs(found.median - 3.0) < 0.05
-    assert rubbing[1].selection.inclusion(FRICTION) > 0.95
+    assert rubbing[1].explained.inclusion(FRICTION) > 0.95
 
 
 def test_damping_that_soaked_up_friction_lets_it_go(rubbing):
@@ -79,7 +79,7 @@ def test_clean_recording_is_adequate(noise):
     _, d = diagnosed(0.0, ("c", "x0"), seed=12, noise=noise)
     assert d.found == ()
     assert not d.unexplained
-    assert d.selection.probabilities()[frozenset()] > 0.9
+    assert d.explained.probabilities[frozenset()] > 0.9
 
 
 @pytest.mark.slow

@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 import pytest
+from explained import made_of
 from scipy.integrate import quad
 from scipy.interpolate import CubicSpline
 from scipy.special import logsumexp
-from test_rival import made_of
 
 from lostmotion.diagnosis.compare import cut_heldout
 from lostmotion.diagnosis.search import list_fitted_keys
@@ -229,4 +229,4 @@ def test_a_hypothesis_from_its_own_maximum_stays_there(rubbing):
     best = rubbing.best
     again = fit_hypothesis(best.frame, best.at, best.price, best.choice)
     assert again.log_evidence == pytest.approx(best.log_evidence, abs=0.5)
-    assert add_all_curves(rubbing.nominal) is rubbing.nominal
+    assert add_all_curves(rubbing.bare.nominal) is rubbing.bare.nominal

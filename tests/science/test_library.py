@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from explained import explain
 from sensed import case_of, model_of, moved, multisine, noisy
 
 from lostmotion.inference.candidates import compute_slopes, make_term_parameters, run_score_test
@@ -15,7 +16,6 @@ from lostmotion.inference.far_values import hold_shape
 from lostmotion.inference.late import (
     TIMES,
     can_have_onset,
-    cut_at_onsets,
     estimate_onset,
     find_onset,
     list_onsets,
@@ -25,7 +25,6 @@ from lostmotion.inference.late import (
 from lostmotion.inference.likeness import find_likeness
 from lostmotion.inference.natural import list_star_points, list_tried_values, sort_slots
 from lostmotion.inference.random_force import has_usual_random_force
-from lostmotion.inference.selection import Selector
 from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
 from lostmotion.inference.shape_scan import scan_shapes
 from lostmotion.likelihood.bends import correct_bends, rescale_innovations
@@ -88,9 +87,9 @@ def test_play_of_a_spring_is_found_from_afar(tmp_path):
     """Play of a third of the travel: from the nominal model the slope of the likelihood says little of it."""
     gap = 0.012
     fit = nominal_of(tmp_path, [Backlash(), CoulombFriction()], spring=lambda x: x - min(max(x, -gap), gap))
-    course = Selector(fit, ("backlash", "coulomb_friction"), lambda _: None).run()
-    assert course.chosen.problem.active == {"backlash"}
-    assert course.chosen.values["backlash.gap"] == pytest.approx(gap, rel=0.02)
+    explained = explain(fit, ("backlash", "coulomb_friction"))
+    assert explained.terms == {"backlash"}
+    assert explained.chosen.values["backlash.gap"] == pytest.approx(gap, rel=0.02)
 
 
 @pytest.mark.slow
@@ -102,9 +101,9 @@ def test_levels_of_friction_that_differ_little_are_told_as_friction_and_an_offse
     levels = (RUBBED, share * RUBBED)
     rub = lambda x, v, t: -levels[int(v < 0.0)] * abs(math.tanh(v / 1e-3)) * (1.0 if v > 0.0 else -1.0)  # noqa: E731
     fit = nominal_of(tmp_path, [CoulombFriction(), OffsetForce(), DirectionalFriction()], extra=rub)
-    course = Selector(fit, ("coulomb_friction", "offset_force", "directional_friction"), lambda _: None).run()
-    found = course.chosen.values
-    assert course.chosen.problem.active == names
+    explained = explain(fit, ("coulomb_friction", "offset_force", "directional_friction"))
+    found = explained.chosen.values
+    assert explained.terms == names
     if "offset_force" in names:
         assert found["coulomb_friction.force"] == pytest.approx(0.5 * sum(levels), rel=0.03)
         assert found["offset_force.force"] == pytest.approx(0.5 * (levels[1] - levels[0]), rel=0.15)
@@ -114,30 +113,30 @@ def test_levels_of_friction_that_differ_little_are_told_as_friction_and_an_offse
 def test_friction_that_sets_in_late_is_named_with_its_onset(tmp_path):
     terms = [CoulombFriction(), QuadraticDamping(), LinearStiffness()]
     fit = nominal_of(tmp_path, terms, extra=late_rub)
-    course = Selector(fit, ("coulomb_friction", "quadratic_damping"), lambda _: None).run()
-    assert course.chosen.problem.active == {"coulomb_friction"}
-    told = estimate_onset(course.chosen, "coulomb_friction")
+    explained = explain(fit, ("coulomb_friction", "quadratic_damping"))
+    assert explained.terms == {"coulomb_friction"}
+    told = estimate_onset(explained.chosen, "coulomb_friction")
     assert told.low <= LATE <= told.high
     assert told.high - told.low < 0.1
-    assert course.chosen.values["coulomb_friction.force"] == pytest.approx(RUBBED, rel=0.05)
+    assert explained.chosen.values["coulomb_friction.force"] == pytest.approx(RUBBED, rel=0.05)
 
 
 def test_friction_from_the_beginning_has_no_onset(tmp_path):
     fit = nominal_of(tmp_path, [CoulombFriction()], extra=lambda x, v, t: -RUBBED * math.tanh(v / 1e-3))
-    course = Selector(fit, ("coulomb_friction",), lambda _: None).run()
-    assert course.chosen.problem.active == {"coulomb_friction"}
-    assert find_onset(course.chosen.problem, "coulomb_friction") == ALWAYS
-    assert estimate_onset(course.chosen, "coulomb_friction") is None
-    assert refine_onset(course.chosen, "coulomb_friction") is course.chosen
+    explained = explain(fit, ("coulomb_friction",))
+    assert explained.terms == {"coulomb_friction"}
+    assert find_onset(explained.chosen.problem, "coulomb_friction") == ALWAYS
+    assert estimate_onset(explained.chosen, "coulomb_friction") is None
+    assert refine_onset(explained.chosen, "coulomb_friction") is explained.chosen
 
 
 def test_a_gain_that_sets_in_is_named_with_its_time(tmp_path):
     """A gain of a sensor that rises by 8 % between the samples at 3.10 and 3.12 s."""
     fit = nominal_of(tmp_path, [SensorGain(), CoulombFriction()], shown=lambda x: x * np.where(T > LATE, 1.08, 1.0))
-    course = Selector(fit, ("sensor_gain", "coulomb_friction"), lambda _: None).run()
-    assert course.chosen.problem.active == {"sensor_gain"}
-    assert course.chosen.values["sensor_gain.error"] == pytest.approx(0.08, abs=0.001)
-    told = estimate_onset(course.chosen, "sensor_gain")
+    explained = explain(fit, ("sensor_gain", "coulomb_friction"))
+    assert explained.terms == {"sensor_gain"}
+    assert explained.chosen.values["sensor_gain.error"] == pytest.approx(0.08, abs=0.001)
+    told = estimate_onset(explained.chosen, "sensor_gain")
     assert told.low <= LATE + 0.02
     assert told.high >= LATE
     assert told.high - told.low < 0.05
@@ -145,8 +144,8 @@ def test_a_gain_that_sets_in_is_named_with_its_time(tmp_path):
 
 def test_a_gain_from_the_beginning_has_no_time(tmp_path):
     fit = nominal_of(tmp_path, [SensorGain()], shown=lambda x: 1.08 * x)
-    course = Selector(fit, ("sensor_gain",), lambda _: None).run()
-    assert estimate_onset(course.chosen, "sensor_gain") is None
+    explained = explain(fit, ("sensor_gain",))
+    assert estimate_onset(explained.chosen, "sensor_gain") is None
 
 
 def test_the_likelihood_of_a_sensor_that_changes_is_that_of_corrected_readings(tmp_path):
@@ -184,7 +183,8 @@ def test_cut_sensitivities_are_those_of_a_term_that_sets_in(tmp_path):
         np.vstack([slopes.variances, (seen.variances[1] - seen.variances[0])[None] / small]),
         np.append(slopes.steps, small),
     )
-    found = np.array([g[-1] for _, g, _ in cut_at_onsets(fit.problem, joint, 1)])
+    scores, times = joint.scores()[-1], fit.problem.observations[0].time
+    found = np.array([scores[times[: len(scores)] >= onset].sum() for onset in list_onsets(fit.problem)])
     twin = []
     for time in list_onsets(fit.problem):
         late = wider.hold_values({onset_key("linear_stiffness"): float(time)})
@@ -200,8 +200,8 @@ def test_ripple_of_a_sensor_is_scouted_and_found(tmp_path):
     fit = nominal_of(tmp_path, [PositionRipple()], shown=lambda x: x + size * np.cos(2.0 * np.pi * x / pitch + 0.4))
     found = scan_shapes(fit)
     assert found["position_ripple"][0]["position_ripple.pitch"] == pytest.approx(pitch, rel=0.03)
-    course = Selector(fit, ("position_ripple",), lambda _: None, found).run()
-    values = course.chosen.values
+    explained = explain(fit, ("position_ripple",))
+    values = explained.chosen.values
     assert math.hypot(values["position_ripple.cosine"], values["position_ripple.sine"]) == pytest.approx(size, rel=0.1)
     assert values["position_ripple.pitch"] == pytest.approx(pitch, rel=0.002)
 
@@ -242,9 +242,9 @@ def test_lags_of_drive_and_sensor_promise_the_same_of_a_linear_machine(tmp_path)
     slopes = compute_slopes(fit)
     hints = [run_score_test(fit, slopes, key) for key in ("actuator_lag", "sensor_lag")]
     assert min(h.gain for h in hints) > 30.0
-    course = Selector(fit, ("actuator_lag", "sensor_lag"), lambda _: None).run()
-    (key,) = course.chosen.problem.active
-    assert course.chosen.values[f"{key}.time"] == pytest.approx(late, rel=0.05)
+    explained = explain(fit, ("actuator_lag", "sensor_lag"))
+    (key,) = explained.terms
+    assert explained.chosen.values[f"{key}.time"] == pytest.approx(late, rel=0.05)
 
 
 def lagging(x, time):

@@ -3,25 +3,20 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 import pytest
+from explained import explain
 from truths import fit_oscillator
 
-from lostmotion.diagnosis.findings import draw_parameters
-from lostmotion.diagnosis.mixed import mix_modes
 from lostmotion.inference.candidates import join_term
 from lostmotion.inference.fit import maximise, restart
 from lostmotion.inference.other_shapes import (
-    compute_complete_gain,
     find_modes,
     has_other_shapes,
     list_scanned_shapes,
     refit_shapes,
 )
-from lostmotion.inference.refits import Refits
-from lostmotion.inference.term_sets import Selection, TermSet
 from lostmotion.likelihood.observation import Observation
 
 
@@ -100,73 +95,24 @@ def test_a_fit_without_shapes_is_returned_alone(waved):
     assert find_modes(waved) == [waved]
 
 
-def test_draws_come_from_all_maxima_in_proportion_to_their_evidence(waved, monkeypatch):
-    """Two maxima with evidences in the ratio of 3 to 1; 25 % of the draws are from the second. Seeded."""
-    best = with_term(waved, "cogging", {"cosine": 0.0, "sine": -0.3, "pitch": 0.009})
-    wrong = with_term(waved, "cogging", {"cosine": 0.05, "sine": -0.15, "pitch": 0.006})
-    monkeypatch.setattr(type(best), "log_evidence", property(lambda fit: 0.0 if fit is best else -math.log(3.0)))
-    monkeypatch.setattr("lostmotion.diagnosis.mixed.find_modes", lambda fit, reach: [best, wrong])
-    rng = np.random.default_rng(2)
-    made = mix_modes(best, draw_parameters(best, rng), rng)
-    keys = [k for k in best.problem.keys if not k.startswith("log_")]
-    pitches = made[:, keys.index("cogging.pitch")]
-    far = np.abs(np.log(pitches / wrong.values["cogging.pitch"])) < 0.05
-    assert np.mean(far) == pytest.approx(0.25, abs=0.01)
-
-
 @pytest.mark.parametrize(("share", "complete"), [(1.0, (0.3, 1.0)), (0.5, (0.0, 0.02))])
 def test_a_drive_that_saturates_completely_is_among_the_draws(share, complete):
     """The interval contains a share of 1 where the drive passes nothing more, and not where half passes. Seeded."""
     noise = 0.03 if share == 1.0 else 0.003
     fit = driven(lambda x: 0.0, "drive_saturation", noise, lambda u: share * (u - min(max(u, -2.5), 2.5)))
-    best = refit_shapes(with_term(fit, "drive_saturation", {"share": 0.7, "limit": 2.0}))
-    rng = np.random.default_rng(4)
-    made = mix_modes(best, draw_parameters(best, rng), rng)
-    shares = made[:, [k for k in best.problem.keys if not k.startswith("log_")].index("drive_saturation.share")]
+    found = explain(fit, ("drive_saturation",))
+    assert found.terms == {"drive_saturation"}
+    shares = found.draw(["drive_saturation.share"], 2000, np.random.default_rng(4))[:, 0]
     assert complete[0] <= np.mean(shares == 1.0) <= complete[1]
     low, high = np.quantile(shares, [0.025, 0.975])
-    assert low < share <= high
+    assert low <= share <= high
 
 
-@pytest.mark.parametrize(("share", "low", "high"), [(1.0, 0.1, 5.0), (0.5, -0.7, -0.69)])
-def test_the_evidence_counts_the_half_of_the_prior_at_the_complete_law(share, low, high):
-    """Where half passes, only the other half of the prior counts: -log 2. Where all is cut, the evidence is larger."""
-    noise = 0.03 if share == 1.0 else 0.003
-    fit = driven(lambda x: 0.0, "drive_saturation", noise, lambda u: share * (u - min(max(u, -2.5), 2.5)))
-    assert compute_complete_gain(fit) == 0.0
-    best = refit_shapes(with_term(fit, "drive_saturation", {"share": 0.7, "limit": 2.0}))
-    assert low < compute_complete_gain(best) < high
-
-
-class Law(NamedTuple):
-    """A law that contains no simpler one."""
-
-    name: str
-    at: str = "ground"
-    extends: tuple[str, ...] = ()
-
-
-def test_sets_near_the_best_are_refitted_once_with_other_shapes(waved, monkeypatch):
-    """A wave 20 behind the best set is refitted.
-
-    One 50 behind is not, nor is one beside a term that is better alone; a set without shapes has nothing to try.
-    """
-    wave = with_term(waved, "cogging", {"cosine": 0.0, "sine": -0.3, "pitch": 0.009})
-    weights = {"plain": (waved, 0.0), "near": (wave, -20.0), "far": (wave, -50.0), "plain more": (wave, -5.0)}
-    sets = {frozenset(k.split()): TermSet(frozenset(k.split()), fit, weight) for k, (fit, weight) in weights.items()}
-    selection, refits = Selection(waved, waved, sets), Refits()
-    monkeypatch.setattr("lostmotion.inference.refits.find_term", lambda _, key: (Law(key), []))
-    assert [set(v.terms) for v in refits.take_shaped(selection)] == [{"near"}]
-    assert refits.take_shaped(selection) == []
-
-
-def test_subsets_of_the_best_set_are_refitted_from_it_without_a_sensor_of_position(waved, monkeypatch):
-    """A shift of the gap had the better initial state, and was named for it in a machine that hides nothing."""
-    weights = {"": 0.0, "one": 5.0, "other": 4.0, "one other": 20.0, "one third": 6.0}
-    sets = {frozenset(k.split()): TermSet(frozenset(k.split()), waved, weight) for k, weight in weights.items()}
-    selection, refits = Selection(waved, waved, sets), Refits()
-    best = sets[frozenset({"one", "other"})]
-    assert refits.take_subsets(selection, best) == []
-    monkeypatch.setattr("lostmotion.inference.refits.lacks_position", lambda _: True)
-    assert {v.terms for v in refits.take_subsets(selection, best)} == {frozenset({"one"}), frozenset({"other"})}
-    assert refits.take_subsets(selection, best) == []
+@pytest.mark.slow
+def test_a_wave_is_explained_at_its_pitch(waved):
+    """The force repeats three times over the travel; other pitches are maxima, too."""
+    found = explain(waved, ("cogging",))
+    assert found.terms == {"cogging"}
+    drawn = found.draw(["cogging.pitch"], 2000, np.random.default_rng(4))[:, 0]
+    low, high = np.quantile(drawn, [0.005, 0.995])
+    assert low <= 0.009 <= high

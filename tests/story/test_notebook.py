@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -58,7 +59,7 @@ def test_the_fitted_model_predicts_another_drive(run):
 
 def test_results_show_themselves_in_words(run):
     _, shown = run
-    assert any("Dry friction of 1.2" in text and "<svg" in text for text in shown)
+    assert any(re.search(r"Dry friction of 1\.(19[5-9]|20[0-4]|2 )", text) and "<svg" in text for text in shown)
     assert any("position (m); 1500 samples at 100 Hz" in text for text in shown)
 
 

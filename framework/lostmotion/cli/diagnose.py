@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,12 +15,15 @@ from lostmotion.cli.progress import show_count, show_progress
 if TYPE_CHECKING:
     from lostmotion.settings import Settings
 
+BUDGET = "Processor time of the search; it tells what it did not try. Default: by the length of the recording."
+
 
 @click.command(
     epilog=examples(
         "lostmotion diagnose case.toml --out result",
         "lostmotion --plugin my_terms.py diagnose case.toml --out result --seed 1",
         "lostmotion diagnose case.toml --set select.decisive=5     require odds of 150 instead of 20 for a term",
+        "lostmotion diagnose case.toml --budget 60     search for at most one minute of processor time",
         "lostmotion diagnose pump.toml crane.toml --out results --jobs 2",
         "lostmotion diagnose run1.csv --model lin_backlash     write a case first, as `init` does",
         "lostmotion diagnose run1.csv --model \"m*x'' + c*x' + k*x = force\"",
@@ -27,14 +31,20 @@ if TYPE_CHECKING:
 )
 @click.argument("cases", metavar="CASE.toml...", nargs=-1, required=True, type=click.Path(path_type=Path))
 @add_model_option
+@click.option("--budget", type=click.FloatRange(min=0.0), default=None, metavar="SECONDS", help=BUDGET)
 @add_settings_option
 @add_common_options
 @click.pass_context
-def command(ctx: click.Context, /, cases: tuple[Path, ...], out: Path, model: str, **given: Any) -> None:
+def command(
+    ctx: click.Context, /, cases: tuple[Path, ...], out: Path, model: str, budget: float | None, **given: Any
+) -> None:
     """Locate the mismatch, name the missing physics, model it, and show that the fit improves.
 
     Writes diagnosis.json, arrays.nc and report.html into DIR. No fit uses the last 30 % of the recording, or of the
     list of several recordings. Exit status 0 when a diagnosis was reached, 2 for a case that cannot be used.
+
+    Ctrl+C during the search ends the search, and the result is the best explanation so far; a second one ends the
+    command.
 
     Instead of one case, a recording with clear column names can be given: then DIR/case.toml is written first, with the
     guesses of `lostmotion init`. Check this file: it has wide priors and a default model.
@@ -46,6 +56,8 @@ def command(ctx: click.Context, /, cases: tuple[Path, ...], out: Path, model: st
     interruptions nor on --jobs. Exit status 0 when every case reached a diagnosis, 1 when some were set aside, 2 when
     none could be used.
     """
+    if budget is not None:
+        given["settings"] = replace(given["settings"], select=replace(given["settings"].select, budget=budget))
     if len(cases) > 1:
         _diagnose_many(ctx, cases, out, **given)
     else:

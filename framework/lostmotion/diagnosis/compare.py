@@ -183,18 +183,6 @@ def _is_positive(values: Array, chance: float) -> bool:
     return bool(ttest_1samp(values, 0.0, alternative="greater").pvalue < chance)
 
 
-def compute_run_errors(fit: Fit, pieces: Sequence[HeldOutStretch], horizon: Horizon) -> Array:
-    """Return the rms error (PARTS,) of free runs over a horizon, from starts in successive parts of held-out data.
-
-    Errors of several sensors are divided by the standard deviation of each, and averaged.
-    """
-    runs = []
-    for piece in pieces:
-        problem = fit.problem.on((piece.observation,))
-        runs.append(_run_freely(problem, fit, filter_recording(problem, fit.theta).states, piece, horizon))
-    return _average_by_parts(runs, horizon, [compute_deviation(pieces, sensor) for sensor in range(len(runs[0]))])
-
-
 def _average_by_parts(runs: Sequence[Sequence[FreeRuns]], horizon: Horizon, scales: Sequence[float]) -> Array:
     """Return the rms error (PARTS,) of the free runs (pieces, sensors) from successive parts of held-out data."""
     found = []

@@ -38,8 +38,7 @@ DRAWS = 2000
 class Outcome:
     """A diagnosis, the predictions of both models, their horizon, and draws (draws, keys) of both posteriors.
 
-    Draws are empty until the terms are final. `unconfirmed` has a warning for each term that held-out data do not
-    confirm. Sentences state angles in the unit `angle`, rad or deg.
+    Draws are empty until the terms are final. Sentences state angles in the unit `angle`, rad or deg.
     """
 
     diagnosis: SearchResult
@@ -48,7 +47,6 @@ class Outcome:
     horizon: Horizon
     draws_before: Array = field(default_factory=lambda: np.zeros((0, 0)))
     draws_after: Array = field(default_factory=lambda: np.zeros((0, 0)))
-    unconfirmed: Mapping[str, str] = field(default_factory=dict)
     angle: str = "rad"
 
 
@@ -119,8 +117,8 @@ def withhold_intervals(parameters: Mapping[str, Interval], why: str) -> Mapping[
 
 
 def _is_random(d: SearchResult) -> bool:
-    """Return whether the remaining force has no structure, and no term was declined for autocorrelated residuals."""
-    return not (d.left and d.left.structure) and not d.selection.declined
+    """Return whether the remaining force has no structure."""
+    return not (d.left and d.left.structure)
 
 
 def _make_entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> Mechanism:
@@ -134,7 +132,7 @@ def _make_entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> Me
     if late:
         sentence += f", since {late}"
     share = float(np.max(np.abs(d.laws[key]))) / d.after.problem.scales.force
-    doubts = list_warnings(d, key) + [doubt for doubt in (outcome.unconfirmed.get(key), why) if doubt]
+    doubts = list_warnings(d, key) + [why] * bool(why)
     size = "" if isinstance(term, SensorTerm) else f", up to {percent(share)} of {d.yardstick}"
     state, p = choose_state(d, doubts, valid=not why), compute_probability(d, key)
     return Mechanism(
@@ -177,7 +175,7 @@ def list_other_places(model: Model) -> set[str]:
 
 def _make_quantised_entry(d: SearchResult, key: str) -> Mechanism:
     """Return the entry of a term that is visible in the stored values: their quantisation."""
-    term, slots = find_term(d.selection.nominal.problem, key)
+    term, slots = find_term(d.before.problem, key)
     rows = zip(slots, *d.quantised[key], strict=True)
     channel = next((s.channel for s in d.shown.sensors if s.place == term.at), d.shown.channel)
     unit = unit_of(channel, d.after.problem.system.model.motion)

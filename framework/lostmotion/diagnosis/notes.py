@@ -11,7 +11,7 @@ from lostmotion.diagnosis.decays import note_restarts
 from lostmotion.diagnosis.findings import Outcome
 from lostmotion.diagnosis.repetitions import note_repetitions
 from lostmotion.diagnosis.search import SearchResult
-from lostmotion.diagnosis.states import warn_of_moved_amplitudes
+from lostmotion.diagnosis.states import warn_of_moved_amplitudes, warn_of_short_delay
 from lostmotion.inference.contacts import list_short_contacts
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.unseen import smooth_body_position
@@ -28,16 +28,22 @@ def write_notes(outcome: Outcome, said: Sequence[str]) -> list[str]:
     d = outcome.diagnosis
     doubts = [
         *list_short_contacts(d.after),
-        *_note_declined(d),
         *_note_bounds(d),
         *_note_large_errors(outcome),
         *_note_ar1_noise(d),
     ]
     doubts += [text for key in d.named for text in warn_of_moved_amplitudes(d, key)]
-    if d.selection.stopped:
+    if d.corrections:
+        told = ", ".join(d.corrections.describe(d.shown))
         doubts.append(
-            f"The search ended at its limit, after {len(d.selection.fitted_sets)} sets of terms: more terms may be"
-            " missing."
+            f"Usual errors of channels and known values are corrected: {told}. They are within"
+            " what acquisition systems and drawings usually have, so nothing is missing in the model for them."
+        )
+    doubts += [text for key in d.named for text in warn_of_short_delay(d, key)]
+    if d.explained.skipped:
+        doubts.append(
+            f"The search used up its processor time after {len(d.explained.found)} explanations; what might be missing"
+            f" beside {' or '.join(d.explained.skipped)} was not tried. A larger `--budget` continues the search."
         )
     again = note_repetitions(_list_recordings(d), d.train, d.held, d.settings.note)
     return [*said, *_note_unrecorded_inputs(d), *doubts, *again, *note_unknown_position(d.after, d.shown)]
@@ -85,16 +91,6 @@ def note_large_noise(outcome: Outcome) -> list[str]:
                 " (check its sign and place). In both cases the result is not valid."
             )
     return notes
-
-
-def _note_declined(d: SearchResult) -> list[str]:
-    declined = sorted(d.selection.declined - set(d.found))
-    if not declined:
-        return []
-    return [
-        f"{', '.join(declined)} would raise the likelihood further, but the residuals are autocorrelated, so this gain"
-        " is not reliable: a recording of a different motion would decide."
-    ]
 
 
 def _note_bounds(d: SearchResult) -> list[str]:

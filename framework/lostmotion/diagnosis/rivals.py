@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
@@ -12,9 +11,9 @@ from lostmotion.contracts import Term
 from lostmotion.diagnosis.experiment import Limits, Proposal, choose_limits, compute_natural_frequency, propose
 from lostmotion.diagnosis.search import SearchResult
 from lostmotion.diagnosis.verdict import name_other_recording
+from lostmotion.evidence.hypothesis import UNKNOWN
+from lostmotion.inference.fit import Fit
 from lostmotion.inference.natural import find_term
-from lostmotion.inference.penalties import are_related
-from lostmotion.inference.term_sets import TermSet
 from lostmotion.likelihood.system import key_of
 from lostmotion.quantities import unit_of
 from lostmotion.report.words import sentence, to_words
@@ -27,34 +26,21 @@ MOST_RIVALS = 2
 Proposals = Mapping[str, Proposal | None]
 
 
-def find_rivals(d: SearchResult) -> dict[str, TermSet]:
-    """Return the best set with each term that is an alternative to the found terms, by key, most probable first.
+def find_rivals(d: SearchResult) -> dict[str, Fit]:
+    """Return the fit of the best set with each term that is an alternative to the found terms, most probable first.
 
     There is none if a curve was learned beside the selected terms.
     """
-    selection = d.selection
-    problem = selection.chosen.problem
-    if set(d.found) != problem.active:
+    explained = d.explained
+    if d.learned:
         return {}
-    weights, rows = selection.probabilities(), {}
-    for term in problem.system.terms:
+    rows = {}
+    for term in d.before.problem.system.terms:
         key = key_of(term)
-        sets = [k for k in weights if key in k and math.isfinite(selection.fitted_sets[k].weight)]
-        if key in problem.active or not sets:
-            continue
-        best = max(sets, key=lambda k: weights[k])
-        stands_in = any(are_related(term, find_term(problem, mine)[0]) for mine in problem.active - best)
-        short = selection.chosen.log_evidence - selection.fitted_sets[best].fit.log_evidence
-        remembers = (
-            stands_in and bool(term.states) and any(find_term(problem, k)[0].states for k in problem.active - best)
-        )
-        likely = (
-            selection.chosen.log_likelihood - selection.fitted_sets[best].fit.log_likelihood < d.settings.name.related
-        )
-        close = stands_in and (short < d.settings.name.related or (remembers and likely))
-        if selection.inclusion(key) > d.settings.name.worth or close:
-            rows[key] = selection.fitted_sets[best]
-    return dict(sorted(rows.items(), key=lambda row: -row[1].weight))
+        sets = [terms for terms, p in explained.probabilities.items() if key in terms and UNKNOWN not in terms]
+        if key not in explained.terms and sets and explained.inclusion(key) > d.settings.name.worth:
+            rows[key] = explained.fits[max(sets, key=lambda terms: explained.probabilities[terms])]
+    return dict(sorted(rows.items(), key=lambda row: -explained.inclusion(row[0])))
 
 
 def propose_experiments(
@@ -68,15 +54,15 @@ def propose_experiments(
 
     It is None if experiments are not `allowed` or the machine is not driven.
     """
-    chosen = d.selection.chosen
+    chosen = d.explained.chosen
     heaviest = list(find_rivals(d).items())[:MOST_RIVALS]
     if allowed is None or chosen.problem.observations[0].free:
         return {key: None for key, _ in heaviest}
     usual = choose_limits(chosen.problem.observations[0], compute_natural_frequency(chosen))
     limits = Limits(allowed.max_level or usual.level, allowed.max_frequency or usual.frequency)
     return {
-        key: propose(chosen, term_set.fit, limits=limits, rng=rng, say=lambda step, key=key: say(f"{key}: {step}"))  # type: ignore[misc]
-        for key, term_set in heaviest
+        key: propose(chosen, fit, limits=limits, rng=rng, say=lambda step, key=key: say(f"{key}: {step}"))  # type: ignore[misc]
+        for key, fit in heaviest
     }
 
 
@@ -84,9 +70,9 @@ def describe_confusions(d: SearchResult, rows: Sequence[Confusion], proposals: P
     """Return the `rows` of indistinguishable terms, with the rivals and the experiments that distinguish them."""
     described = {}
     for key, proposal in proposals.items():
-        term, _ = find_term(d.selection.chosen.problem, key)
-        p = d.selection.inclusion(key)
-        says = f"{_describe_rival(d, term, p)} {sentence(name_other_recording(d))} would decide."
+        term, _ = find_term(d.explained.chosen.problem, key)
+        p = d.explained.inclusion(key)
+        says = f"{_describe_rival(term, p)} {sentence(name_other_recording(d))} would decide."
         described[term.name, term.at] = Confusion(
             mechanism=term.name,
             at=term.at,
@@ -100,7 +86,7 @@ def describe_confusions(d: SearchResult, rows: Sequence[Confusion], proposals: P
 
 def _find_drive_unit(d: SearchResult) -> str:
     """Return the SI unit of the input of the machine."""
-    model = d.selection.chosen.problem.system.model
+    model = d.explained.chosen.problem.system.model
     return unit_of(model.inputs[0], model.motion)
 
 
@@ -119,13 +105,8 @@ def _make_excitation(d: SearchResult, proposal: Proposal) -> DecidingExcitation:
     )
 
 
-def _describe_rival(d: SearchResult, term: Term, p: float) -> str:
-    if p > d.settings.name.worth:
-        return f"{sentence(_name_term(term))} has a probability of {p:.2f} after this recording."
-    return (
-        f"This recording does not exclude {_name_term(term)}: its probability is {rounded(p)} only because of the prior"
-        " penalty of its further parameters."
-    )
+def _describe_rival(term: Term, p: float) -> str:
+    return f"{sentence(_name_term(term))} has a probability of {p:.2f} after this recording."
 
 
 def _name_term(term: Term) -> str:
@@ -133,7 +114,7 @@ def _name_term(term: Term) -> str:
 
 
 def _describe_proposal(d: SearchResult, term: Term, p: float, proposal: Proposal) -> str:
-    opening = _describe_rival(d, term, p)
+    opening = _describe_rival(term, p)
     gain, repeat = proposal.gain, proposal.repeat
     if gain < d.settings.experiment.least:
         return (
@@ -157,7 +138,7 @@ def _describe_proposal(d: SearchResult, term: Term, p: float, proposal: Proposal
 
 def _describe_experiment(d: SearchResult, proposal: Proposal) -> str:
     """Return the experiment in the imperative."""
-    e, old = proposal.excitation, d.selection.chosen.problem.observations[0].travel
+    e, old = proposal.excitation, d.explained.chosen.problem.observations[0].travel
     change = e.level / old if old else 1.0
     verb = "Raise the drive to" if change > 1.05 else "Lower the drive to" if change < 0.95 else "Keep the drive at"
     low, high = (f"{rounded(f, 3)}" for f in e.band)

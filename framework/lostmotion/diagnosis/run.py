@@ -22,7 +22,6 @@ from lostmotion.diagnosis.compare import (
     is_worse,
     predict,
 )
-from lostmotion.diagnosis.confirming import decide_by_heldout, find_better_set, find_simplest, find_unconfirmed
 from lostmotion.diagnosis.decays import describe_decays
 from lostmotion.diagnosis.disagreements import describe_disagreement
 from lostmotion.diagnosis.evidences import check_evidence
@@ -31,10 +30,10 @@ from lostmotion.diagnosis.mixed import draw_mixture
 from lostmotion.diagnosis.notes import write_notes
 from lostmotion.diagnosis.report.page import write_report
 from lostmotion.diagnosis.rivals import Proposals, describe_confusions, propose_experiments
-from lostmotion.diagnosis.search import SearchResult, diagnose, drop_least_probable, replace_terms
+from lostmotion.diagnosis.search import SearchResult, diagnose, explain_by
 from lostmotion.diagnosis.sharings import add_sharing
 from lostmotion.diagnosis.show import ShownMotions, measure_behaviour
-from lostmotion.diagnosis.states import limit_confidence, list_improbable, list_open_terms, sort_findings
+from lostmotion.diagnosis.states import limit_confidence, list_open_terms, sort_findings
 from lostmotion.diagnosis.unknowns import describe_dependence
 from lostmotion.diagnosis.verdict import (
     count_bodies,
@@ -54,9 +53,8 @@ from lostmotion.diagnosis.verdict import (
     summarise,
 )
 from lostmotion.errors import ContractError
-from lostmotion.inference.fit import Fit
+from lostmotion.evidence.bare import name_terms
 from lostmotion.inference.profile import measure_stretches
-from lostmotion.inference.term_sets import Selection
 from lostmotion.kernels.threads import each, hold_linear_algebra
 from lostmotion.likelihood.system import System, key_of
 from lostmotion.preparation.prepare import Prepared, prepare
@@ -81,6 +79,8 @@ if TYPE_CHECKING:
     import xarray as xr
 
 Say = Callable[[str], None]
+MOST_REFUTED = 4
+"""The largest number of sets that free runs over held-out data may refute."""
 SHOW, NEXT, EVIDENCE, WHEN, DRAWN = 1, 2, 3, 4, 5
 """Streams of random numbers for attractors, experiments, the check of evidence, disagreement over time and the draws of
 intervals; no finding depends on them."""
@@ -141,16 +141,14 @@ def diagnose_prepared(
     work = partial(diagnose, jobs=jobs, say=say, settings=settings)
     diagnosis, prepared, rng = _run_search(prepared, registry, seed, work)
     say("held-out predictions")
-    outcome = check_heldout(diagnosis, prepared, rng, say)
-    outcome = replace(
-        outcome, unconfirmed=find_unconfirmed(outcome, prepared.observations), angle=find_angle_unit(prepared.case)
-    )
+    outcome = check_heldout(diagnosis, rng, say)
+    outcome = replace(outcome, angle=find_angle_unit(prepared.case))
     outcome = draw_posteriors(outcome, np.random.default_rng([seed, DRAWN]))
     diagnosis = outcome.diagnosis
     motions = list_motions(diagnosis)
     say("attractors")
     show = measure_behaviour(
-        ShownMotions(outcome, motions, prepared.observations, registry), np.random.default_rng([seed, SHOW])
+        ShownMotions(outcome, motions, diagnosis.corrected, registry), np.random.default_rng([seed, SHOW])
     )
     stream = np.random.default_rng([seed, NEXT])
     proposals = propose_experiments(diagnosis, prepared.case.experiment if propose else None, rng=stream, say=say)
@@ -184,13 +182,14 @@ def _run_search(
         return _run_search(fewer, registry, seed, work)
 
 
-def compare_heldout(diagnosis: SearchResult, prepared: Prepared) -> Outcome:
+def compare_heldout(diagnosis: SearchResult) -> Outcome:
     """Return the diagnosis with the predictions of both models for the held-out data."""
-    pieces = cut_heldout(prepared.observations, diagnosis.held)
+    recordings = diagnosis.corrected
+    pieces = cut_heldout(recordings, diagnosis.held)
     same = diagnosis.after is diagnosis.before
     fits = [diagnosis.before] if same else [diagnosis.before, diagnosis.after]
     jobs = diagnosis.before.problem.jobs
-    rates = each(lambda fit: compute_rates(fit, prepared.observations), fits, jobs)
+    rates = each(lambda fit: compute_rates(fit, recordings), fits, jobs)
     horizon = choose_heldout_horizon(diagnosis.after, pieces, average_exponent(rates[-1]))
     both = each(lambda pair: predict(pair[0], pieces, horizon, pair[1]), list(zip(fits, rates, strict=True)), jobs)
     before, after = both[0], both[-1]
@@ -205,66 +204,20 @@ def draw_posteriors(outcome: Outcome, rng: np.random.Generator) -> Outcome:
     return replace(outcome, draws_before=before, draws_after=after)
 
 
-def _choose_by_heldout(outcome: Outcome, prepared: Prepared, rng: np.random.Generator, say: Say) -> Outcome:
-    """Return the outcome with the set of terms that held-out data choose, or else with the simplest explanation.
+def check_heldout(diagnosis: SearchResult, rng: np.random.Generator, say: Say = lambda _: None) -> Outcome:
+    """Return the diagnosis with its predictions, by the most probable set that free runs do not refute.
 
-    If both a set of no more terms and one with a further term predict better, the better of them is taken.
+    One-step predictions of held-out data are a part of the score already. Free runs test the model in another way: a
+    set is refuted if they are worse with it than with the nominal model, or if the missing force is larger.
     """
-    diagnosis, trials = outcome.diagnosis, list[Outcome]()
-    if (better := find_better_set(outcome, prepared.observations)) is not None:
-        say(f"held-out predictions with {' and '.join(sorted(better[0].problem.active))} instead")
-        weighed = replace(diagnosis.selection, heldout_gains=dict(better[1]))
-        trials.append(_try_terms(outcome, weighed, better[0], prepared, rng))
-    if (close := decide_by_heldout(outcome, prepared.observations)) is not None:
-        say(f"held-out data decide for {' and '.join(sorted(close[0].problem.active))}")
-        weighed = replace(diagnosis.selection, heldout_gains=dict(close[1]))
-        trials += _keep_good(_try_terms(outcome, weighed, close[0], prepared, rng))
-    if not trials and (simplest := find_simplest(outcome, prepared.observations)) is not None:
-        say(f"{' and '.join(sorted(simplest[0].problem.active))} as the simplest explanation")
-        weighed = replace(diagnosis.selection, simplest=simplest[1])
-        trials += _keep_good(_try_terms(outcome, weighed, simplest[0], prepared, rng))
-    return min(trials, key=lambda trial: trial.after.nrmse / trial.before.nrmse, default=outcome)
-
-
-def _try_terms(
-    outcome: Outcome, selection: Selection, fit: Fit, prepared: Prepared, rng: np.random.Generator
-) -> Outcome:
-    """Return the outcome with the terms of another fit, and with a changed selection."""
-    changed = replace(outcome.diagnosis, selection=selection)
-    return compare_heldout(replace_terms(changed, fit, rng.spawn(1)[0]), prepared)
-
-
-def _keep_good(trial: Outcome) -> list[Outcome]:
-    """Return the trial in a list if it predicts no worse than the nominal model and leaves no larger force, or none.
-
-    Each trial has a horizon of its own, so both predictions are those of the trial. Each term must be at least as
-    probable as a rival.
-    """
-    d = trial.diagnosis
-    good = d.explains and not is_worse(trial.before, trial.after, d.settings.heldout)
-    return [trial] if good and all(d.selection.inclusion(key) > d.settings.name.rival for key in d.named) else []
-
-
-def check_heldout(
-    diagnosis: SearchResult, prepared: Prepared, rng: np.random.Generator, say: Say = lambda _: None
-) -> Outcome:
-    """Return the diagnosis with its predictions, without the findings that make held-out predictions worse.
-
-    Held-out data first choose among sets that explain the fitted data equally well. Then, while free runs or one-step
-    predictions are worse with the findings than without them, the missing force is larger, or a finding is improbable,
-    one finding is withdrawn: learned curves first, then the least probable term.
-    """
-    outcome, limits = compare_heldout(diagnosis, prepared), diagnosis.settings.heldout
-    outcome = _choose_by_heldout(outcome, prepared, rng, say)
-    while (found := outcome.diagnosis).found:
-        good = not is_worse(outcome.before, outcome.after, limits) and found.explains
-        if good and not list_improbable(found):
+    outcome = compare_heldout(diagnosis)
+    for _ in range(MOST_REFUTED):
+        found = outcome.diagnosis
+        if not found.found or (not is_worse(outcome.before, outcome.after, found.settings.heldout) and found.explains):
             break
-        less = drop_least_probable(found, rng.spawn(1)[0])
-        if less is None:
-            break
-        say(f"held-out predictions without {less.withdrawn[-1]}")
-        outcome = compare_heldout(less, prepared)
+        say(f"held-out predictions without {name_terms(found.explained.terms)}")
+        less = explain_by(found.explained.refute(), found, rng.spawn(1)[0], say)
+        outcome = compare_heldout(less)
     return outcome
 
 

@@ -9,9 +9,15 @@ import numpy as np
 
 from lostmotion.case import CaseFile
 from lostmotion.contracts import Array, Interface, Model, SensorTerm, Values, place_of
+from lostmotion.diagnosis.compare import cut_heldout
 from lostmotion.errors import DataError
-from lostmotion.inference.fit import Fit, maximise
-from lostmotion.inference.learned import LearnedTerm, OverTime
+from lostmotion.evidence.bare import Budget
+from lostmotion.evidence.corrections import Corrections, find_corrections
+from lostmotion.evidence.course import Course
+from lostmotion.evidence.explanations import Explanations
+from lostmotion.evidence.hypothesis import UNKNOWN
+from lostmotion.inference.fit import Fit
+from lostmotion.inference.learned import LearnedTerm
 from lostmotion.inference.locate import (
     Curve,
     average_curve,
@@ -20,17 +26,11 @@ from lostmotion.inference.locate import (
     list_covariates,
     list_further_covariates,
 )
-from lostmotion.inference.natural import find_term
 from lostmotion.inference.odds import LikelihoodRatio, compute_log_ratios, list_likely
-from lostmotion.inference.penalties import compute_penalty
 from lostmotion.inference.random_force import compute_random_force_gain
-from lostmotion.inference.selection import Selector
 from lostmotion.inference.setup import choose_steps, make_problem, polish_fit, search_maximum, split_heldout
-from lostmotion.inference.shape_scan import scan_shapes
 from lostmotion.inference.shares import Covariate, Share, compute_shares, list_significant
-from lostmotion.inference.stretches import search_stretches
-from lostmotion.inference.term_sets import Selection, TermSet
-from lostmotion.inference.unexplained import CurveSearch, UnknownForce, drop_curve
+from lostmotion.inference.unexplained import CurveSearch, UnknownForce
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.latent import LatentForce, smooth_latent_force
 from lostmotion.likelihood.motion import compute_derivatives
@@ -40,8 +40,8 @@ from lostmotion.likelihood.space import LEVELS
 from lostmotion.likelihood.system import System
 from lostmotion.settings import DEFAULT, LocateSettings, Settings
 
-MOST_REPLACEMENTS = 3
-"""The number of sets that are tried in place of a withdrawn one."""
+BUDGET, PER = 30.0, 5e4
+"""The processor time of a search in s, and the readings times states that double it."""
 LARGEST = 1e100
 """A missing force beyond this means that the filter diverged; its square would overflow."""
 
@@ -85,18 +85,19 @@ class ForceLocation:
 
 @dataclass(frozen=True)
 class SearchResult:
-    """The result of a search: fits of the nominal and the augmented model, the selection, missing and remaining force.
+    """The result of a search: fits of the nominal and the augmented model, all explanations, and forces.
 
     `quantised` has the terms that are visible in the stored values, with their parameters and standard errors. `shown`
     is the recording (or the first held-out one) that curves and figures show; `law` (samples,) is the force of the
     found terms along it. `random_gain` is the log-likelihood that a random force beyond the usual adds. `learned` are
     the curves that were learned because the library did not suffice; `after` is the fit with them. `withdrawn` are the
-    keys of terms that were found by likelihood and withdrawn because of held-out data.
+    keys of terms that were found by likelihood and withdrawn because of held-out data. The given `recordings` are
+    corrected for usual errors of their channels (`corrections`); all others are corrected recordings.
     """
 
     before: Fit
     after: Fit
-    selection: Selection
+    explained: Explanations
     shown: Observation
     located: ForceLocation
     left: ForceLocation | None
@@ -106,6 +107,8 @@ class SearchResult:
     random_gain: float
     train: tuple[Observation, ...]
     held: tuple[Observation, ...]
+    recordings: tuple[Observation, ...]
+    corrections: Corrections = field(default_factory=Corrections)
     quantised: Mapping[str, tuple[Values, Values]] = field(default_factory=dict)
     learned: UnknownForce | None = None
     withdrawn: tuple[str, ...] = ()
@@ -118,7 +121,7 @@ class SearchResult:
     @property
     def found(self) -> tuple[str, ...]:
         """The keys of the missing terms that were found, most probable first; learned curves come last."""
-        return tuple(sorted(self.after.problem.active, key=lambda k: -self.selection.inclusion(k)))
+        return tuple(sorted(self.after.problem.active, key=lambda k: -self.explained.inclusion(k)))
 
     @property
     def named(self) -> tuple[str, ...]:
@@ -129,6 +132,11 @@ class SearchResult:
     def yardstick(self) -> str:
         """The force with which other forces are compared: the drive, or for a free motion the inertial force."""
         return "the inertial force" if self.shown.free else "the drive"
+
+    @property
+    def corrected(self) -> tuple[Observation, ...]:
+        """The recordings, corrected for usual errors of their channels."""
+        return tuple(map(self.corrections.correct, self.recordings))
 
     @property
     def explains(self) -> bool:
@@ -159,116 +167,72 @@ def diagnose(
     say: Callable[[str], None] = lambda _: None,
     settings: Settings = DEFAULT,
 ) -> SearchResult:
-    """Return the diagnosis of a case; `system` has the model and all candidate terms."""
+    """Return the diagnosis of a case; `system` has the model and all candidate terms.
+
+    The search for explanations ends after `select.budget` seconds of processor time; 0 stands for `choose_budget`.
+    """
     train, held = split_heldout(observations, settings.heldout)
     _check_moving(held)
     say("fit of the nominal model")
     nominal = search_maximum(make_problem(system, case, train, jobs=jobs, settings=settings), rng)
-    curves = CurveSearch(len(system.keys), say)
-    say("shapes: pitches, stops, times")
-    shapes = scan_shapes(nominal)
-    selection = search_stretches(nominal, list_fitted_keys(system), say, shapes, curves.promise)
-    more_left = compute_random_force_gain(selection.chosen) > settings.locate.significant
-    if selection.chosen.problem.active and more_left:
-        say("shapes beside what was found")
-        if more := {key: found for key, found in scan_shapes(selection.chosen).items() if key not in shapes}:
-            selector = Selector(selection.nominal, list_fitted_keys(system), say, {**shapes, **more}, curves.promise)
-            selection = selector.extend(selection, more)
+    pieces = [(piece.observation, piece.begin) for piece in cut_heldout(observations, held)]
+    course = Course(
+        list_fitted_keys(system), pieces, Budget(settings.select.budget or choose_budget(nominal.problem)), say
+    )
+    explained = course.find_explanations(nominal)
+    first = SearchResult(
+        nominal, nominal, explained, held[0], _NOT_LOCATED, None, _EMPTY, {}, {}, 0.0, train, held, tuple(observations)
+    )
+    return explain_by(explained, first, rng.spawn(1)[0], say)
+
+
+def choose_budget(problem: Problem) -> float:
+    """Return the processor time of a search, in s: a base and a part in proportion to the readings and the states."""
+    readings = problem.samples * len(problem.observations[0].sensors)
+    return BUDGET * (1.0 + readings * problem.dynamics.states / PER)
+
+
+def explain_by(
+    explained: Explanations, d: SearchResult, rng: np.random.Generator, say: Callable[[str], None] = lambda _: None
+) -> SearchResult:
+    """Return a diagnosis by the most probable explanation: final estimates, learned curves, and the missing force."""
     say("final estimates")
-    before = polish_fit(selection.best_nominal)
-    after = polish_fit(selection.chosen) if selection.chosen.problem.active else before
-    gain = compute_random_force_gain(after)
-    say("missing force")
+    corrections = find_corrections(explained.best)
+    recordings = tuple(map(corrections.correct, d.recordings))
+    train, held = split_heldout(recordings, d.settings.heldout)
+    before = polish_fit(corrections.refit(explained.nominal))
     shown = held[0]
-    if len(observations) == 1:
-        shown = replace(observations[0], begun=after.problem.observations[0].begun)
-    chance = rng.spawn(1)[0]
-    quantised = find_quantised(after)
-    bare = SearchResult(
-        before, after, selection, shown, _NOT_LOCATED, None, _EMPTY, {}, {}, gain, train, held, quantised
+    if len(recordings) == 1:
+        shown = replace(recordings[0], begun=before.problem.observations[0].begun)
+    chosen = corrections.refit(explained.chosen)
+    after, learned = polish_fit(chosen) if explained.terms else before, None
+    if UNKNOWN in explained.best.terms:
+        curves = CurveSearch(len(list_fitted_keys(after.problem.system)), say)
+        learned = curves.unknown(corrections.refit(explained.nominal), chosen)
+    if learned is not None:
+        after = polish_fit(learned.fit)
+        learned = replace(learned, fit=after)
+    say("missing force")
+    kept = frozenset(key for key in d.found if not d.learned or key not in d.learned.keys)
+    changed = replace(
+        d,
+        before=before,
+        after=after,
+        explained=explained,
+        shown=shown,
+        train=train,
+        held=held,
+        corrections=corrections,
+        random_gain=compute_random_force_gain(after),
+        quantised=find_quantised(after),
+        learned=learned,
+        withdrawn=tuple(dict.fromkeys((*d.withdrawn, *sorted(kept - explained.terms)))),
+        left=None,
+        law=_EMPTY,
+        laws={},
+        law_curves={},
     )
-    known = _locate_forces(bare, chance)
-    structured = bool((known.left or known.located).structure)
-    suspicious = (
-        known.unexplained
-        or structured
-        or len(known.found) >= settings.unknown.terms
-        or selection.predict_smooth_gain() > settings.rival.much
-    )
-    if not suspicious:
-        return known
-    learned = curves.unknown(selection.nominal, selection.chosen)
-    if learned is None:
-        return known
-    after = polish_fit(learned.fit)
-    gain = compute_random_force_gain(after)
-    return _locate_forces(replace(bare, after=after, random_gain=gain, learned=replace(learned, fit=after)), chance)
-
-
-def drop_least_probable(d: SearchResult, rng: np.random.Generator) -> SearchResult | None:
-    """Return the diagnosis without one learned curve, or else without its least probable term; None if it has neither.
-
-    A curve over time is dropped first, because it cannot be extrapolated. The model is refitted, and the missing force
-    is located again.
-    """
-    if not d.found:
-        return None
-    learned, selection = d.learned, d.selection
-    if learned:
-        last = {key: -i for i, key in enumerate(learned.keys)}
-        dropped = min(learned.keys, key=lambda key: (not key.startswith(OverTime.name), last[key]))
-        learned = drop_curve(learned, dropped)
-    else:
-        dropped = d.found[-1]
-        selection = _drop_term(selection, dropped)
-    return _refit(replace(d, selection=selection, learned=learned), (dropped,), rng)
-
-
-def replace_terms(d: SearchResult, fit: Fit, rng: np.random.Generator) -> SearchResult:
-    """Return the diagnosis with another fitted set of terms, given by its fit, in place of the chosen one.
-
-    Terms of the old set are withdrawn, unless the new set is the simplest explanation; sets with them have no
-    probability.
-    """
-    dropped = () if d.selection.simplest else tuple(key for key in d.named if key not in fit.problem.active)
-    selection = replace(d.selection, chosen=fit, replaced=frozenset(dropped))
-    return _refit(replace(d, selection=selection, learned=None), dropped, rng)
-
-
-def _refit(d: SearchResult, dropped: tuple[str, ...], rng: np.random.Generator) -> SearchResult:
-    """Return a diagnosis with a changed selection or changed curves, refitted and located again."""
-    fit = d.learned.fit if d.learned else d.selection.chosen
-    after = polish_fit(fit) if fit.problem.active else d.before
-    learned = replace(d.learned, fit=after) if d.learned else None
-    bare = replace(d, after=after, learned=learned, left=None, law=_EMPTY, laws={}, law_curves={})
-    refitted = replace(bare, random_gain=compute_random_force_gain(after), withdrawn=(*d.withdrawn, *dropped))
-    return _locate_forces(refitted, rng)
-
-
-def _drop_term(selection: Selection, dropped: str) -> Selection:
-    """Return the selection without a term of the chosen set: its other terms, or a set that is decisively better.
-
-    The dropped term may have replaced a simpler one: if friction with a wave over position is refuted, plain friction
-    may be right.
-    """
-    chosen, fitted_sets = selection.chosen, selection.fitted_sets
-    limits, terms = chosen.problem.settings, chosen.problem.active - {dropped}
-    if terms not in fitted_sets:
-        less = maximise(chosen.problem.remove_term(dropped, chosen.values))
-        price = compute_penalty(
-            find_term(chosen.problem, dropped)[0], len(list_fitted_keys(chosen.problem.system)), limits
-        )
-        dearer = chosen.log_evidence - fitted_sets[chosen.problem.active].weight
-        fitted_sets = {**fitted_sets, terms: TermSet(terms, less, less.log_evidence - dearer + price)}
-    rest, barred = fitted_sets[terms], selection.withdrawn | {dropped}
-    made = replace(selection, chosen=rest.fit, fitted_sets=fitted_sets, withdrawn=barred, simplest=None)
-    others = [v for v in fitted_sets.values() if not v.terms & (barred | selection.declined) and not v.terms <= terms]
-    others = [v for v in others if v.weight > rest.weight + limits.select.decisive and v.fit.status != "diverged"]
-    for term_set in sorted(others, key=lambda v: -v.weight)[:MOST_REPLACEMENTS]:
-        made.settle_comparison(term_set, rest, limits.select.decisive)
-        if made.compute_log_odds(term_set, rest) > limits.select.decisive:
-            return replace(made, chosen=term_set.fit)
-    return made
+    return _locate_forces(changed, rng)
 
 
 def _check_moving(held: Sequence[Observation]) -> None:

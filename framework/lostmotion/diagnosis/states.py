@@ -11,10 +11,10 @@ import numpy as np
 from lostmotion.contracts import Term
 from lostmotion.diagnosis.compare import Prediction
 from lostmotion.diagnosis.search import SearchResult
+from lostmotion.evidence.hypothesis import UNKNOWN
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.natural import find_term
+from lostmotion.inference.natural import find_term, sort_slots
 from lostmotion.inference.penalties import is_simpler
-from lostmotion.inference.term_sets import SimplestTerms
 from lostmotion.quantities import TIME
 from lostmotion.report.words import to_words
 from lostmotion.results import attach_unit, percent, rounded
@@ -22,6 +22,9 @@ from lostmotion.results.diagnosis import Mechanism, OpenTerm
 from lostmotion.settings import DEFAULT, NameSettings
 
 NAMED, LIKELY, OPEN = "named", "likely", "open"
+BAND = 1.96
+SHORT = 1.0
+"""A delay of no more than this number of samples may be that of the acquisition system."""
 
 
 def is_valid(after: Prediction, floor: float, limits: NameSettings = DEFAULT.name) -> bool:
@@ -44,23 +47,12 @@ def _compute_equal_probability(d: SearchResult, key: str) -> float:
     )
 
 
-def list_improbable(d: SearchResult) -> list[str]:
-    """Return the found terms that are less probable than a rival is, with their kin; none beside learned curves.
-
-    Held-out data may prefer such a term to the one that the fitted data chose. If all data together speak for something
-    else, it is no finding.
-    """
-    if d.learned:
-        return []
-    return [key for key in d.named if _compute_equal_probability(d, key) <= d.settings.name.rival]
-
-
 def _sum_probabilities(d: SearchResult, key: str, is_kin: Callable[[Term, Term], bool]) -> float:
     """Return the posterior probability of a term together with that of its kin, at most 1."""
     term, _ = find_term(d.after.problem, key)
     system = d.before.problem.system
     kin = {k for k, other in zip(system.keys, system.terms, strict=True) if is_kin(term, other)}
-    return min(sum(d.selection.inclusion(k) for k in sorted({key} | kin)), 1.0)
+    return min(sum(d.explained.inclusion(k) for k in sorted({key} | kin)), 1.0)
 
 
 def _are_indistinguishable(term: Term, other: Term) -> bool:
@@ -72,13 +64,8 @@ def list_warnings(d: SearchResult, key: str) -> list[str]:
     term, _ = find_term(d.after.problem, key)
     imitates = term.unlikely > 0.0 or term.acts != "motion"
     steady = warn_of_moved_amplitudes(d, key) if imitates else ()
-    weak = [
-        *_warn_of_probability(d, key),
-        *_warn_of_equal_terms(d, key),
-        *_warn_of_heldout_decision(d, key),
-        *_warn_of_rest(d, key),
-    ]
-    return [*weak, *steady, *_warn_of_long_delay(d, key), *_warn_of_short_delay(d, key), *_warn_of_early_change(d, key)]
+    weak = [*_warn_of_probability(d, key), *_warn_of_vague_size(d, key), *_warn_of_rest(d, key)]
+    return [*weak, *steady, *_warn_of_long_delay(d, key), *_warn_of_early_change(d, key)]
 
 
 def measure_remains(d: SearchResult) -> float:
@@ -97,122 +84,65 @@ def choose_state(d: SearchResult, doubts: Sequence[str], *, valid: bool) -> str:
 
 def _warn_of_probability(d: SearchResult, key: str) -> Iterator[str]:
     p = _compute_equal_probability(d, key)
-    if d.selection.simplest:
-        others = _list_simplest_alternatives(d, d.selection.simplest, key)
-        good = "any learned curve and predicts held-out data as well as one"
-        if not d.selection.simplest.curve:
-            good = "the model alone and predicts held-out data better"
-        yield (
-            f"It explains the fitted data better than {good}; but a small generic smooth force explains about as much,"
-            f" so its probability is {rounded(p)}."
-            + (f" On these data it cannot be distinguished from: {', '.join(others)}." if others else "")
-        )
-        return
     if p > d.settings.name.sure:
         return
     others = _list_alternatives(d, key)
     verb = "alternatives are" if len(others) > 1 else "alternative is"
-    yield f"Its probability is {rounded(p)}; the {verb} {', '.join(others) or 'a generic smooth force'}."
+    yield f"Its probability is {rounded(p)}; the {verb} {', '.join(others) or 'a small smooth force without a name'}."
 
 
-def _warn_of_equal_terms(d: SearchResult, key: str) -> Iterator[str]:
-    """Yield a warning if other terms explain the fitted data as well without this one.
-
-    Such a set is less probable because of its prior penalties or the comparison with a smooth force, not because of
-    the data. A law that contains this one is no alternative.
-    """
-    chosen, problem = d.selection.chosen, d.before.problem
-    terms = chosen.problem.active
-    if _compute_equal_probability(d, key) <= d.settings.name.sure:
-        return
-    barred, own = terms | d.selection.declined | d.selection.withdrawn, find_term(problem, key)[0]
-    for others, term_set in d.selection.fitted_sets.items():
-        fresh = sorted(others - terms)
-        if key in others or len(others) > len(terms) or not fresh or (others - terms) & barred:
-            continue
-        near = chosen.log_evidence - term_set.fit.log_evidence < d.settings.name.related
-        if near and not any(
-            _are_indistinguishable(own, t) or is_simpler(own, t) for t in (find_term(problem, k)[0] for k in fresh)
-        ):
-            names = " and ".join(
-                [_name_term(d, fresh[0]), *(to_words(find_term(problem, k)[0].name) for k in fresh[1:])]
-            )
-            yield (
-                f"{names} {'explain' if fresh[1:] else 'explains'} the fitted data as well: only the prior odds of the"
-                " terms, or the comparison with a smooth force, decide against this alternative."
-            )
-            return
-
-
-def _warn_of_heldout_decision(d: SearchResult, key: str) -> Iterator[str]:
-    """Yield a warning if held-out data decided between the term and a generic smooth force, or another set of terms."""
-    chosen, gains = d.selection.chosen.problem.active, d.selection.heldout_gains
-    if chosen not in gains:
-        return
-    if key in d.selection.tied:
-        decide = f"held-out data decide for the term, by {rounded(gains[chosen])} in log score."
-        if not gains[chosen] > 0.0:
-            decide = "free runs over held-out data decide for the term."
-        yield f"On the fitted data a small generic smooth force explains about as much as this term; {decide}"
-    elif not replace(d.selection, heldout_gains={}).inclusion(key) > d.settings.name.sure:
-        gain = gains[chosen]
-        by = f", and their log score is higher by {rounded(gain)}" if gain > 0.0 else ""
-        yield f"The fitted data alone do not decide for this term; free runs over held-out data do{by}."
+def _warn_of_vague_size(d: SearchResult, key: str) -> Iterator[str]:
+    """Yield a warning for each amplitude of a term whose interval reaches zero: then a simpler law may be the name."""
+    found, names = d.explained.best, {s.key: s.param for s in sort_slots(d.after.problem, key)[0]}
+    sds = np.sqrt(np.maximum(np.diag(found.covariance), 0.0))
+    for f, at, sd in zip(found.frame.problem.free[: found.frame.own], found.theta, sds, strict=True):
+        if f.key in names and not f.log and abs(at - (names[f.key].null or 0.0)) < BAND * sd:
+            yield f"The interval of its {to_words(names[f.key].name)} reaches zero: the recording does not show it."
 
 
 def _warn_of_rest(d: SearchResult, key: str) -> Iterator[str]:
-    """Yield a warning if much is unexplained beside a term: a large learned curve or a large random force."""
-    limits = d.settings.name
-    if d.learned and compute_gain(d, key) < limits.beside * d.learned.gain:
+    """Yield a warning if much is unexplained beside a term: an unknown force, or a large random force."""
+    unknown = d.explained.inclusion(UNKNOWN)
+    if unknown > d.settings.name.rival:
         yield (
-            f"It adds {rounded(compute_gain(d, key), 3)} in log evidence, and the unexplained force beside it adds"
-            f" {rounded(d.learned.gain, 3)}: the term may be a part of that force."
+            "Beside the term, an unknown force that is larger than the usual errors of a model has the probability"
+            f" {rounded(unknown)}: the term may be a part of it."
         )
-    elif (share := measure_remains(d)) > limits.remains:
+    elif (share := measure_remains(d)) > d.settings.name.remains:
         yield f"With it, {percent(share)} of the missing force is still missing."
 
 
-def _list_simplest_alternatives(d: SearchResult, simplest: SimplestTerms, key: str) -> list[str]:
-    """Return the names of the terms, one of which may be the simplest explanation in place of the chosen terms."""
-    found, least, p = d.selection.chosen.problem.active, d.settings.name.rival, simplest.probabilities
-    keys = sorted((k for k in p if k not in found and p[k] > least * p.get(key, 0.0)), key=lambda k: -p[k])
-    return list(dict.fromkeys(to_words(find_term(d.before.problem, k)[0].name) for k in keys))
-
-
 def compute_gain(d: SearchResult, key: str) -> float:
-    """Return the log weight that a found term adds to the other found terms, or else to the nominal model."""
-    fitted_sets, terms = d.selection.fitted_sets, frozenset(d.named)
-    here, less = fitted_sets.get(terms), fitted_sets.get(terms - {key})
-    return here.weight - less.weight if here and less else d.selection.gain(key)
+    """Return the score that a found term adds to the other found terms."""
+    return d.explained.gain_beside(key)
 
 
 def _list_alternatives(d: SearchResult, key: str) -> list[str]:
     """Return the names of the terms of alternative sets without this term that have a share of the posterior."""
-    found = d.selection.chosen.problem.active
-    sets = [terms for terms, p in d.selection.probabilities().items() if key not in terms and p > d.settings.name.rival]
+    found, shares = d.explained.terms, d.explained.probabilities
+    sets = [terms for terms, p in shares.items() if key not in terms and p > d.settings.name.rival]
     names = dict.fromkeys(k for terms in sets for k in sorted(terms - found))
-    return [to_words(find_term(d.before.problem, k)[0].name) for k in names]
+    return ["an unknown force" if k == UNKNOWN else to_words(find_term(d.before.problem, k)[0].name) for k in names]
 
 
 def warn_of_moved_amplitudes(d: SearchResult, key: str) -> Iterator[str]:
     """Yield a warning for each amplitude of another found term that changes strongly when this one is added."""
-    chosen = d.selection.chosen
-    without = d.selection.fitted_sets.get(chosen.problem.active - {key})
-    if without is None:
+    whole = d.explained.best
+    less = d.explained.found.get(whole.terms - {key})
+    if less is None or key not in whole.terms:
         return
-    sds, limits = without.fit.sd, d.settings.name
-    for f in without.fit.problem.free:
+    sds, limits = np.sqrt(np.maximum(np.diag(less.covariance), 0.0)), d.settings.name
+    for f, at, sd in zip(less.frame.problem.free[: less.frame.own], less.theta, sds, strict=True):
         owner, _, name = f.key.rpartition(".")
-        if not owner or f.log or f.key not in chosen.values:
+        if not owner or f.log or f.key not in whole.values:
             continue
-        old, new = without.fit.values[f.key], chosen.values[f.key]
-        if abs(new - old) > max(limits.moved * sds[f.key], limits.moved_share * abs(old)):
-            first, then = (attach_unit(rounded(value, 3), f.unit) for value in (old, new))
+        new = whole.values[f.key]
+        if abs(new - at) > max(limits.moved * float(sd), limits.moved_share * abs(float(at))):
+            first, then = (attach_unit(rounded(float(value), 3), f.unit) for value in (at, new))
             yield (
                 f"The {name} of {to_words(owner.partition('@')[0])} is {first} without"
-                f" {to_words(key.partition('@')[0])} and {then} with it: either"
-                " it was not identified, or"
-                " the further term is wrong."
+                f" {to_words(key.partition('@')[0])} and {then} with it: either it was not identified, or the further"
+                " term is wrong."
             )
 
 
@@ -237,10 +167,10 @@ def _warn_of_long_delay(d: SearchResult, key: str) -> Iterator[str]:
         )
 
 
-def _warn_of_short_delay(d: SearchResult, key: str) -> Iterator[str]:
+def warn_of_short_delay(d: SearchResult, key: str) -> Iterator[str]:
     """Yield a warning if the simplest explanation is a delay as short as in most acquisition systems."""
     samples = delay_in_samples(d.after, key)
-    if d.selection.simplest and samples <= d.settings.rival.late:
+    if samples <= SHORT:
         yield (
             f"A delay of {rounded(samples)} samples is usual in acquisition systems: it may be a property of the"
             " measurement and not of the machine."
@@ -290,12 +220,20 @@ def sort_findings(found: Sequence[Mechanism]) -> tuple[Mechanism, ...]:
     return tuple(sorted(found, key=lambda entry: order.index(entry.state)))
 
 
+def _list_tied(d: SearchResult) -> set[str]:
+    """Return the term that alone adds much where smooth forces are absent, and is improbable beside them."""
+    alone = {next(iter(terms)): fit.log_evidence for terms, fit in d.explained.fits.items() if len(terms) == 1}
+    best = max(alone, key=lambda key: alone[key], default="")
+    much = d.explained.nominal.log_evidence + d.settings.rival.much
+    tied = best and alone[best] > much and d.explained.inclusion(best) < d.settings.name.rival
+    return {best} if tied and not d.learned else set()
+
+
 def list_open_terms(d: SearchResult) -> tuple[OpenTerm, ...]:
-    """Return the open terms: they would raise the likelihood, but a check failed. Withdrawn terms come first."""
+    """Return the open terms: they would raise the likelihood, but are improbable. Withdrawn terms come first."""
     reasons = [
-        (set(d.withdrawn), "with it, held-out data are predicted worse, or it is improbable in view of all data"),
-        (d.selection.tied, "a small generic smooth force explains as much"),
-        (d.selection.declined, "the residuals are autocorrelated, so this gain is not reliable"),
+        (set(d.withdrawn), "with it, held-out data are predicted worse"),
+        (_list_tied(d), "a small generic smooth force explains as much"),
     ]
     rows: dict[str, OpenTerm] = {}
     for keys, why in reasons:
@@ -303,7 +241,7 @@ def list_open_terms(d: SearchResult) -> tuple[OpenTerm, ...]:
             if key not in d.before.problem.system.keys:
                 continue
             term, _ = find_term(d.before.problem, key)
-            p = d.selection.inclusion(key) if key not in d.withdrawn else 0.0
+            p = d.explained.inclusion(key) if key not in d.withdrawn else 0.0
             says = f"{_name_term(d, key)} would raise the likelihood, but {why}."
             rows[key] = OpenTerm(term.name, term.at, p, says)
     return tuple(rows.values())

@@ -13,6 +13,7 @@ from lostmotion.codec import Cells
 from lostmotion.contracts import Array, place_of
 from lostmotion.diagnosis.search import ForceLocation, SearchResult
 from lostmotion.diagnosis.states import OPEN
+from lostmotion.evidence.hypothesis import UNKNOWN
 from lostmotion.inference.curves import Band, compute_band, smooth_motions
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.learned import list_covariates
@@ -61,13 +62,13 @@ def make_learned_entry(d: SearchResult) -> Mechanism:
     share = rms / d.after.problem.scales.force
     size_of = f"{rounded(rms, 3)} {unit} rms, {percent(share)} of {d.yardstick}"
     alike, share_of_likeness, looks = _compare_with_library(d)
-    text = f"A force of {size_of}, is missing {_explain_missing_name(d, unknown)}"
+    text = f"A force of {size_of}, is missing that no term of the library explains"
     return Mechanism(
         mechanism="unknown",
         at=unknown.terms[0].at,
-        probability=unknown.probability,
+        probability=d.explained.inclusion(UNKNOWN),
         state=OPEN,
-        log_odds=unknown.gain,
+        log_odds=compute_unknown_odds(d)[1],
         depends_on=tuple(depends),
         parameters={"rms": size},
         curve=curves[0],
@@ -78,18 +79,6 @@ def make_learned_entry(d: SearchResult) -> Mechanism:
         share_of_drive=share,
         says=f"{text}: it depends on {join_names(depends)}{looks} and is modelled by a learned curve.",
     )
-
-
-def _explain_missing_name(d: SearchResult, unknown: UnknownForce) -> str:
-    """Return why a learned force has no name: no term explains it, or a smooth force explains as much as a term."""
-    selection = d.selection
-    as_good = [key for key in selection.tied if selection.gain(key) > unknown.gain - d.settings.select.decisive]
-    if not as_good:
-        return "that no term of the library explains"
-    term, _ = find_term(d.before.problem, max(as_good, key=selection.gain))
-    place = f" at {term.at}" if len(d.before.problem.system.model.interfaces) > 1 else ""
-    name = to_words(term.name) + place
-    return f"that cannot be named: {name} explains it, but a generic smooth force explains as much"
 
 
 def _compare_with_library(d: SearchResult) -> tuple[tuple[LookAlike, ...], float | None, str]:
@@ -240,10 +229,11 @@ def _find_formula(d: SearchResult, band: Band) -> tuple[str, float] | None:
 
 def compute_unknown_odds(d: SearchResult) -> tuple[float, float]:
     """Return the probability of a force that the library does not contain, and its log evidence."""
-    if d.learned:
-        return d.learned.probability, d.learned.gain
-    if simplest := d.selection.simplest:
-        return simplest.unknown, simplest.curve
+    p, found = d.explained.inclusion(UNKNOWN), d.explained
+    if p > 0.0:
+        known = [one.score() for terms, one in found.found.items() if UNKNOWN not in terms]
+        with_it = [one.score() for terms, one in found.found.items() if UNKNOWN in terms]
+        return p, max(with_it) - max(known)
     if d.found or not d.unexplained:
         return 0.0, 0.0
     return 1.0 - math.exp(-d.random_gain), d.random_gain

@@ -21,6 +21,7 @@ from lostmotion.diagnosis.notes import note_large_noise
 from lostmotion.diagnosis.search import SearchResult, list_fitted_keys
 from lostmotion.diagnosis.states import LIKELY, OPEN, is_uncertain
 from lostmotion.diagnosis.unknowns import compute_unknown_odds
+from lostmotion.evidence.hypothesis import UNKNOWN
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.natural import find_term
 from lostmotion.inference.penalties import compute_penalty
@@ -188,31 +189,28 @@ def rank_candidates(d: SearchResult, found: Sequence[Mechanism], *, failed: bool
     missing, independently of the evidence. "unknown" is what the library does not explain: learned curves or, if
     nothing was found, a random force beyond the usual.
     """
-    selection = d.selection
+    explained = d.explained
     unknown, gain = compute_unknown_odds(d)
     unknown = 1.0 if failed and not d.found else unknown
     stated = {(entry.mechanism, entry.at): entry.probability for entry in found}
     rows: list[Candidate] = []
-    many = len(list_fitted_keys(selection.nominal.problem.system))
-    for term in selection.nominal.problem.system.terms:
+    many = len(list_fitted_keys(explained.nominal.problem.system))
+    for term in explained.nominal.problem.system.terms:
         key = key_of(term)
-        rest = 1.0 if selection.simplest else 1.0 - unknown
-        p = stated[term.name, term.at] if key in d.named else selection.inclusion(key) * rest
+        p = stated[term.name, term.at] if key in d.named else explained.inclusion(key)
         rows.append(
             Candidate(
                 mechanism=term.name,
                 at=term.at,
-                log_evidence_gain=selection.gain(key),
+                log_evidence_gain=explained.gain(key),
                 probability=p,
                 price=compute_penalty(term, many, d.settings),
-                fitted=frozenset({key}) in selection.fitted_sets,
+                fitted=frozenset({key}) in explained.found,
             )
         )
-    if selection.simplest:
-        nothing = selection.simplest.nothing
-    else:
-        nothing = selection.probabilities().get(frozenset(), 0.0) * (1.0 - unknown)
-    fitted = d.learned is not None
+    nothing = 0.0 if failed and not d.found else explained.probabilities.get(frozenset(), 0.0)
+    nothing *= 1.0 if explained.inclusion(UNKNOWN) else 1.0 - unknown
+    fitted = any(one.unknown for one in explained.found.values())
     rows += [
         Candidate(mechanism="nothing_missing", at="", log_evidence_gain=0.0, probability=nothing, fitted=True),
         Candidate(mechanism="unknown", at="", log_evidence_gain=gain, probability=unknown, fitted=fitted),
@@ -223,9 +221,9 @@ def rank_candidates(d: SearchResult, found: Sequence[Mechanism], *, failed: bool
 def list_confusions(d: SearchResult) -> list[Confusion]:
     """Return the terms of other probable sets, and the terms that cannot be distinguished from found ones."""
     rows = []
-    for term in d.selection.nominal.problem.system.terms:
+    for term in d.before.problem.system.terms:
         key = key_of(term)
-        p = 0.0 if d.learned else d.selection.inclusion(key)
+        p = d.explained.inclusion(key)
         if key not in d.found and p > d.settings.name.worth:
             says = (
                 f"{sentence(to_words(term.name))} has a probability of {p:.2f} after this recording:"
@@ -261,7 +259,7 @@ def _list_indistinguishable(d: SearchResult, key: str) -> list[Confusion]:
         f"No recording of this machine can distinguish {{}} from {to_words(term.name)}: measure the delay between the"
         " channels directly."
     )
-    p = d.selection.inclusion(key)
+    p = d.explained.inclusion(key)
     return [Confusion(mechanism=n, at="", probability=p, says=says.format(to_words(n))) for n in term.equals]
 
 

@@ -22,10 +22,11 @@ from lostmotion.settings import RivalSettings
 class SensorError:
     """An error of a sensor of unit size: `shapes` has its first sample and its values (samples,) in each recording.
 
-    `width` is the prior standard deviation of its size.
+    It grows with a `power` of the reading; `width` is the prior standard deviation of its size.
     """
 
     sensor: int
+    power: int
     shapes: Mapping[str, tuple[int, Array]]
     width: float
 
@@ -83,7 +84,7 @@ def _list_sensor_errors(
             name: (first, z[:, sensor] if power == 1 else half * ((z[:, sensor] - middle) / half) ** power)
             for name, (first, z) in shown.items()
         }
-        yield SensorError(sensor, shapes, width)
+        yield SensorError(sensor, power, shapes, width)
 
 
 def _predict_readings(nominal: Fit, observation: Observation) -> Array:

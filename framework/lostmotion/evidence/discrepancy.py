@@ -7,7 +7,7 @@ discrepancy consists of
 - smooth forces over position, velocity, time and drive phase: Gaussian processes of reduced rank (`learned.py`), each
   of one of `SIZES` and `LENGTHS`, or absent;
 - known values that are wrong by `rival.known`;
-- errors of the channels: scale and bend of each sensor, scale and delay of each drive (`channel_errors.py`).
+- errors of the channels: scale and bend of each sensor, scale and delay of each drive (`channels.py`).
 """
 
 from __future__ import annotations

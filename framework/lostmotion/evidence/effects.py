@@ -20,13 +20,16 @@ from lostmotion.evidence.expansion import Expansion
 from lostmotion.evidence.hypothesis import Hypothesis, solve_posterior
 from lostmotion.inference.candidates import make_term_parameters
 from lostmotion.inference.far_values import hold_shape
+from lostmotion.inference.late import can_have_onset, list_onsets
 from lostmotion.inference.natural import compute_size, find_term, list_star_points, list_tried_values, sort_slots
 from lostmotion.inference.rounding import drop_rounding
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.problem import Problem
-from lostmotion.likelihood.system import Slot
+from lostmotion.likelihood.system import Slot, onset_key
 from lostmotion.likelihood.tangents import Tangents, linearise_filter
 
+MOST_LATE = 8
+"""The number of terms, best first, that are also tried from an onset on."""
 SMALL = 0.01
 """Derivatives are taken over this share of the typical size of an amplitude."""
 MUTE = 1e-6
@@ -62,8 +65,13 @@ class Promise:
 Shapes = Mapping[str, Sequence[Mapping[str, float]]]
 
 
-def list_promises(found: Hypothesis, keys: Sequence[str], shapes: Shapes, prices: Mapping[str, float]) -> list[Promise]:
-    """Return what each term promises beside a hypothesis, best first; `shapes` are tried beside the usual ones."""
+def list_promises(
+    found: Hypothesis, keys: Sequence[str], shapes: Shapes, prices: Mapping[str, float], dearer: float
+) -> list[Promise]:
+    """Return what each term promises beside a hypothesis, best first; `shapes` are tried beside the usual ones.
+
+    The price of a term with an onset is larger by `dearer`.
+    """
     problem = found.frame.bare(found.at, found.choice)
     theta = found.at[: len(problem.free)]
     tangents = [linearise_filter(problem, theta[None], i) for i in range(len(problem.observations))]
@@ -71,13 +79,34 @@ def list_promises(found: Hypothesis, keys: Sequence[str], shapes: Shapes, prices
     filtered = filtered if len(filtered) == len(tangents) else []
     before = Quadratic.of(found.frame, found.expansion).evaluate(found.choice)
 
-    def test(key: str) -> Promise | None:
+    def test(key: str) -> tuple[Promise, TermEffect] | None:
         effects = _list_effects(problem, theta, filtered, key, shapes.get(key, ()))
-        tested = [_predict(found, effect, before + prices[key]) for effect in effects]
-        return max(tested, key=lambda one: one.gain, default=None)
+        tested = [(_predict(found, effect, before + prices[key]), effect) for effect in effects]
+        return max(tested, key=lambda one: one[0].gain, default=None)
 
-    promises = [one for one in each(test, list(keys), problem.jobs) if one is not None and math.isfinite(one.gain)]
-    return sorted(promises, key=lambda one: -one.gain)
+    tested = [one for one in each(test, list(keys), problem.jobs) if one is not None]
+    tested.sort(key=lambda one: -one[0].gain)
+    late = [_test_onsets(found, *one, before + prices[one[0].key] + dearer) for one in tested[:MOST_LATE]]
+    promises = [*late, *(promise for promise, _ in tested[MOST_LATE:])]
+    return sorted((one for one in promises if math.isfinite(one.gain)), key=lambda one: -one.gain)
+
+
+def _test_onsets(found: Hypothesis, ever: Promise, effect: TermEffect, less: float) -> Promise:
+    """Return what a term promises if it acts from an onset on, where that is more than what it promises as it is.
+
+    A filter forgets earlier samples within a few cycles. So the derivatives of the errors after an onset are those of a
+    term that acts from the beginning.
+    """
+    problem, best = found.frame.problem, ever
+    if not can_have_onset(problem, effect.key):
+        return ever
+    times = np.concatenate([np.repeat(o.time[: o.samples], len(o.sensors)) for o in problem.observations])
+    for onset in list_onsets(problem).tolist():
+        after = times >= onset
+        cut = replace(effect, errors=effect.errors * after, variances=effect.variances * after)
+        if (promise := _predict(found, cut, less)).gain > best.gain:
+            best = replace(promise, start={**promise.start, onset_key(effect.key): onset})
+    return best
 
 
 def _list_effects(

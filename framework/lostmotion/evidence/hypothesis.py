@@ -23,6 +23,8 @@ from lostmotion.evidence.expansion import Expansion
 from lostmotion.inference.fit import STRIDE, choose_first_steps, solve_scaled
 from lostmotion.likelihood.space import LEVELS
 
+UNKNOWN = "unknown"
+"""The name of a smooth force that is larger than the usual discrepancy, among the terms of a set."""
 ROUNDS, TOLERANCE = 10, 0.4
 """The largest number of rounds, and the gain in log posterior below which a fit has converged."""
 SHARES = (0.4, 0.1, 0.02)
@@ -48,6 +50,7 @@ class Hypothesis:
     price: float
     heldout: float = 0.0
     converged: bool = True
+    unknown: bool = False
 
     @property
     def at(self) -> Array:
@@ -56,8 +59,8 @@ class Hypothesis:
 
     @property
     def terms(self) -> frozenset[str]:
-        """The keys of the terms of the library."""
-        return self.frame.terms
+        """The keys of the terms of the library, and `UNKNOWN` for an unknown force beside them."""
+        return self.frame.terms | ({UNKNOWN} if self.unknown else frozenset())
 
     @cached_property
     def scatter(self) -> float:
@@ -103,6 +106,8 @@ def fit_hypothesis(frame: JointFrame, begin: Array, price: float, choice: Choice
     both explain is not left to the more flexible one because of the point where the fit began.
     """
     steps = choose_first_steps(replace(frame.problem, free=frame.problem.free[: frame.own]))
+    begin = begin.copy()
+    begin[frame.own :][frame.widths(choice or frame.none) == 0.0] = 0.0
     expansion = frame.expand(begin, steps, choice or frame.none)
     if choice is None:
         expansion, choice, _ = _maximise(frame, expansion, frame.none, free=False)

@@ -3,227 +3,212 @@
 from __future__ import annotations
 
 import math
-import time
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from lostmotion.evidence.channels import list_channel_errors
-from lostmotion.evidence.discrepancy import make_frame
-from lostmotion.evidence.effects import Promise, Shapes, list_promises
+from lostmotion.evidence.bare import MOST_TERMS, BareFits, Budget, Say, Terms, compute_unknown_price, name_terms
+from lostmotion.evidence.channels import ChannelError, list_channel_errors
+from lostmotion.evidence.discrepancy import LARGE, LENGTHS, SIZES, Choice, make_frame
+from lostmotion.evidence.effects import Promise
 from lostmotion.evidence.heldout import score_heldout
 from lostmotion.evidence.hypothesis import Hypothesis, fit_hypothesis
-from lostmotion.inference.candidates import ScoreTest, add_term, fit_term, replace_term
+from lostmotion.inference.candidates import ScoreTest, add_term
 from lostmotion.inference.curves import add_all_curves
 from lostmotion.inference.fit import ROUGHLY, Fit, maximise, restart
-from lostmotion.inference.natural import find_term
-from lostmotion.inference.penalties import compute_price, is_simpler
-from lostmotion.kernels.threads import each
+from lostmotion.inference.penalties import compute_price
 from lostmotion.likelihood.observation import Observation
 
-Say = Callable[[str], None]
-MOST_FITTED, MOST_BESIDE = 5, 3
-"""The largest numbers of terms that are fitted beside a set: those that a fit without discrepancy promises, and those
-that the hypothesis itself promises."""
+MOST_BESIDE, MOST_CLOSE = 3, 4
+"""The largest numbers of terms that are fitted from what a hypothesis promises, and of bare fits that are weighed."""
 CLOSE = 25.0
-"""A bare fit within this distance of the best score is fitted with its discrepancy."""
+"""A bare fit within this distance of the best one is weighed with a discrepancy."""
 REACH = 8.0
 """Hypotheses within this distance of the best score are extended."""
-MOST_TERMS = 4
-
-
-@dataclass
-class Budget:
-    """The processor time that a search may use, in s."""
-
-    seconds: float
-    begun: float = field(default_factory=time.process_time)
-
-    @property
-    def spent(self) -> bool:
-        """Whether the time is used up."""
-        return time.process_time() - self.begun > self.seconds
+CLIMB = 0.6
+"""The share of the processor time in which sets are fitted without a discrepancy."""
+MOST_UNKNOWN = 2
+"""The number of sets with terms, best first, beside which an unknown force is fitted."""
+FAR = 300.0
+"""A known subset whose score is lower than the best by more than this is not fitted again from another point."""
 
 
 @dataclass
 class ExplanationSearch:
-    """A search beside a `nominal` fit among terms `keys`; `pieces` are held-out data with their first samples."""
+    """A search beside a `nominal` fit among terms `keys`; `pieces` are held-out data with their first samples.
+
+    `found` has the hypothesis of each set that was weighed, and `skipped` the sets that were not extended for lack of
+    time. On a part of the samples, `temper` is its share of all: scores then predict those of all samples.
+    """
 
     nominal: Fit
     keys: Sequence[str]
     pieces: Sequence[tuple[Observation, int]]
     budget: Budget
-    shapes: Shapes = field(default_factory=dict)
+    temper: float = 1.0
     say: Say = lambda _: None
-    found: dict[frozenset[str], Hypothesis] = field(default_factory=dict)
-    bare: dict[frozenset[str], Fit] = field(default_factory=dict)
+    errors: tuple[ChannelError, ...] = ()
+    recordings: Sequence[Observation] = ()
+    found: dict[Terms, Hypothesis] = field(default_factory=dict)
+    extended: set[Terms] = field(default_factory=set)
+    dropped: set[tuple[Terms, Terms]] = field(default_factory=set)
     skipped: list[str] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        """Prepare the system with every curve, and the usual errors of the channels."""
+        """Prepare the system with every curve, and the usual errors of the channels if they are not given."""
         whole = {o.name: o for o in (*self.nominal.problem.observations, *(o for o, _ in self.pieces))}
-        self.errors = list_channel_errors(self.nominal, list(whole.values()))
-        self.nominal = add_all_curves(self.nominal)
+        self.errors = self.errors or list_channel_errors(self.nominal, list(whole.values()))
+        wide, plain = add_all_curves(self.nominal), self.nominal.problem.system
+        recordings = self.recordings or self.nominal.problem.observations
+        self.bare = BareFits(wide, plain, self.keys, self.errors, self.budget, recordings, self.temper, self.say)
 
     def run(self) -> ExplanationSearch:
-        """Return the search after it has ended by itself, or when its time was used up."""
-        self._weigh(self.nominal)
-        extended: set[frozenset[str]] = set()
-        while (target := self._choose_next(extended)) is not None:
-            if self.budget.spent:
-                self.skipped.append(_name(target.terms))
-                break
-            extended.add(target.terms)
-            self._extend(target)
+        """Return the search after it has ended by itself, when its time was used up, or when the user cancelled it."""
+        try:
+            self._run()
+        except KeyboardInterrupt:
+            if frozenset() not in self.found:
+                raise
+            self.say("cancelled: the best explanation so far")
+            self.budget.end()
+            self.skipped.append("any set")
         return self
+
+    def _run(self) -> None:
+        """Climb, weigh what is near the best set, and extend it."""
+        self.bare.climb(self.budget.part(CLIMB))
+        self.weigh(self.bare.fits[self.bare.lead])
+        if frozenset() not in self.found:
+            self._drop_all(self.best)
+        for key in sorted(self.best.terms):
+            self._drop(self.best, key)
+        self._weigh_close()
+        while (target := self._choose_next()) is not None:
+            if self.budget.spent:
+                self.skipped.append(name_terms(target.terms))
+                break
+            self.extended.add(target.terms)
+            self._extend(target)
+
+    def weigh_unknown(self) -> None:
+        """Fit the best sets, and the model without any term, with an unknown force."""
+        ranked = sorted((one for one in self.found.values() if one.terms), key=self.score, reverse=True)
+        for target in (self.found[frozenset()], *ranked[:MOST_UNKNOWN]):
+            self._weigh_unknown(target)
+
+    def score(self, found: Hypothesis) -> float:
+        """Return the score of a hypothesis."""
+        return found.score(self.temper)
 
     @property
     def best(self) -> Hypothesis:
         """The hypothesis with the largest score."""
-        return max(self.found.values(), key=lambda one: one.score())
+        return max(self.found.values(), key=self.score)
 
-    def _choose_next(self, extended: set[frozenset[str]]) -> Hypothesis | None:
-        """Return the next hypothesis to be extended: the best one close to the best of all, else the leading fit.
-
-        A smooth force may imitate two laws together but neither alone, so sets that lead without a discrepancy are
-        extended as well, as long as each leads the sets that were extended before.
-        """
-        least = self.best.score() - REACH
-        rest = [h for h in self.found.values() if h.terms not in extended and len(h.terms) < MOST_TERMS]
-        near = [h for h in rest if h.score() > least]
-        if near:
-            return max(near, key=lambda one: one.score())
-        lead = max(self.bare, key=lambda terms: self._weigh_bare(self.bare[terms]))
-        if lead in extended or len(lead) >= MOST_TERMS:
-            return None
-        if lead not in self.found:
-            self._weigh(self.bare[lead])
-        return self.found.get(lead)
-
-    def _weigh_bare(self, fit: Fit) -> float:
-        """Return the log evidence of a fit without discrepancy, less the price of its terms."""
-        return fit.log_evidence - compute_price(fit.problem, len(self.keys))
-
-    def _weigh(
-        self, bare: Fit, begin: Mapping[str, float] | None = None, choice: tuple[int, ...] | None = None
-    ) -> None:
-        """Fit the hypothesis of a bare fit, and keep it if it is the best of its terms."""
-        terms, price = bare.problem.active, compute_price(bare.problem, len(self.keys))
-        self.say(f"weighing {_name(terms)}")
-        frame = make_frame(bare.problem, bare.theta, self.errors)
-        at = frame.start if begin is None else frame.transfer(begin)
-        made = fit_hypothesis(frame, at, price, choice)
-        if not math.isfinite(made.log_evidence):
-            return
-        made = replace(made, heldout=score_heldout(made, self.pieces))
-        known = self.found.get(terms)
-        if known is None or made.score() > known.score():
-            self.found[terms] = made
-        if terms not in self.bare or bare.log_evidence > self.bare[terms].log_evidence:
-            self.bare[terms] = bare
+    def _choose_next(self) -> Hypothesis | None:
+        """Return the next hypothesis to be extended: the best one close to the best of all; None without any."""
+        least = self.score(self.best) - REACH
+        open_ = [one for terms, one in self.found.items() if terms not in self.extended and len(terms) < MOST_TERMS]
+        near = [one for one in open_ if not one.unknown and self.score(one) > least]
+        return max(near, key=self.score, default=None)
 
     def _extend(self, target: Hypothesis) -> None:
-        """Fit the sets with one more term that promise to be better, and the subsets of the set."""
-        self.say(f"score tests beside {_name(target.terms)}")
+        """Weigh the subsets of a set, and the sets with one more term that promise to be better."""
         for key in sorted(target.terms):
             self._drop(target, key)
-        bare = self.bare[target.terms]
-        more = [key for key in self.keys if key not in target.terms and target.terms | {key} not in self.found]
-        prices = {key: self._price(bare, key) for key in more}
+        self.bare.extend(target.terms)
+        self._weigh_close()
+        if target.smooth > 0.0 and not self.budget.spent:
+            self.say(f"score tests beside {name_terms(target.terms)} and a smooth force")
+            for promise in self.bare.list_promises(target, self.found)[:MOST_BESIDE]:
+                if not self.budget.spent:
+                    self._weigh_beside(target, promise)
+
+    def _weigh_close(self) -> None:
+        """Weigh the bare fits that are close to the best one: a small discrepancy may make them better."""
+        ranked = sorted(self.bare.fits.values(), key=self.bare.weigh, reverse=True)
+        least = self.bare.weigh(ranked[0]) - CLOSE
+        for fit in ranked[:MOST_CLOSE]:
+            if fit.problem.active not in self.found and self.bare.weigh(fit) > least and not self.budget.spent:
+                self.weigh(fit)
+
+    def weigh(self, bare: Fit, begin: Mapping[str, float] | None = None, choice: Choice | None = None) -> None:
+        """Fit the hypothesis of a bare fit, from some coordinates, and keep it if it is the best of its terms."""
+        self.say(f"weighing {name_terms(bare.problem.active)}")
+        self.bare.keep(bare)
         frame = make_frame(bare.problem, bare.theta, self.errors)
-        alone = Hypothesis(frame, frame.expand(frame.start, bare.local.steps, frame.none), frame.none, 0.0, 0.0, 0.0)
-        first = self._drop_richer([p for p in list_promises(alone, more, self.shapes, prices) if p.gain > 0.0])
-        beside = self._drop_richer([p for p in list_promises(target, more, self.shapes, prices) if p.gain > 0.0])
-        tasks = [(p, self._find_simpler(target, p.key)) for p in [*first[:MOST_FITTED], *beside[:MOST_BESIDE]]]
-        self.say(f"fits beside {_name(target.terms)}: {', '.join(p.key for p, _ in tasks) or 'none'}")
-        for promise, simpler in tasks:
-            if simpler and not self.budget.spent:
-                self._weigh_richer(target, promise, simpler)
-        single, plain = (
-            replace(bare, problem=replace(bare.problem, jobs=1)),
-            [p for p in first[:MOST_FITTED] if not self._find_simpler(target, p.key)],
-        )
-        fits = each(lambda p: fit_term(single, _as_test(p)), plain, bare.problem.jobs)
-        fits = [replace(f, problem=replace(f.problem, jobs=bare.problem.jobs)) for f in fits if f.status != "diverged"]
-        for fit in fits:
-            self.bare.setdefault(fit.problem.active, fit)
-        ranked = sorted(fits, key=lambda f: -self._weigh_bare(f))
-        for rank, fit in enumerate(ranked):
-            weight = self._weigh_bare(fit) + target.heldout
-            if (rank == 0 or weight > self.best.score() - CLOSE) and not self.budget.spent:
-                self._weigh(fit)
-        for promise in beside[:MOST_BESIDE]:
-            if not self.budget.spent and not self._find_simpler(target, promise.key):
-                self._weigh_beside(target, promise)
+        at, price = frame.start, compute_price(bare.problem, len(self.keys))
+        if begin is not None:
+            at = max(frame.transfer(begin), at, key=lambda one: frame.log_likelihood(one, choice or frame.none))
+        self._keep(fit_hypothesis(frame, at, price, choice))
 
-    def _drop_richer(self, promises: Sequence[Promise]) -> list[Promise]:
-        """Return the promises without laws that contain a simpler law which promises something as well."""
-        problem, keys = self.nominal.problem, {p.key for p in promises}
-        return [
-            p for p in promises if not any(self._contains(p.key, key) for key in keys if key in problem.system.keys)
-        ]
+    def _weigh_unknown(self, target: Hypothesis) -> None:
+        """Fit a set with a smooth force that is larger than the usual discrepancy; its price is that of a term."""
+        self.say(f"weighing an unknown force beside {name_terms(target.terms)}")
+        bare, price = self.bare.fits[target.terms], target.price + compute_unknown_price(len(self.keys))
+        frame = make_frame(bare.problem, bare.theta, self.errors, LARGE)
+        made = fit_hypothesis(frame, frame.transfer(target.values), price, target.choice)
+        if max(made.choice, default=-1) >= len(SIZES) * len(LENGTHS):
+            self._keep(replace(made, unknown=True))
 
-    def _contains(self, richer: str, simpler: str) -> bool:
-        """Return whether a law contains another one at the same place."""
-        one, other = (find_term(self.nominal.problem, key)[0] for key in (richer, simpler))
-        return is_simpler(other, one)
-
-    def _find_simpler(self, target: Hypothesis, key: str) -> str:
-        """Return the term of a hypothesis that another law contains; empty where there is none."""
-        return next((mine for mine in sorted(target.terms) if self._contains(key, mine)), "")
-
-    def _weigh_richer(self, target: Hypothesis, promise: Promise, simpler: str) -> None:
-        """Fit the hypothesis with a richer law in place of one that it contains."""
-        if (target.terms - {simpler}) | {promise.key} in self.found:
-            return
-        fit = replace_term(self.bare[target.terms], simpler, _as_test(promise))
-        if fit.status != "diverged":
-            self.bare.setdefault(fit.problem.active, fit)
-            self._weigh(fit)
+    def _keep(self, made: Hypothesis) -> None:
+        """Keep a hypothesis, with the density of the held-out data, if it is the best of its terms."""
+        if math.isfinite(made.log_evidence):
+            made = replace(made, heldout=score_heldout(made, self.pieces))
+        known = self.found.get(made.terms)
+        if math.isfinite(made.score()) and (known is None or made.score() > known.score()):
+            self.found[made.terms] = made
 
     def _weigh_beside(self, target: Hypothesis, promise: Promise) -> None:
         """Fit a hypothesis with one more term from the coordinates that another one predicts."""
-        bare = self.bare[target.terms]
-        problem = add_term(restart(bare), _as_test(promise), dict(promise.start))
+        simpler = self.bare.find_simpler(target.terms, promise.key)
+        bare = restart(self.bare.fits[target.terms])
+        problem = bare.remove_term(simpler, self._get_own_values(target)) if simpler else bare
+        test = ScoreTest(promise.key, promise.gain, promise.start, 1.0)
+        problem = add_term(problem, test, dict(promise.start))
         moved = dict(zip(target.frame.names, (target.at + promise.step).tolist(), strict=True))
         begin = {f.key: f.start for f in problem.free} | moved
         begin |= {f.key: f.start for f in problem.free if f.key.startswith(f"{promise.key}.")}
         theta = problem.clip(np.array([begin[key] for key in problem.keys]))
         begin |= dict(zip(problem.keys, theta.tolist(), strict=True))
-        fit = self.bare.get(problem.active) or maximise(problem, theta, tolerance=ROUGHLY)
+        fit = self.bare.fits.get(problem.active) or maximise(problem, theta, tolerance=ROUGHLY)
         if fit.status != "diverged":
             fit = replace(fit, problem=replace(problem, nsub=max(problem.nsub, fit.problem.nsub)))
-            self._weigh(fit, begin, promise.choice)
+            self.weigh(fit, begin, promise.choice)
 
     def _drop(self, target: Hypothesis, key: str) -> None:
         """Fit the set without one of its terms, starting from the set."""
         less = target.terms - {key}
-        if self.budget.spent:
+        known, least = self.found.get(less), self.score(self.best) - FAR
+        far = known is not None and self.score(known) < least
+        if far or (target.terms, less) in self.dropped or self.budget.spent:
             return
-        values = {f.key: f.value(target.values[f.key]) for f in target.frame.problem.free[: target.frame.own]}
-        whole = self.bare[target.terms]
-        problem = whole.problem.remove_term(key, values)
-        fit = self.bare.get(less) or maximise(problem, tolerance=ROUGHLY)
+        self.dropped.add((target.terms, less))
+        problem = self.bare.fits[target.terms].problem.remove_term(key, self._get_own_values(target))
+        fit = self.bare.fits.get(less) or maximise(problem, tolerance=ROUGHLY)
         if fit.status != "diverged":
-            begin = {k: v for k, v in target.values.items() if not k.startswith(f"{key}.")}
-            self._weigh(fit, begin, target.choice)
+            self.weigh(fit, _leave_out(target, [key]), target.choice)
 
-    def _price(self, fit: Fit, key: str) -> float:
-        """Return the log prior odds against one more term."""
-        wider = replace(fit.problem, active=fit.problem.active | {key})
-        return compute_price(wider, len(self.keys)) - compute_price(fit.problem, len(self.keys))
+    def _drop_all(self, target: Hypothesis) -> None:
+        """Weigh the model without any term, starting from a set."""
+        self.dropped.add((target.terms, frozenset()))
+        self.weigh(self.bare.fits[frozenset()], _leave_out(target, target.terms))
+        if frozenset() not in self.found:
+            self.weigh(self.bare.fits[frozenset()])
 
-
-def _as_test(promise: Promise) -> ScoreTest:
-    return ScoreTest(promise.key, promise.gain, promise.start, 1.0)
-
-
-def _name(terms: Iterable[str]) -> str:
-    return " and ".join(sorted(terms)) or "no term"
+    def _get_own_values(self, target: Hypothesis) -> dict[str, float]:
+        """Return the own parameters of a hypothesis by key, in their units."""
+        return {f.key: f.value(target.values[f.key]) for f in target.frame.problem.free[: target.frame.own]}
 
 
-def compute_probabilities(found: Iterable[Hypothesis], temper: float) -> dict[frozenset[str], float]:
+def _leave_out(target: Hypothesis, keys: Iterable[str]) -> dict[str, float]:
+    """Return the coordinates of a hypothesis by name, without those of some terms."""
+    owners = tuple(f"{key}." for key in keys)
+    return {name: value for name, value in target.values.items() if not name.startswith(owners)}
+
+
+def compute_probabilities(found: Iterable[Hypothesis], temper: float) -> dict[Terms, float]:
     """Return the posterior probability of each set: the softmax of the scores."""
     scores = {h.terms: h.score(temper) for h in found}
     top = max(scores.values())

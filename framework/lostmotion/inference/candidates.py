@@ -23,32 +23,26 @@ from lostmotion.inference.fit import (
     solve_scaled,
 )
 from lostmotion.inference.late import (
-    PRICE,
-    can_have_onset,
-    cut_at_onsets,
-    list_onsets,
-    make_onset_parameter,
     refine_change,
     refine_onset,
 )
 from lostmotion.inference.natural import (
     compute_size,
     find_term,
+    is_choice,
     list_star_points,
     list_tried_values,
     make_free_parameters,
     sort_slots,
 )
 from lostmotion.inference.rounding import drop_rounding, find_shortest_wave
-from lostmotion.likelihood.problem import LATEST, NOISE, RANDOM, FreeParameter, Problem
+from lostmotion.likelihood.problem import LATEST, FreeParameter, Problem
 from lostmotion.likelihood.system import ALWAYS, Slot, onset_key
 from lostmotion.quantities import FORCE, TIME
 
 CREEP, FINEST = 0.02, 32
 SHARES = (1.0, 0.3, 0.01)
 """Fits begin with these shares of the amplitude that a score test predicts."""
-CALM = 0.05
-"""The noise of a refit without random force, in amplitudes of the response."""
 SPREAD = (0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0)
 """Starting values of the shape of a law that replaces a simpler related law, in units of its typical value."""
 RAISED = 2.0
@@ -76,11 +70,6 @@ class ScoreTest:
     distinct: float
     base: Array | None = None
 
-    @property
-    def late(self) -> bool:
-        """Whether the term acts from an onset on, and not from the beginning."""
-        return onset_key(self.key) in self.start
-
 
 def compute_slopes(fit: Fit) -> Sensitivity:
     """Return the sensitivities of a fit, which all its score tests share."""
@@ -96,14 +85,14 @@ def run_score_test(fit: Fit, slopes: Sensitivity, key: str, more: Sequence[Mappi
 
 
 def predict_gain(fit: Fit, slopes: Sensitivity, key: str, shape: Mapping[str, float]) -> float:
-    """Return the predicted gain of adding the term `key` with one shape to a fit, from the beginning or an onset."""
+    """Return the predicted gain of adding the term `key` with one shape to a fit."""
     return max(hint.gain for hint in _test_shapes(fit, slopes, key, [shape]))
 
 
 def run_score_tests(
     fit: Fit, slopes: Sensitivity, key: str, more: Sequence[Mapping[str, float]] = ()
 ) -> list[ScoreTest]:
-    """Return the score test of a term that acts from the beginning, and of one with an onset if its gain is larger."""
+    """Return score tests of a term: at each of its best shapes, and at far values of its amplitude."""
     problem = fit.problem
     amplitudes, shapes = sort_slots(problem, key)
     grids = [list_tried_values(s.param, problem.scales) for s in shapes]
@@ -118,32 +107,7 @@ def run_score_tests(
         hints.append(ScoreTest(key, far.gain, {amplitudes[0].key: far.value}, hints[0].distinct, far.base))
     if len(amplitudes) == 1 and amplitudes[0].param.scan:
         hints += _test_secants(fit, slopes, key, amplitudes[0])
-    ever = [h for h in hints if not h.late]
-    return [max(kind, key=lambda h: h.gain) for kind in (ever, [h for h in hints if h.late]) if kind]
-
-
-def _test_onsets(fit: Fit, key: str, amplitudes: Sequence[Slot], always: ScoreTest, joint: Sensitivity) -> ScoreTest:
-    """Return the score test of a term with an onset if its gain is decisively larger than that of `always`."""
-    best, least = always, PRICE + fit.problem.settings.select.late
-    shape = {name: value for name, value in always.start.items() if name not in {a.key for a in amplitudes}}
-    for time, gradient, information in cut_at_onsets(fit.problem, joint, len(amplitudes)):
-        hint = _solve_from_gradient(fit, key, amplitudes, shape, gradient, information)
-        if hint.gain > best.gain + (least if best is always else 0.0):
-            best = replace(hint, start={**hint.start, onset_key(key): time})
-    return best
-
-
-def _refine_sensor_onset(fit: Fit, hint: ScoreTest) -> ScoreTest:
-    """Return the score test of a sensor term with its onset at the best sample between the neighbouring tried onsets.
-
-    A gain or an offset that sets in makes the reading jump: a fit that begins at a wrong sample does not find the time.
-    """
-    wider, times = join_term(restart(fit), hint.key, hint.start), list_onsets(fit.problem)
-    dt, near = fit.problem.observations[0].dt, hint.start[onset_key(hint.key)]
-    grid = np.arange(near - (times[1] - times[0]), near + (times[1] - times[0]), dt)
-    held = wider.extend((make_onset_parameter(fit.problem, hint.key, near),), ())
-    best = int(np.argmax(held.log_likelihoods(np.array([np.append(wider.start, t) for t in grid]))))
-    return replace(hint, start={**hint.start, onset_key(hint.key): float(grid[best])})
+    return hints
 
 
 def _test_secants(fit: Fit, slopes: Sensitivity, key: str, slot: Slot) -> list[ScoreTest]:
@@ -188,7 +152,7 @@ def add_term(problem: Problem, hint: ScoreTest, start: Mapping[str, float]) -> P
 def join_term(problem: Problem, key: str, start: Mapping[str, float]) -> Problem:
     """Return a problem with one more term that begins at `start`, its choices held at the values there."""
     _, slots = find_term(problem, key)
-    choices = {s.key: start[s.key] for s in slots if s.param.choices and s.key in start}
+    choices = {s.key: start[s.key] for s in slots if s.key in start and is_choice(s, start)}
     if onset_key(key) in problem.system.index:
         choices[onset_key(key)] = start.get(onset_key(key), ALWAYS)
     return problem.hold_values(choices).extend(make_term_parameters(problem, key, slots, start), {key})
@@ -247,13 +211,7 @@ def _test_shapes(fit: Fit, slopes: Sensitivity, key: str, shapes: Sequence[Mappi
     shared = not find_term(fit.problem, key)[0].states
     joints = _join_sensitivities(slopes, wider, [zeros[i] for i in near], widths, shared=shared)
     pairs = zip(near, joints, strict=True)
-    hints = [_solve_score_test(fit, key, amplitudes, shapes[i], joint) for i, joint in pairs]
-    if can_have_onset(fit.problem, key):
-        best = max(range(len(hints)), key=lambda i: hints[i].gain)
-        late = _test_onsets(fit, key, amplitudes, hints[best], joints[best])
-        if late.late:
-            hints.append(_refine_sensor_onset(fit, late) if key in fit.problem.system.rescaling else late)
-    return hints
+    return [_solve_score_test(fit, key, amplitudes, shapes[i], joint) for i, joint in pairs]
 
 
 def _join_sensitivities(
@@ -332,17 +290,6 @@ def fit_term(fit: Fit, hint: ScoreTest, *, hopeless: float = -math.inf) -> Fit:
             break
     best = max(fits, key=lambda f: f.local.log_posterior)
     return refine_change(refine_onset(best, hint.key), hint.key)
-
-
-def refit_with_noise(fit: Fit) -> Fit:
-    """Return the fit started with the residuals as measurement noise and not as a random force."""
-    problem, theta = fit.problem, fit.theta.copy()
-    for i, free in enumerate(problem.free):
-        if free.level == NOISE:
-            theta[i] = math.log(CALM * problem.observations[0].amplitude_of(free.sensor))
-        elif free.parameter == RANDOM:
-            theta[i] = problem.scales.usual
-    return maximise(problem, theta)
 
 
 def replace_term(fit: Fit, key: str, hint: ScoreTest, *, hopeless: float = -math.inf) -> Fit:

@@ -5,25 +5,14 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from lostmotion.inference.candidates import join_term
-from lostmotion.inference.fit import Fit, maximise, restart
+from lostmotion.inference.fit import Fit, restart
 from lostmotion.inference.late import find_onset
 from lostmotion.inference.natural import find_term
 from lostmotion.likelihood.problem import Problem
 from lostmotion.likelihood.system import key_of, onset_key
 
 
-def rewrite_in_commoner_terms(fit: Fit, candidates: Collection[str]) -> Fit:
-    """Return a fit in which more common terms replace one that is their sum; the fit itself where there is none."""
-    for key in sorted(fit.problem.active):
-        problem = _rewrite_term(fit, key, candidates)
-        told = maximise(problem) if problem else fit
-        least = fit.log_evidence - fit.problem.settings.select.commoner
-        if told is not fit and told.status != "diverged" and told.log_evidence > least:
-            return told
-    return fit
-
-
-def _rewrite_term(fit: Fit, key: str, candidates: Collection[str]) -> Problem | None:
+def rewrite_term(fit: Fit, key: str, candidates: Collection[str]) -> Problem | None:
     """Return the problem with more common terms in place of one, at the same force; None where it is no sum."""
     term, slots = find_term(fit.problem, key)
     values = fit.values

@@ -78,6 +78,13 @@ def add_all_curves(fit: Fit) -> Fit:
     return replace(fit, problem=replace(problem, system=system, known=known))
 
 
+def drop_all_curves(fit: Fit, system: System) -> Fit:
+    """Return a fit whose curves are all absent in a system without them; its values are unchanged."""
+    problem = fit.problem
+    known = system.vector({key: problem.known[problem.system.index[key]] for key in system.index})
+    return replace(fit, problem=replace(problem, system=system, known=known))
+
+
 Motions = dict[str, list[Array]]
 """Position and velocity (2, samples) in each recording, by the names of places of a model."""
 

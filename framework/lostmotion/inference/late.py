@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.inference.fit import Fit, Sensitivity, maximise, restart
+from lostmotion.inference.fit import Fit, maximise, restart
 from lostmotion.inference.natural import find_term
-from lostmotion.inference.significance import measure_significance
 from lostmotion.likelihood.problem import FreeParameter, Problem
 from lostmotion.likelihood.system import ALWAYS, onset_key
 from lostmotion.quantities import TIME
@@ -26,11 +24,11 @@ PRICE = math.log(TIMES)
 
 
 def can_have_onset(problem: Problem, key: str) -> bool:
-    """Return whether an onset of a term can be estimated: from one recording.
+    """Return whether an onset of a term can be estimated: from one recording, or stretches of one.
 
     A term whose own parameters say when it acts (a change at a time, a warming up) has no second time beside that.
     """
-    if len(problem.observations) > 1 or onset_key(key) not in problem.system.index:
+    if len({o.name for o in problem.observations}) > 1 or onset_key(key) not in problem.system.index:
         return False
     term, _ = find_term(problem, key)
     return not any(param.lasting and param.dimension == TIME for param in term.params)
@@ -41,39 +39,21 @@ def find_onset(problem: Problem, key: str) -> float:
     return problem.system.onset(problem.known, key)
 
 
-def list_onsets(problem: Problem) -> Array:
-    """Return the onsets (TIMES,) that are tried, in s."""
-    observation, limits = problem.observations[0], problem.settings.select
-    duration = observation.samples * observation.dt
-    shares = np.linspace(limits.onset_first, limits.onset_last, TIMES)
-    return np.asarray(observation.time[0] + duration * shares, dtype=float)
+def find_span(problem: Problem) -> tuple[float, float]:
+    """Return begin and end (s) of the recording of a problem, of which its observations may be stretches."""
+    ends = [float(o.time[0]) + o.samples * o.dt for o in problem.observations]
+    return min(float(o.time[0]) for o in problem.observations), max(ends)
 
 
-def cut_at_onsets(problem: Problem, joint: Sensitivity, k: int) -> Iterator[tuple[float, Array, Array]]:
-    """Yield each onset (s) with gradient and information where the last `k` coordinates act from it on alone.
-
-    A filter forgets earlier samples within a few cycles. So the sensitivity after an onset is that of a term that acts
-    from the beginning, summed over the samples after it.
-    """
-    observation, times = problem.observations[0], list_onsets(problem)
-    width = len(observation.sensors)
-    edges = np.searchsorted(observation.time, times) * width
-    gradient, information, scores = joint.gradient(), joint.information(), joint.scores()[-k:]
-    v = joint.here.variances
-    for time, edge in zip(times.tolist(), edges.tolist(), strict=True):
-        g, h, behind = gradient.copy(), information.copy(), slice(edge, None)
-        own = (joint.errors[-k:, behind] / v[behind]) @ joint.errors[:, behind].T
-        own += 0.5 * (joint.variances[-k:, behind] / v[behind] ** 2) @ joint.variances[:, behind].T
-        g[-k:] = scores[:, behind].sum(axis=1)
-        h[-k:, :], h[:, -k:] = own, own.T
-        yield time, g, h
+def list_onsets(problem: Problem, count: int = TIMES) -> Array:
+    """Return the onsets (count,) that are tried, in s."""
+    (begin, end), limits = find_span(problem), problem.settings.select
+    return begin + (end - begin) * np.linspace(limits.onset_first, limits.onset_last, count)
 
 
 def make_onset_parameter(problem: Problem, key: str, start: float) -> FreeParameter:
     """Return the onset of a term as a free parameter, uniform over the recording."""
-    observation = problem.observations[0]
-    begin = float(observation.time[0])
-    return FreeParameter(onset_key(key), "s", start, begin, begin + observation.samples * observation.dt)
+    return FreeParameter(onset_key(key), "s", start, *find_span(problem))
 
 
 def refine_onset(fit: Fit, key: str) -> Fit:
@@ -105,9 +85,7 @@ def refine_change(fit: Fit, key: str) -> Fit:
     """
     if fit.status == "diverged" or (at := find_change_time(fit.problem, key)) is None:
         return fit
-    observation, best = fit.problem.observations[0], fit.theta.copy()
-    limits, span = fit.problem.settings.select, observation.samples * observation.dt
-    grid = observation.time[0] + span * np.linspace(limits.onset_first, limits.onset_last, GRID)
+    best, grid = fit.theta.copy(), list_onsets(fit.problem, GRID)
     for _ in range(2):
         thetas = np.repeat(best[None], len(grid), axis=0)
         thetas[:, at] = np.log(grid)
@@ -117,21 +95,6 @@ def refine_change(fit: Fit, key: str) -> Fit:
         grid = grid[grid > 0.0]
     found = maximise(fit.problem, best)
     return found if found.local.log_posterior > fit.local.log_posterior else fit
-
-
-def drop_weak_onsets(fit: Fit) -> Fit:
-    """Return a fit with only those onsets that the evidence supports; all other terms act from the beginning.
-
-    Few machines change during a recording. Where residuals are correlated, an onset gains more evidence than with
-    independent samples, by the square of the ratio of robust to usual standard deviations.
-    """
-    for key in sorted(fit.problem.active):
-        if find_onset(fit.problem, key) > ALWAYS and fit.status != "diverged":
-            ever = maximise(restart(fit).hold_values({onset_key(key): ALWAYS}), fit.theta)
-            needed = _compute_price(fit.problem) * measure_significance(fit).ratio ** 2
-            if ever.status != "diverged" and not fit.log_evidence - ever.log_evidence > needed:
-                fit = ever
-    return fit
 
 
 def estimate_onset(fit: Fit, key: str) -> Interval | None:
@@ -160,10 +123,10 @@ def estimate_onset(fit: Fit, key: str) -> Interval | None:
 
 
 def compute_onset_price(problem: Problem) -> float:
-    """Return the log prior penalty of the onsets of the active terms: of their times, and of a change at all."""
-    return _compute_price(problem) * sum(find_onset(problem, key) > ALWAYS for key in problem.active)
+    """Return the log prior penalty of the onsets of the active terms."""
+    return price_onset(problem) * sum(find_onset(problem, key) > ALWAYS for key in problem.active)
 
 
-def _compute_price(problem: Problem) -> float:
-    """Return the log prior penalty of one onset."""
+def price_onset(problem: Problem) -> float:
+    """Return the log prior penalty of one onset, of its time and of a change at all: few machines change."""
     return PRICE + problem.settings.select.onset

@@ -7,16 +7,12 @@ so it would be attributed to the machine.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from lostmotion.inference.candidates import Shapes
 from lostmotion.inference.fit import Fit, maximise, use_cores
-from lostmotion.inference.random_force import compute_random_force_gain
-from lostmotion.inference.selection import Progress, Promise, Selector
-from lostmotion.inference.term_sets import Selection
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.levels import make_ar1_levels
 from lostmotion.likelihood.problem import Problem
@@ -25,33 +21,7 @@ from lostmotion.likelihood.space import AR1_LEVEL, AR1_MEMORY, NOISE, RANDOM
 STARTS = (1.5, 5.0)
 
 
-def select_with_noise_memory(
-    nominal: Fit, candidates: Iterable[str], say: Progress, shapes: Shapes | None = None, promise: Promise | None = None
-) -> Selection:
-    """Return the selection among `candidates`, repeated with AR(1) noise of the sensors where that is supported.
-
-    `shapes` are tried in addition to the usual ones; `promise` returns the gain that a learned curve predicts.
-    """
-    keys = tuple(candidates)
-    course = Selector(nominal, keys, say, shapes, promise).run()
-    chosen = course.chosen
-    least = chosen.problem.settings.select.noise_memory_tried
-    if not chosen.problem.active and compute_random_force_gain(chosen) < least:
-        return course
-    say("AR(1) measurement noise")
-    coloured = fit_noise_memory(chosen)
-    if coloured is None or not is_memory_supported(chosen, coloured):
-        return course
-    while (more := fit_noise_memory(coloured)) is not None and is_memory_supported(coloured, more):
-        coloured = more
-    bare = coloured if chosen is nominal else _add_same_memory(nominal, coloured)
-    if bare is None or bare.status == "diverged":
-        return course
-    again = Selector(bare, keys, say, shapes, promise)
-    return again.resume(coloured) if chosen.problem.active else again.run()
-
-
-def _add_same_memory(nominal: Fit, coloured: Fit) -> Fit | None:
+def add_same_memory(nominal: Fit, coloured: Fit) -> Fit | None:
     """Return the nominal fit with AR(1) noise of those sensors that have it in another fit."""
     first, found = nominal.problem.observations[0], nominal
     for i in range(len(first.sensors)):

@@ -35,8 +35,13 @@ def compute_size(param: Param, scales: Scales) -> float:
 
 def make_free_parameters(slots: list[Slot], scales: Scales, start: Mapping[str, float]) -> tuple[FreeParameter, ...]:
     """Return the free parameters of a term: amplitudes by Student's t about zero, shapes lognormal."""
-    open_ = [slot for slot in slots if not slot.param.choices]
-    return tuple(_make_free(slot, scales, start.get(slot.key)) for slot in open_)
+    return tuple(_make_free(slot, scales, start.get(slot.key)) for slot in slots if not is_choice(slot, start))
+
+
+def is_choice(slot: Slot, start: Mapping[str, float]) -> bool:
+    """Return whether a parameter is held at one of its choices, and not fitted from where it starts."""
+    chosen = start.get(slot.key, min(slot.param.choices, default=0.0))
+    return bool(slot.param.choices) and not (slot.param.wave and chosen not in slot.param.choices)
 
 
 def compute_range(param: Param, scales: Scales) -> tuple[float, float]:

@@ -24,8 +24,6 @@ BETTER = 2.0
 """It goes on only from a maximum whose log evidence is higher by more than this."""
 VARIED = 8.0
 """The widths of two maxima make their log evidences differ from their log posteriors by up to this."""
-LARGEST = 30.0
-"""Log evidences above that of a fit are cut there: such a mode has all the weight."""
 NEAR = 0.03
 """Maxima with shapes that differ by less, as a logarithm, are the same one."""
 
@@ -79,6 +77,8 @@ def refit_choices(fit: Fit, keys: Iterable[str]) -> Fit:
     single, problem = use_one_core(fit), fit.problem
     problems = []
     for s in collect_shapes(problem, keys):
+        if s.key in problem.keys:
+            continue
         now = float(problem.full(fit.theta)[problem.system.index[s.key]])
         problems += [single.problem.hold_values({s.key: v}) for v in s.param.choices or () if v != now]
     starts = [raise_random_force(one, fit.theta, max(RAISES)) for one in problems]
@@ -89,23 +89,12 @@ def refit_choices(fit: Fit, keys: Iterable[str]) -> Fit:
 def refit_complete(fit: Fit) -> list[Fit]:
     """Return the fit of each law that is complete: an amplitude of an active term is held at its greatest value."""
     problem, found = fit.problem, list[Fit]()
-    for key in sorted(problem.active):
-        for slot in sort_slots(problem, key)[0]:
-            if math.isfinite(slot.param.high) and slot.key in problem.keys:
-                at = problem.keys.index(slot.key)
-                held = hold_free(problem, at, slot.param.high)
-                found.append(maximise(held, held.clip(np.delete(fit.theta, at))))
+    for slot in (s for key in sorted(problem.active) for s in sort_slots(problem, key)[0]):
+        if math.isfinite(slot.param.high) and slot.key in problem.keys:
+            at = problem.keys.index(slot.key)
+            held = hold_free(problem, at, slot.param.high)
+            found.append(maximise(held, held.clip(np.delete(fit.theta, at))))
     return [one for one in found if one.status == "converged"]
-
-
-def compute_complete_gain(fit: Fit) -> float:
-    """Return what complete laws add to the log evidence of a fit; 0 where no law can be complete.
-
-    Half of the prior of an amplitude with a greatest value is at that value, and half is spread over the values below,
-    which the log evidence of the fit counts as a whole.
-    """
-    complete = [min(one.log_evidence - fit.log_evidence, LARGEST) for one in refit_complete(fit)]
-    return math.log(0.5 * (1.0 + sum(math.exp(gain) for gain in complete))) if complete else 0.0
 
 
 def _maximise_each(problems: Sequence[Problem], starts: Sequence[Array], fit: Fit, hopeless: float) -> list[Fit]:

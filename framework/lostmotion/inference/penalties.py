@@ -11,11 +11,6 @@ from lostmotion.likelihood.problem import Problem
 from lostmotion.settings import DEFAULT, Settings
 
 
-def are_related(one: Term, other: Term) -> bool:
-    """Return whether two terms at the same place resemble each other."""
-    return one.at == other.at and (other.name in one.resembles or one.name in other.resembles)
-
-
 def is_simpler(one: Term, other: Term) -> bool:
     """Return whether a term is a simpler law that another one at the same place contains."""
     return one.at == other.at and one.name in other.extends

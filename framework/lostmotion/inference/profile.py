@@ -9,6 +9,7 @@ Applied Statistics 37 (1988) 87-94).
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -18,9 +19,10 @@ from lostmotion.inference.mixture import MANY
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.space import LEVELS
 
-FIRST, NARROW = 2.0, 1.0
+FIRST, NARROW, STEEP = 2.0, 1.0, 4.0
 """Standard deviations at which a profile is checked, and the fall of the log posterior there (2 for a normal one) below
-which it is followed."""
+which it is followed. With the others at their expectation it is near 2 for a normal posterior: between NARROW and STEEP
+they are not adjusted."""
 WIDTH = 1.96
 END = 0.5 * WIDTH**2
 """The fall of the log posterior at the end of a central interval of 95 %."""
@@ -40,7 +42,8 @@ def measure_stretches(fit: Fit) -> Array:
         return factors
     single = use_one_core(fit)
     shared = [i for i, f in enumerate(fit.problem.free) if f.level not in LEVELS and f.recording is None]
-    asked = [(i, side) for i in shared for side in (0, 1)]
+    asked = [one for one in ((i, side) for i in shared for side in (0, 1)) if _has_room(fit, *one)]
+    asked = [one for one, fall in zip(asked, _predict_falls(fit, asked), strict=True) if not NARROW < fall < STEEP]
     found = each(lambda one: _measure_half(single, *one), asked, fit.problem.jobs)
     for (i, side), factor in zip(asked, found, strict=True):
         factors[i, side] = factor
@@ -53,13 +56,28 @@ def stretch_draws(fit: Fit, draws: Array, stretches: Array) -> Array:
     return fit.problem.clip(fit.theta + away * np.where(away < 0.0, stretches[:, 0], stretches[:, 1]))
 
 
+def _has_room(fit: Fit, at: int, side: int) -> bool:
+    """Return whether the standard deviation of a parameter is known, and its bound is farther away."""
+    sd, free = math.sqrt(max(float(fit.local.covariance[at, at]), 0.0)), fit.problem.free[at]
+    return 0.0 < sd < math.inf and abs((free.low, free.high)[side] - float(fit.theta[at])) > FIRST * sd
+
+
+def _predict_falls(fit: Fit, asked: Sequence[tuple[int, int]]) -> Array:
+    """Return the fall of the log posterior at each end, the other coordinates at their expectation there."""
+    if not asked:
+        return np.zeros(0)
+    cross = np.array([(-1.0, 1.0)[side] * fit.local.covariance[:, i] for i, side in asked])
+    sds = np.sqrt([fit.local.covariance[i, i] for i, _ in asked])
+    points = fit.problem.clip(fit.theta + FIRST * cross / sds[:, None])
+    falls = fit.log_likelihood + float(fit.problem.log_prior(fit.theta)) - fit.problem.log_posteriors(points)
+    return np.where(np.isfinite(falls), falls, math.inf)
+
+
 def _measure_half(fit: Fit, at: int, side: int) -> float:
     """Return the factor for one half of the interval of one parameter."""
     sd, sign = math.sqrt(max(float(fit.local.covariance[at, at]), 0.0)), (-1.0, 1.0)[side]
     free = fit.problem.free[at]
     most = abs((free.low, free.high)[side] - float(fit.theta[at]))
-    if not 0.0 < sd < math.inf or not most > FIRST * sd:
-        return 1.0
     near, far = (0.0, 0.0), FIRST * sd
     fall, begin = _fall_at(fit, at, sign * far, fit.theta)
     if not fall < NARROW:

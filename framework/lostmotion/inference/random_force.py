@@ -28,19 +28,6 @@ def reduces_random_force(fit: Fit, over: Fit, share: float) -> bool:
     return bool(mine < other + math.log(1.0 - share))
 
 
-def reduces_noise(fit: Fit, over: Fit, share: float) -> bool:
-    """Return whether the noise variance of a sensor is lower than in another fit by more than a share.
-
-    It is so only where neither has a random force beyond the usual: what is missing is then in the noise of the sensor,
-    as with an accelerometer, to which a force is the same as noise.
-    """
-    if not (has_usual_random_force(fit) and has_usual_random_force(over)):
-        return False
-    sensors = [(i, s) for i, seen in enumerate(fit.problem.observations) for s in range(len(seen.sensors))]
-    pairs = ((fit.problem.measurement(fit.theta, *at), over.problem.measurement(over.theta, *at)) for at in sensors)
-    return any(mine < theirs * (1.0 - share) for mine, theirs in pairs)
-
-
 def compute_random_force_gain(fit: Fit) -> float:
     """Return the log-likelihood that a random force beyond three times the usual noise of the drive adds.
 

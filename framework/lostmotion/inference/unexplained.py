@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 from lostmotion.inference.candidates import compute_slopes
 from lostmotion.inference.curves import CHOICES, ROUNDS, add_all_curves, fit_curve, run_curve_test
@@ -118,35 +118,20 @@ class Search:
         return fit
 
 
-@dataclass
+@dataclass(frozen=True)
 class CurveSearch:
-    """The searches for learned curves in one diagnosis, where `many` terms of the library are tried.
-
-    Results for a nominal fit are stored: a selection needs them early, and the end of a diagnosis again.
-    """
+    """The search for learned curves at the end of a diagnosis, where `many` terms of the library were tried."""
 
     many: int
     say: Progress = lambda _: None
-    kept: list[tuple[Fit, Fit, Search]] = field(default_factory=list)
 
-    def _begun(self, nominal: Fit) -> tuple[Fit, Search]:
+    def _begin(self, nominal: Fit) -> tuple[Fit, Search]:
         """Return a nominal fit in a system with every curve, on the samples for the search, and its search."""
-        for fit, before, search in self.kept:
-            if fit is nominal:
-                return before, search
         before = _shorten_fit(add_all_curves(nominal))
         learned = sum(isinstance(term, LearnedTerm) for term in before.problem.system.terms)
         search = Search(self.many + learned, self.say)
         search.visit(before)
-        self.kept.append((nominal, before, search))
         return before, search
-
-    def promise(self, nominal: Fit) -> float:
-        """Return the log evidence that the best curve alone would add to a nominal fit, in all of its samples."""
-        before, search = self._begun(nominal)
-        search.learn(before)
-        most = max(weight for _, weight in search.visits.values()) - search.visits[before.problem.active][1]
-        return most * nominal.problem.samples / before.problem.samples
 
     def unknown(self, nominal: Fit, chosen: Fit) -> UnknownForce | None:
         """Return the learned curves that explain decisively more than the terms of the library, or None.
@@ -154,7 +139,7 @@ class CurveSearch:
         Curves are tried in addition to the chosen terms and to the nominal model alone: where they do not need the
         terms, these are dropped, and otherwise the names are kept.
         """
-        (before, search), limits = self._begun(nominal), nominal.problem.settings.unknown
+        (before, search), limits = self._begin(nominal), nominal.problem.settings.unknown
         after = before if chosen is nominal else _shorten_fit(add_all_curves(chosen))
         bar = max(search.visits[before.problem.active][1], search.visit(after))
         if search.visits[after.problem.active][0] is after:
@@ -190,16 +175,6 @@ class CurveSearch:
             whole = best.problem.on(chosen.problem.observations)
             best = maximise(whole, best.theta, rounds=ROUNDS, tolerance=0.3)
         return UnknownForce(best, _list_curves(best.problem), gain, alone)
-
-
-def drop_curve(unknown: UnknownForce, key: str) -> UnknownForce | None:
-    """Return the learned curves without one of them, refitted; None where the rest is not decisive."""
-    keys = tuple(k for k in unknown.keys if k != key)
-    if not keys:
-        return None
-    fit = maximise(unknown.fit.problem.remove_term(key, unknown.fit.values), rounds=ROUNDS, tolerance=0.3)
-    gain = unknown.gain + fit.log_evidence - unknown.fit.log_evidence
-    return replace(unknown, fit=fit, keys=keys, gain=gain) if gain > fit.problem.settings.select.decisive else None
 
 
 def _shorten_fit(fit: Fit) -> Fit:

@@ -122,12 +122,6 @@ def refit_start(fit: Fit) -> Fit:
     return fit
 
 
-def begins_elsewhere(fit: Fit) -> bool:
-    """Return whether smoothing moves an initial state by more than a standard deviation."""
-    found = (_smooth_start(fit, observation, i) for i, observation in enumerate(fit.problem.observations))
-    return any(moved > MOVED for _, moved in found)
-
-
 def refit_start_in_play(fit: Fit) -> Fit:
     """Return the fit of a machine with play where no sensor shows the position, with the best of many initial states.
 

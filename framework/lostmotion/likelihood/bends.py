@@ -37,17 +37,19 @@ class Bend(NamedTuple):
     values: Values
 
 
-class Corrections(NamedTuple):
+class SensorCorrections(NamedTuple):
     """The corrections of the readings of a recording: nonlinear sensors, and the changes of each sensor."""
 
     bends: tuple[Bend, ...] = ()
     changes: tuple[tuple[SensorChange, ...], ...] = ()
 
 
-def list_corrections(system: System, active: frozenset[str], full: Array, sensors: Sequence[Sensor]) -> Corrections:
+def list_corrections(
+    system: System, active: frozenset[str], full: Array, sensors: Sequence[Sensor]
+) -> SensorCorrections:
     """Return the corrections for the active terms of a system at a full vector (parameters,)."""
     if not active & {*system.bending_terms, *system.rescaling}:
-        return Corrections()
+        return SensorCorrections()
     bends = tuple(
         Bend(s, term, p)
         for s, sensor in enumerate(sensors)
@@ -55,14 +57,14 @@ def list_corrections(system: System, active: frozenset[str], full: Array, sensor
         if type(term).bent is not SensorTerm.bent
     )
     changes = tuple(system.changes_at_sensor(full, active, sensor.place) for sensor in sensors)
-    return Corrections(bends, changes if any(changes) else ())
+    return SensorCorrections(bends, changes if any(changes) else ())
 
 
 Filter = Callable[[Observation, Points], Innovations]
 
 
 def filter_corrected(
-    filter_readings: Filter, seen: Observation, corrections: Sequence[Corrections], points: Points
+    filter_readings: Filter, seen: Observation, corrections: Sequence[SensorCorrections], points: Points
 ) -> Innovations:
     """Return the innovations of corrected readings, in the scale of the readings themselves.
 
@@ -75,7 +77,7 @@ def filter_corrected(
 
 
 def correct_twice(
-    filter_readings: Filter, seen: Observation, corrections: Sequence[Corrections], points: Points
+    filter_readings: Filter, seen: Observation, corrections: Sequence[SensorCorrections], points: Points
 ) -> tuple[Array, Array]:
     """Return for each point the readings corrected by the errors of its sensors at predicted values, and slopes.
 
@@ -99,7 +101,7 @@ def correct_twice(
     return readings, slopes
 
 
-def correct_readings(seen: Observation, corrections: Corrections) -> tuple[Array, Array]:
+def correct_readings(seen: Observation, corrections: SensorCorrections) -> tuple[Array, Array]:
     """Return the corrected readings (samples, sensors) of an observation, and the slopes of that, of the same shape."""
     seen, slopes = correct_bends(seen, corrections.bends)
     readings, time = seen.readings.copy(), seen.time

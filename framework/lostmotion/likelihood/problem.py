@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from lostmotion.contracts import Array, Engine
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.batches import find_distinct, group_rows, join_innovations, realign
-from lostmotion.likelihood.bends import Corrections, correct_twice, filter_corrected, list_corrections
+from lostmotion.likelihood.bends import SensorCorrections, correct_twice, filter_corrected, list_corrections
 from lostmotion.likelihood.drive import Drive, pad_inputs
 from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Random, Smoothed
 from lostmotion.likelihood.initial import compute_initial
@@ -259,7 +259,7 @@ class Problem:
         idle = {key for key in lagging if self.system.is_idle(self.full(theta, index), key)}
         return replace(self, active=self.active - idle) if idle else self
 
-    def _list_corrections(self, theta: Array, index: int) -> Corrections:
+    def _list_corrections(self, theta: Array, index: int) -> SensorCorrections:
         """Return the corrections of the readings of a recording at some coordinates."""
         return list_corrections(self.system, self.active, self.full(theta, index), self.observations[index].sensors)
 

@@ -75,46 +75,19 @@ class SelectSettings:
         "A term is selected when its log odds exceed this value (odds of twenty).",
         "Kass, Raftery, J. Am. Stat. Assoc. 90 (1995) 773-795",
     )
-    promising: float = threshold(
-        3.0, "A term is fitted when its score test predicts at least this gain in log-likelihood."
-    )
-    most_terms: float = threshold(5.0, "The greatest number of terms that are selected.", least=1.0)
     further: float = threshold(1.5, "The log prior penalty of each further parameter of a term.")
     onset: float = threshold(
         math.log(100.0), "The log prior penalty of a term that begins during the recording: one in a hundred."
     )
-    certain: float = threshold(
-        3.0,
-        "An amplitude counts when it is at least this many robust standard deviations from its null.",
-        "White, Econometrica 50 (1982) 1-25",
-    )
-    independent: float = threshold(
-        1.1,
-        "Up to this ratio of robust to usual standard deviations, samples count as independent: evidence decides.",
-        least=1.0,
-    )
-    memory: float = threshold(
-        2.0,
-        "From this ratio of robust to usual standard deviations on, the residuals count as correlated in time.",
-        least=1.0,
-    )
     share: float = threshold(
-        0.2, "Where residuals are correlated in time, a term has to reduce the random force by this share.", most=1.0
-    )
-    outshone: float = threshold(
-        0.1,
-        "Terms of which each gains less than this share of the gain that one learned curve predicts only imitate it.",
-        most=1.0,
-    )
-    commoner: float = threshold(
-        6.0, "A more common law is reported in place of a found one whose log evidence is higher by no more than this."
+        0.2, "A learned curve has to reduce a random force beyond the usual one by this share.", most=1.0
     )
     far: float = threshold(
         8.0,
         "A value of an amplitude beyond the reach of a score test is tried when it gains this much in log-likelihood.",
     )
-    late: float = threshold(
-        3.0, "A term is tried as one that begins later when this predicts so much more gain, in addition to its price."
+    budget: float = threshold(
+        0.0, "The processor time of the search, in s; 0: a time in proportion to the readings and the states."
     )
     onset_first: float = threshold(
         0.04, "An onset before this share of a recording is not considered: the term acts from the beginning.", most=1.0
@@ -130,9 +103,6 @@ class SelectSettings:
     shape_gain: float = threshold(
         8.0, "A shape that a scan finds is tried when its score test predicts this gain in log-likelihood."
     )
-    noise_memory_tried: float = threshold(
-        4.0, "AR(1) noise of a sensor is tried when a random force gains this much in log-likelihood."
-    )
     noise_memory: float = threshold(
         8.0,
         (
@@ -144,7 +114,7 @@ class SelectSettings:
 
 @dataclass(frozen=True)
 class RivalSettings:
-    """Usual imperfections of real machines, with which each candidate term is compared."""
+    """Usual imperfections of real machines, which are a part of every explanation."""
 
     known: float = threshold(
         0.01,
@@ -158,27 +128,15 @@ class RivalSettings:
         most=1.0,
     )
     late: float = threshold(
-        0.5,
-        "The standard deviation of the delay between channels, in samples: acquisition systems filter and multiplex.",
+        0.1,
+        "The standard deviation of the delay between channels, in samples, of a system that samples them together.",
     )
     much: float = threshold(
         20.0,
         (
-            "A smooth force that predicts at least this gain in log evidence is fitted before a term is named, and a "
-            "prediction counts for no more than this."
+            "A term is listed as open when it adds more than this log evidence to the nominal model, and is improbable "
+            "beside the usual errors of a model."
         ),
-    )
-    absurd: float = threshold(
-        100.0,
-        "A predicted gain above this of which a fit realises nothing shows that the local expansion is not valid.",
-    )
-    correction: float = threshold(
-        3.0, "Channels are corrected by at most this many standard deviations of their usual errors."
-    )
-    lasting: float = threshold(
-        4.0,
-        "From this excess of the scatter of scores on, their correlation is long and only predicted gains count.",
-        least=1.0,
     )
 
 
@@ -186,9 +144,6 @@ class RivalSettings:
 class UnknownSettings:
     """Learning an unexplained force as a curve, and describing it."""
 
-    terms: float = threshold(
-        2.0, "Curves are also tried when this many terms were found: together they may imitate one curve.", least=1.0
-    )
     hope: float = threshold(
         0.3, "Curves are tried that predict at least this share of the gain of the best set of terms.", most=1.0
     )
@@ -256,18 +211,6 @@ class HeldOutSettings:
         "The significance level for calling a model better or worse: Student's test over parts of held-out data.",
         most=1.0,
     )
-    explains: float = threshold(
-        0.5,
-        "A set of terms is compared on held-out data when its gain in the fit is this share of that of the chosen set.",
-        most=1.0,
-    )
-    behind: float = threshold(
-        10.0,
-        (
-            "A term is not compared on held-out data when a smooth force exceeds it by more than these log odds in "
-            "the fit."
-        ),
-    )
 
 
 @dataclass(frozen=True)
@@ -281,14 +224,8 @@ class NameSettings:
     )
     simplest: float = threshold(
         0.5,
-        "A term that explains the data better than any learned curve, but no better than a generic smooth force, has"
-        " its probability among the terms times this: the smooth force may be real.",
-        most=1.0,
-    )
-    simplest_share: float = threshold(
-        0.45,
-        "The terms of the simplest explanation have at least this share of the probability among all terms: with less,"
-        " several terms explain the data about equally well, and none is reported.",
+        "An open finding has at most this probability: in a model that does not predict held-out data it may stand for"
+        " something else.",
         most=1.0,
     )
     rival: float = threshold(
@@ -297,27 +234,11 @@ class NameSettings:
         most=1.0,
     )
     worth: float = threshold(0.01, "A term that was not found is listed when its probability is above this.", most=1.0)
-    mixed: float = threshold(
-        0.05, "Intervals include each alternative set of terms with a larger share of the posterior.", most=1.0
-    )
-    related: float = threshold(
-        math.log(20.0),
-        (
-            "A term that resembles a found one is reported when its log evidence, without the penalty of its"
-            " parameters, is within this distance."
-        ),
-    )
     moved: float = threshold(
         5.0, "An amplitude that moves by this many standard deviations when a further term is added was not identified."
     )
     moved_share: float = threshold(
         0.2, "The amplitude must also move by this share of itself (see `name.moved`).", most=1.0
-    )
-    beside: float = threshold(
-        3.0,
-        "Where a curve was learned too, a finding is named when its gain in log evidence is this many times that of the"
-        " curve: with less it may be a part of the unexplained force.",
-        "`lostmotion prove --world imperfect --seed 900`: names below this ratio were wrong as often as right",
     )
     remains: float = threshold(
         0.5,

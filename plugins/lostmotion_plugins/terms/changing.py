@@ -30,7 +30,15 @@ class ParametricStiffness(Term):
     params = (
         Param("cosine", "share of the stiffness that pulsates as cos(ratio omega t)", NUMBER, null=0.0, typical=0.2),
         Param("sine", "share of the stiffness that pulsates as sin(ratio omega t)", NUMBER, null=0.0, typical=0.2),
-        Param("ratio", "frequency over that of the drive", NUMBER, low=0.0, choices=(1.0, 2.0, 3.0, 0.5)),
+        Param(
+            "ratio",
+            "frequency over that of the drive",
+            NUMBER,
+            low=0.0,
+            scale="log",
+            choices=(1.0, 2.0, 3.0, 0.5),
+            wave=True,
+        ),
     )
     further = (Param("depth", "share of the stiffness that pulsates", NUMBER), Param("phase", "phase in rad", NUMBER))
     needs = ("stiffness", "play", "omega")

@@ -37,7 +37,15 @@ class ExcitationHarmonic(DriveTerm):
     params = (
         Param("cosine", "share of the drive as cos(ratio omega t)", NUMBER, null=0.0, typical=0.1),
         Param("sine", "share of the drive as sin(ratio omega t)", NUMBER, null=0.0, typical=0.1),
-        Param("ratio", "frequency over that of the drive", NUMBER, low=0.0, choices=(2.0, 3.0, 4.0, 5.0, 0.5, 1.5)),
+        Param(
+            "ratio",
+            "frequency over that of the drive",
+            NUMBER,
+            low=0.0,
+            scale="log",
+            choices=(2.0, 3.0, 4.0, 5.0, 0.5, 1.5),
+            wave=True,
+        ),
     )
     further = (Param("share", "share of the amplitude of the drive", NUMBER), Param("phase", "phase in rad", NUMBER))
     needs = ("omega", "amplitude")

@@ -1,0 +1,187 @@
+"""Fits of sets of terms without a discrepancy: a climb by slopes finds laws that a smooth force may imitate."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+from lostmotion.evidence.channels import ChannelError
+from lostmotion.evidence.discrepancy import make_frame
+from lostmotion.evidence.effects import Promise, list_promises
+from lostmotion.evidence.hypothesis import Hypothesis
+from lostmotion.evidence.waves import scan_waves
+from lostmotion.inference.candidates import ScoreTest, fit_term, replace_term
+from lostmotion.inference.commoner import rewrite_term
+from lostmotion.inference.curves import drop_all_curves
+from lostmotion.inference.fit import ROUGHLY, Fit, maximise, use_cores, use_one_core
+from lostmotion.inference.late import price_onset
+from lostmotion.inference.natural import find_term
+from lostmotion.inference.other_shapes import has_other_shapes, refit_complete, refit_shapes
+from lostmotion.inference.penalties import compute_price, is_simpler
+from lostmotion.inference.shape_scan import scan_shapes
+from lostmotion.kernels.threads import each
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.system import System
+
+Say = Callable[[str], None]
+Terms = frozenset[str]
+"""The keys of a set of terms."""
+MOST_FITTED = 5
+"""The largest number of terms that are fitted beside a set."""
+MOST_TERMS = 4
+
+
+@dataclass
+class Budget:
+    """The processor time that a search may use, in s."""
+
+    seconds: float
+    begun: float = field(default_factory=time.process_time)
+
+    @property
+    def spent(self) -> bool:
+        """Whether the time is used up."""
+        return time.process_time() - self.begun > self.seconds
+
+    def end(self) -> None:
+        """Declare the time used up."""
+        self.seconds = 0.0
+
+    def part(self, share: float) -> Budget:
+        """Return the budget of a first part of the work."""
+        return Budget(share * self.seconds, self.begun)
+
+
+@dataclass
+class BareFits:
+    """The fits of sets of terms `keys` without a discrepancy, begun at that of no term.
+
+    Weights are log evidences over `temper` less the price: on a part of the samples it is the share of that part, so
+    that they predict those of all samples. `plain` is the system without curves, `errors` are those of channels, and
+    `promised` is the log evidence that each law alone promises. `whole` are the recordings without cuts.
+    """
+
+    nominal: Fit
+    plain: System
+    keys: Sequence[str]
+    errors: tuple[ChannelError, ...]
+    budget: Budget
+    whole: Sequence[Observation]
+    temper: float = 1.0
+    say: Say = lambda _: None
+    shapes: dict[str, Sequence[Mapping[str, float]]] = field(default_factory=dict)
+    fits: dict[Terms, Fit] = field(default_factory=dict)
+    extended: set[Terms] = field(default_factory=set)
+    refitted: set[Terms] = field(default_factory=set)
+    promised: dict[str, float] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        """Keep the nominal fit."""
+        self.fits.setdefault(frozenset(), self.nominal)
+
+    @property
+    def lead(self) -> Terms:
+        """The set with the largest weight."""
+        return max(self.fits, key=lambda terms: self.weigh(self.fits[terms]))
+
+    def weigh(self, fit: Fit) -> float:
+        """Return the weight of a fit."""
+        return fit.log_evidence / self.temper - compute_price(fit.problem, len(self.keys))
+
+    def keep(self, fit: Fit) -> None:
+        """Keep a fit if it is the best of its terms and did not diverge."""
+        terms = fit.problem.active
+        if fit.status != "diverged" and (terms not in self.fits or self.weigh(fit) > self.weigh(self.fits[terms])):
+            self.fits[terms] = fit
+
+    def climb(self, budget: Budget) -> None:
+        """Extend the leading set until neither a further term nor another form makes it better."""
+        while (lead := self.lead) not in self.refitted and not budget.spent:
+            if lead in self.extended or len(lead) >= MOST_TERMS:
+                self.refit(lead)
+            else:
+                self.extend(lead)
+
+    def extend(self, terms: Terms) -> None:
+        """Fit the sets with one more term that promise to be better."""
+        if terms in self.extended:
+            return
+        self.extended.add(terms)
+        bare = self.fits[terms]
+        plain = drop_all_curves(bare, self.plain)
+        for found in (scan_shapes(plain), scan_waves(plain, self.whole)):
+            for key, shapes in found.items():
+                self.shapes[key] = (*self.shapes.get(key, ()), *shapes)
+        self.say(f"score tests beside {name_terms(terms)}")
+        frame = make_frame(bare.problem, bare.theta, self.errors)
+        alone = Hypothesis(frame, frame.expand(frame.start, bare.local.steps, frame.none), frame.none, 0.0, 0.0, 0.0)
+        promises = self.list_promises(alone, set(self.fits))[:MOST_FITTED]
+        self.say(f"fits beside {name_terms(terms)}: {', '.join(p.key for p in promises) or 'none'}")
+        single = use_one_core(bare)
+        for fit in each(lambda p: self._fit(single, p), promises, bare.problem.jobs):
+            self.keep(use_cores(fit, bare.problem.jobs))
+
+    def list_promises(self, beside: Hypothesis, known: Iterable[Terms]) -> list[Promise]:
+        """Return the terms that promise a better score beside a hypothesis, best first, without `known` sets.
+
+        A law that contains a simpler one, which promises something as well, waits until the simpler one is found.
+        """
+        bare, mine, have = beside.frame.problem, beside.frame.terms, set(known)
+        own = self.fits[mine]
+        more = [key for key in self.keys if key not in mine and self._join(mine, key) not in have]
+        prices = {key: self.temper * self._price(own, key) for key in more}
+        every = list_promises(beside, more, self.shapes, prices, self.temper * price_onset(bare))
+        if not mine:
+            self.promised |= {p.key: (p.gain + prices[p.key]) / self.temper for p in every}
+        found = [p for p in every if p.gain > 0.0]
+        keys = {p.key for p in found} & set(bare.system.keys)
+        return [p for p in found if not any(self._contains(p.key, key) for key in keys)]
+
+    def find_simpler(self, terms: Terms, key: str) -> str:
+        """Return the term of a set that another law contains; empty where there is none."""
+        return next((mine for mine in sorted(terms) if self._contains(key, mine)), "")
+
+    def _join(self, terms: Terms, key: str) -> Terms:
+        """Return a set with one more law, in place of the simpler one that it contains."""
+        return (terms - {self.find_simpler(terms, key)}) | {key}
+
+    def _fit(self, bare: Fit, promise: Promise) -> Fit:
+        """Return the fit with one more law, in place of the simpler one that it contains."""
+        test = ScoreTest(promise.key, promise.gain, promise.start, 1.0)
+        simpler = self.find_simpler(bare.problem.active, promise.key)
+        return replace_term(bare, simpler, test) if simpler else fit_term(bare, test)
+
+    def refit(self, terms: Terms) -> None:
+        """Fit other forms of a set: a rich law as a sum of simple ones, a complete law, other shapes."""
+        self.refitted.add(terms)
+        bare = self.fits[terms]
+        for key in sorted(terms):
+            if (problem := rewrite_term(bare, key, self.keys)) is not None:
+                self.keep(maximise(problem, tolerance=ROUGHLY))
+        for complete in refit_complete(bare):
+            self.keep(use_cores(complete, bare.problem.jobs))
+        if has_other_shapes(bare.problem):
+            self.say(f"other shapes of {name_terms(terms)}")
+            self.keep(use_cores(refit_shapes(bare), bare.problem.jobs))
+
+    def _contains(self, richer: str, simpler: str) -> bool:
+        """Return whether a law contains another one at the same place."""
+        one, other = (find_term(self.nominal.problem, key)[0] for key in (richer, simpler))
+        return is_simpler(other, one)
+
+    def _price(self, fit: Fit, key: str) -> float:
+        """Return the log prior odds against one more term."""
+        wider = replace(fit.problem, active=self._join(fit.problem.active, key))
+        return compute_price(wider, len(self.keys)) - compute_price(fit.problem, len(self.keys))
+
+
+def name_terms(terms: Iterable[str]) -> str:
+    """Return a set of terms in words."""
+    return " and ".join(sorted(terms)) or "no term"
+
+
+def compute_unknown_price(many: int) -> float:
+    """Return the log prior odds against a force that the library lacks: those of one more law."""
+    return math.log(max(many, 1)) + 1.0

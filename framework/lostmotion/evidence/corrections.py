@@ -1,0 +1,95 @@
+"""Usual errors of channels and known values that a hypothesis found: recordings are corrected for them.
+
+They are no missing physics, but fits and predictions without them would show a force that is none.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from lostmotion.evidence.channels import ChannelError, DriveError
+from lostmotion.evidence.hypothesis import Hypothesis
+from lostmotion.inference.fit import Fit, maximise
+from lostmotion.likelihood.observation import Observation
+
+CLEAR = 4.0
+"""Errors are corrected where one of them is so many standard deviations from zero."""
+
+
+@dataclass(frozen=True)
+class Corrections:
+    """Errors of channels with their sizes, and factors of known values by name; both are empty without a clear one.
+
+    `clear` tells for each error of a channel whether it is one of the clear ones.
+    """
+
+    errors: tuple[tuple[ChannelError, float], ...] = ()
+    factors: tuple[tuple[str, float], ...] = ()
+    clear: tuple[bool, ...] = ()
+
+    def __bool__(self) -> bool:
+        """Whether anything is corrected."""
+        return bool(self.errors or self.factors)
+
+    def correct(self, observation: Observation) -> Observation:
+        """Return a recording without the errors of its channels."""
+        for error, size in self.errors:
+            observation = error.correct(observation, size)
+        return observation
+
+    def refit(self, fit: Fit) -> Fit:
+        """Return a fit on corrected recordings with corrected known values; unchanged without corrections."""
+        if not self:
+            return fit
+        problem = fit.problem.on(tuple(map(self.correct, fit.problem.observations)))
+        known = problem.known.copy()
+        for name, factor in self.factors:
+            known[problem.system.index[name]] *= factor
+        found = maximise(replace(problem, known=known), fit.theta)
+        return fit if found.status == "diverged" else found
+
+    def describe(self, first: Observation) -> Iterator[str]:
+        """Yield a clause for each clear correction; `first` is a recording with the names of the channels."""
+        for (error, size), clear in zip(self.errors, self.clear, strict=True):
+            if clear:
+                yield _describe_error(error, size, first)
+        for name, factor in self.factors:
+            yield f"{name} is {factor:.4g} times its known value"
+
+
+def _describe_error(error: ChannelError, size: float, first: Observation) -> str:
+    """Return a clause on the error of a channel."""
+    share = f"{100.0 * abs(size):.2g} %"
+    if isinstance(error, DriveError):
+        driven = first.driven or ()
+        name = driven[error.column] if error.column < len(driven) else f"input {error.column + 1}"
+        if error.late:
+            return f"{name} is {'late' if size < 0.0 else 'early'} by {abs(size):.2g} samples"
+        return f"the scale of {name} is wrong by {share}"
+    name = first.sensors[error.sensor].label
+    if error.power == 1:
+        return f"the scale of {name} is wrong by {share}"
+    return f"{name} has a {'quadratic' if error.power == 2 else 'cubic'} error of {share} of its range"
+
+
+def find_corrections(found: Hypothesis) -> Corrections:
+    """Return the corrections of a hypothesis: those of the channels, of the known values, each if one is clear."""
+    frame, sds = found.frame, np.sqrt(np.diag(np.linalg.inv(found.precision)))
+    spread = dict(zip(found.used.tolist(), sds.tolist(), strict=True))
+    middle = np.concatenate([np.zeros(frame.own), frame.middle])
+
+    def is_clear(i: int) -> bool:
+        return bool(abs(found.at[i] - middle[i]) > CLEAR * spread.get(i, math.inf))
+
+    channels, known = range(frame.channels.start, frame.count), range(frame.known.start, frame.known.stop)
+    errors: tuple[tuple[ChannelError, float], ...] = ()
+    factors: tuple[tuple[str, float], ...] = ()
+    if any(map(is_clear, channels)):
+        errors = tuple((error, float(found.at[i])) for i, error in zip(channels, frame.errors, strict=True))
+    if any(map(is_clear, known)):
+        factors = tuple((frame.problem.keys[i], math.exp(float(found.at[i] - middle[i]))) for i in known)
+    return Corrections(errors, factors, tuple(map(is_clear, channels)) if errors else ())

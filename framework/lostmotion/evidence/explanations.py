@@ -1,0 +1,164 @@
+"""What a search has found: every hypothesis with its probability, and the fits without discrepancy.
+
+The probability of a set of terms is the softmax of the scores; that of a term is the sum over the sets that have it.
+Differences of scores are divided by one temper: the scatter of the scores of the best hypothesis beyond their
+information, 1 where the model is right.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+
+from lostmotion.contracts import Array
+from lostmotion.evidence.bare import Terms
+from lostmotion.evidence.hypothesis import UNKNOWN, Hypothesis
+from lostmotion.evidence.search import ExplanationSearch, compute_probabilities
+from lostmotion.inference.curves import drop_all_curves
+from lostmotion.inference.fit import Fit
+from lostmotion.inference.natural import find_term
+from lostmotion.likelihood.space import LEVELS
+
+TIED = math.log(20.0)
+"""Two similar laws are not distinguished by log evidences that differ by less than this."""
+LEAST = 1e-3
+"""Parameters are averaged over the hypotheses with at least this probability."""
+
+
+@dataclass(frozen=True)
+class Explanations:
+    """The hypotheses of a diagnosis; `fits` are those of their terms alone, in the system of the case.
+
+    Sets in `refuted` have no probability, because free runs over held-out data are worse with them. `skipped` names the
+    sets that were not extended for lack of time, `promised` has the log evidence that the slopes of each term promise.
+    """
+
+    fits: Mapping[Terms, Fit]
+    found: Mapping[Terms, Hypothesis]
+    refuted: frozenset[Terms] = frozenset()
+    skipped: tuple[str, ...] = ()
+    promised: Mapping[str, float] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, search: ExplanationSearch) -> Explanations:
+        """Return the explanations that a search has found."""
+        fits = {terms: drop_all_curves(fit, search.bare.plain) for terms, fit in search.bare.fits.items()}
+        return cls(fits, dict(search.found), skipped=tuple(search.skipped), promised=search.bare.promised)
+
+    @property
+    def nominal(self) -> Fit:
+        """The fit of the model without any term."""
+        return self.fits[frozenset()]
+
+    @cached_property
+    def probabilities(self) -> Mapping[Terms, float]:
+        """The posterior probability of each set."""
+        allowed = [one for terms, one in self.found.items() if terms - {UNKNOWN} not in self.refuted]
+        temper = max(allowed, key=lambda one: one.score()).scatter
+        return _share_ties(allowed, compute_probabilities(allowed, temper))
+
+    @property
+    def best(self) -> Hypothesis:
+        """The most probable hypothesis."""
+        return self.found[max(self.probabilities, key=lambda terms: self.probabilities[terms])]
+
+    @property
+    def terms(self) -> Terms:
+        """The terms of the most probable hypothesis, without an unknown force."""
+        return self.best.terms - {UNKNOWN}
+
+    @property
+    def chosen(self) -> Fit:
+        """The fit of these terms."""
+        return self.fits[self.terms]
+
+    def inclusion(self, key: str) -> float:
+        """Return the posterior probability of a term, or of `UNKNOWN`."""
+        return min(sum(p for terms, p in self.probabilities.items() if key in terms), 1.0)
+
+    def gain(self, key: str) -> float:
+        """Return the log evidence that a term alone adds beside a discrepancy, or what its slopes promise."""
+        alone = self.found.get(frozenset({key}))
+        nothing = self.found[frozenset()]
+        return (
+            alone.log_evidence + alone.heldout - nothing.log_evidence - nothing.heldout
+            if alone
+            else self.promised.get(key, 0.0)
+        )
+
+    def gain_beside(self, key: str) -> float:
+        """Return the score that a term of the best hypothesis adds to its other terms."""
+        less = self.found.get(self.best.terms - {key})
+        return self.best.score() - less.score() if less else self.gain(key)
+
+    def refute(self) -> Explanations:
+        """Return the explanations without the most probable set of terms."""
+        return replace(self, refuted=self.refuted | {self.terms})
+
+    def draw(self, keys: list[str], count: int, rng: np.random.Generator) -> Array:
+        """Return draws (count, keys) of parameters of the chosen fit, averaged over all hypotheses by probability.
+
+        A parameter that a hypothesis lacks is drawn from the best one (Hoeting et al., Statistical Science 14 (1999)
+        382-417).
+        """
+        first, parts = self.best, [one for one in self.found if self.probabilities.get(one, 0.0) > LEAST]
+        weights = np.array([self.probabilities[one] for one in parts])
+        which = rng.choice(len(parts), size=count, p=weights / weights.sum())
+        made = _draw(first, keys, count, rng)
+        for number, terms in enumerate(parts):
+            if self.found[terms] is not first:
+                rows = np.flatnonzero(which == number)
+                own = _draw(self.found[terms], keys, len(rows), rng)
+                made[rows] = np.where(np.isfinite(own), own, made[rows])
+        return made
+
+
+def _share_ties(found: Sequence[Hypothesis], shares: dict[Terms, float]) -> dict[Terms, float]:
+    """Return probabilities in which laws that the data do not distinguish share theirs by their prior odds.
+
+    They are similar laws with as many parameters, one in place of the other in the same set. Their evidences differ by
+    the widths of their priors alone.
+    """
+    for best in sorted(found, key=lambda one: -one.score()):
+        group = [one for one in found if one is best or _is_tied(best, one)]
+        odds = np.exp([min(one.price for one in group) - one.price for one in group])
+        total = sum(shares[one.terms] for one in group)
+        if len(group) > 1:
+            shares |= {one.terms: total * float(o / odds.sum()) for one, o in zip(group, odds, strict=True)}
+            break
+    return shares
+
+
+def _is_tied(best: Hypothesis, other: Hypothesis) -> bool:
+    """Return whether a hypothesis has a similar law in place of one of another, and about the same evidence."""
+    mine, its = best.terms - other.terms, other.terms - best.terms
+    if len(mine) != 1 or len(its) != 1 or UNKNOWN in mine | its or best.frame.own != other.frame.own:
+        return False
+    one, two = (find_term(best.frame.problem, next(iter(keys)))[0] for keys in (mine, its))
+    alike = {*one.resembles, *one.equals, *two.resembles, *two.equals} & {one.name, two.name}
+    return bool(alike) and abs(best.score() + best.price - other.score() - other.price) < TIED
+
+
+def _draw(found: Hypothesis, keys: list[str], count: int, rng: np.random.Generator) -> Array:
+    """Return draws (count, keys) of parameters from the posterior of one hypothesis; NaN where it lacks one."""
+    free = found.frame.problem.free[: found.frame.own]
+    places = {f.key: i for i, f in enumerate(free) if f.level not in LEVELS}
+    covariance = found.scatter * found.covariance
+    sd = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
+    values, vectors = np.linalg.eigh(covariance / np.outer(sd, sd))
+    root = sd[:, None] * vectors * np.sqrt(np.maximum(values, 0.0))
+    low, high = (np.array([getattr(f, end) for f in free]) for end in ("low", "high"))
+    theta = np.clip(found.theta + rng.standard_normal((count, len(free))) @ root.T, low, high)
+    made = np.full((count, len(keys)), np.nan)
+    for column, key in enumerate(keys):
+        if key in places:
+            f = free[places[key]]
+            made[:, column] = [f.value(at) for at in theta[:, places[key]]]
+        elif key.rpartition(".")[0] in found.frame.terms:
+            held = found.frame.problem.known[found.frame.problem.system.index[key]]
+            made[:, column] = held or math.nan  # a complete law; at zero the amplitude is absent
+    return made

@@ -1,0 +1,165 @@
+"""What is named in machines whose flaws are usual, and how the explanations are averaged."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from explained import VALUES, bend, explain_machine
+
+from lostmotion.evidence.corrections import find_corrections
+from lostmotion.evidence.explanations import Explanations
+from lostmotion.evidence.hypothesis import UNKNOWN
+from lostmotion.inference.candidates import compute_slopes, run_score_test
+
+FRICTIONS = {"coulomb_friction", "stribeck_friction", "dahl_friction", "lugre_friction", "directional_friction"}
+SURE = 0.95
+NOTHING, FRICTION = frozenset(), frozenset({"coulomb_friction"})
+
+
+def nothing(x, v, t):
+    """Return no force (N)."""
+    return 0.0
+
+
+def rub(x, v, t):
+    """Return dry friction of 0.8 N (N), without sticking."""
+    return -0.8 * np.tanh(v / 1e-3)
+
+
+def bent(x):
+    """Return what a sensor shows that is bent by 0.8 % of its range, evenly."""
+    return x + 0.008 * np.abs(x).max() * (x / np.abs(x).max()) ** 2
+
+
+@pytest.fixture(scope="module")
+def rubbing(tmp_path_factory):
+    """The explanations of an oscillator with dry friction of 0.8 N."""
+    return explain_machine(tmp_path_factory.mktemp("rubbing"), rub)
+
+
+def with_scores(explained, scores):
+    """Return explanations with these scores by set, of hypotheses that are otherwise that of nothing missing."""
+    bare = explained.found[NOTHING]
+    made = {}
+    for terms, score in scores.items():
+        frame = replace(bare.frame, problem=replace(bare.frame.problem, active=terms - {UNKNOWN}))
+        made[terms] = replace(
+            bare, frame=frame, log_evidence=score, heldout=0.0, price=0.0, unknown=UNKNOWN in terms, smooth=0.0
+        )
+    return Explanations(explained.fits, made)
+
+
+def test_friction_is_the_best_explanation_and_it_has_the_probability_of_a_name(rubbing):
+    assert rubbing.terms == FRICTION
+    assert rubbing.inclusion("coulomb_friction") > SURE
+    assert rubbing.chosen is rubbing.fits[FRICTION]
+    assert rubbing.chosen.values["coulomb_friction.force"] == pytest.approx(0.8, rel=0.1)
+
+
+def test_probabilities_are_one_in_sum_and_those_of_terms_are_sums_over_sets(rubbing):
+    assert sum(rubbing.probabilities.values()) == pytest.approx(1.0)
+    for key in {key for terms in rubbing.found for key in terms}:
+        wanted = sum(p for terms, p in rubbing.probabilities.items() if key in terms)
+        assert rubbing.inclusion(key) == pytest.approx(wanted)
+    assert rubbing.inclusion("no_such_term") == 0.0
+
+
+def test_the_gain_of_a_term_is_its_evidence_beside_a_discrepancy(rubbing):
+    alone, bare = rubbing.found[FRICTION], rubbing.found[NOTHING]
+    wanted = alone.log_evidence + alone.heldout - bare.log_evidence - bare.heldout
+    assert rubbing.gain("coulomb_friction") == pytest.approx(wanted)
+    assert rubbing.gain_beside("coulomb_friction") == pytest.approx(alone.score() - bare.score())
+    unfitted = next(key for key in rubbing.promised if frozenset({key}) not in rubbing.found)
+    assert rubbing.gain(unfitted) == rubbing.promised[unfitted]
+
+
+def test_a_refuted_set_has_no_probability_and_the_next_one_is_the_best(rubbing):
+    less = rubbing.refute()
+    assert FRICTION not in less.probabilities
+    assert less.terms != FRICTION
+    assert sum(less.probabilities.values()) == pytest.approx(1.0)
+    assert less.refute().refuted == {FRICTION, less.terms}
+
+
+def test_an_unknown_force_beside_a_refuted_set_is_refuted_with_it(rubbing):
+    made = with_scores(rubbing, {NOTHING: 0.0, FRICTION: 20.0, FRICTION | {UNKNOWN}: 19.0, frozenset({UNKNOWN}): 5.0})
+    assert made.terms == FRICTION
+    less = made.refute()
+    assert set(less.probabilities) == {NOTHING, frozenset({UNKNOWN})}
+    assert less.best.terms == {UNKNOWN}
+    assert less.terms == NOTHING
+
+
+def test_the_probability_of_a_set_is_the_softmax_of_scores_over_the_scatter_of_the_best(rubbing):
+    made = with_scores(rubbing, {NOTHING: 0.0, FRICTION: 6.0})
+    wide = made.found[FRICTION]
+    wide.__dict__["scatter"] = 3.0
+    assert made.probabilities[FRICTION] == pytest.approx(1.0 / (1.0 + math.exp(-2.0)))
+
+
+def test_draws_are_averaged_over_hypotheses_by_probability(rubbing):
+    """A third of the draws is from a machine with twice the damping; 4,000 draws know that to 0.03. Seeded."""
+    made = with_scores(rubbing, {NOTHING: math.log(2.0), FRICTION: 0.0})
+    free = [f.key for f in made.found[NOTHING].frame.problem.free]
+    other = made.found[FRICTION]
+    at = other.expansion.at.copy()
+    at[free.index("c")] += math.log(2.0)
+    found = {NOTHING: made.found[NOTHING], FRICTION: replace(other, expansion=replace(other.expansion, at=at))}
+    for one in found.values():
+        one.__dict__["scatter"] = 1.0
+    mixed = Explanations(made.fits, found)
+    middle = next(f for f in other.frame.problem.free if f.key == "c").value(at[free.index("c")] - 0.5 * math.log(2.0))
+    drawn = mixed.draw(["c", "coulomb_friction.force"], 4000, np.random.default_rng(0))
+    assert np.mean(drawn[:, 0] > middle) == pytest.approx(1.0 / 3.0, abs=0.03)
+    assert np.isnan(drawn[:, 1]).all()
+
+
+def test_a_clean_machine_has_no_term_and_no_correction(tmp_path):
+    """One seeded recording. What is not named has no influence on the values of the machine."""
+    found = explain_machine(tmp_path, nothing)
+    assert found.terms == NOTHING
+    assert found.probabilities[NOTHING] > 0.9
+    assert not find_corrections(found.best)
+
+
+def test_a_known_value_that_is_slightly_wrong_gets_no_name(tmp_path):
+    """Without known values and channels that err, score tests promise much."""
+    found = explain_machine(tmp_path, nothing, stated=1.01)
+    slopes = compute_slopes(found.nominal)
+    keys = ("sensor_gain", "excitation_gain", "coulomb_friction", "actuator_lag", "linear_stiffness")
+    assert max(run_score_test(found.nominal, slopes, key).gain for key in keys) > 20.0
+    assert found.terms == NOTHING
+    assert found.probabilities[NOTHING] > SURE
+
+
+def test_a_bent_sensor_gets_no_name_and_is_corrected(tmp_path):
+    """The flaw has 1.6 times its usual width."""
+    found = explain_machine(tmp_path, nothing, shown=bent)
+    assert found.terms == NOTHING
+    right = find_corrections(found.best)
+    _, square, cube, *_ = [size for _, size in right.errors]  # the scale of the sensor comes first
+    assert square == pytest.approx(-0.008, rel=0.1)
+    assert abs(cube) < 0.001
+    assert right.refit(found.nominal).log_likelihood > found.nominal.log_likelihood + 35.0
+    drawn = found.draw(["c", "k"], 2000, np.random.default_rng(0))
+    for column, key in zip(drawn.T, ("c", "k"), strict=True):
+        low, high = np.quantile(column, [0.005, 0.995])
+        assert low <= VALUES[key] <= high
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("size", [0.25, 0.4])
+def test_a_smooth_force_that_the_library_lacks_gets_no_name(tmp_path, size):
+    found = explain_machine(tmp_path, bend(size))
+    assert found.found[NOTHING].smooth > 20.0
+    assert [key for key in sorted({k for terms in found.found for k in terms} - {UNKNOWN})
+            if found.inclusion(key) > SURE] == []  # fmt: skip
+
+
+@pytest.mark.slow
+def test_friction_is_named_beside_a_smooth_force(tmp_path):
+    found = explain_machine(tmp_path, lambda x, v, t: bend(0.2)(x, v, t) - 1.0 * np.tanh(v / 1e-3))
+    assert found.terms <= FRICTIONS
+    assert len(found.terms) == 1
+    assert found.inclusion(next(iter(found.terms))) > SURE
