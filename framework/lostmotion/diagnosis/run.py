@@ -27,6 +27,7 @@ from lostmotion.diagnosis.disagreements import describe_disagreement
 from lostmotion.diagnosis.evidences import check_evidence
 from lostmotion.diagnosis.findings import Outcome, draw_parameters, explain_withheld, list_findings
 from lostmotion.diagnosis.mixed import draw_mixture
+from lostmotion.diagnosis.moving import note_rest
 from lostmotion.diagnosis.notes import write_notes
 from lostmotion.diagnosis.report.page import write_report
 from lostmotion.diagnosis.rivals import Proposals, describe_confusions, propose_experiments
@@ -235,7 +236,7 @@ def _make_result(prepared: Prepared, outcome: Outcome, seed: int, proposals: Pro
     return Diagnosis(
         title=case.title,
         verdict="mismatch" if found else "adequate",
-        says=summarise(outcome, found, rest),
+        says=(*d.scale, *summarise(outcome, found, rest)),
         found=found,
         open=rest,
         ranking=rank_candidates(d, found, failed=bool(explain_withheld(outcome))),
@@ -261,9 +262,15 @@ def _make_result(prepared: Prepared, outcome: Outcome, seed: int, proposals: Pro
         machine=_describe_machine(outcome, case),
         truth=case.truth,
         recordings=tuple(map(_describe_recording, prepared.recordings)),
-        notes=tuple(write_notes(outcome, (*prepared.notes, *note_unused(case.known)))),
+        notes=tuple(write_notes(outcome, _list_remarks(prepared, d))),
         provenance=_make_origin(prepared, d, seed),
     )
+
+
+def _list_remarks(prepared: Prepared, d: SearchResult) -> list[str]:
+    """Return the notes on the recordings and on the case."""
+    rest = note_rest(prepared.observations, d.recordings)
+    return [*prepared.notes, *rest, *note_unused(prepared.case.known)]
 
 
 def _describe_recording(r: Recording) -> RecordingFacts:

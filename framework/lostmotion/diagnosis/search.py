@@ -10,6 +10,8 @@ import numpy as np
 from lostmotion.case import CaseFile
 from lostmotion.contracts import Array, Interface, Model, SensorTerm, Values, place_of
 from lostmotion.diagnosis.compare import cut_heldout
+from lostmotion.diagnosis.moving import check_motion, cut_rest
+from lostmotion.diagnosis.scales import describe_wrong_scale
 from lostmotion.errors import DataError
 from lostmotion.evidence.bare import Budget
 from lostmotion.evidence.corrections import Corrections, find_corrections
@@ -92,7 +94,8 @@ class SearchResult:
     found terms along it. `random_gain` is the log-likelihood that a random force beyond the usual adds. `learned` are
     the curves that were learned because the library did not suffice; `after` is the fit with them. `withdrawn` are the
     keys of terms that were found by likelihood and withdrawn because of held-out data. The given `recordings` are
-    corrected for usual errors of their channels (`corrections`); all others are corrected recordings.
+    corrected for usual errors of their channels (`corrections`); all others are corrected recordings. `scale` is a
+    sentence on a column whose scale does not fit the model.
     """
 
     before: Fit
@@ -112,6 +115,7 @@ class SearchResult:
     quantised: Mapping[str, tuple[Values, Values]] = field(default_factory=dict)
     learned: UnknownForce | None = None
     withdrawn: tuple[str, ...] = ()
+    scale: tuple[str, ...] = ()
 
     @property
     def settings(self) -> Settings:
@@ -171,10 +175,13 @@ def diagnose(
 
     The search for explanations ends after `select.budget` seconds of processor time; 0 stands for `choose_budget`.
     """
+    check_motion(observations, system.model.motion)
+    observations = cut_rest(observations, settings.heldout)
     train, held = split_heldout(observations, settings.heldout)
     _check_moving(held)
     say("fit of the nominal model")
     nominal = search_maximum(make_problem(system, case, train, jobs=jobs, settings=settings), rng)
+    scale = describe_wrong_scale(nominal, case, rng.spawn(1)[0])
     pieces = [(piece.observation, piece.begin) for piece in cut_heldout(observations, held)]
     course = Course(
         list_fitted_keys(system), pieces, Budget(settings.select.budget or choose_budget(nominal.problem)), say
@@ -183,7 +190,7 @@ def diagnose(
     first = SearchResult(
         nominal, nominal, explained, held[0], _NOT_LOCATED, None, _EMPTY, {}, {}, 0.0, train, held, tuple(observations)
     )
-    return explain_by(explained, first, rng.spawn(1)[0], say)
+    return explain_by(explained, replace(first, scale=scale), rng.spawn(1)[0], say)
 
 
 def choose_budget(problem: Problem) -> float:

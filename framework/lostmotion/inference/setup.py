@@ -72,14 +72,14 @@ def count_lasting_samples(observation: Observation, limits: HeldOutSettings = DE
     """Return the number of samples of a recording until its motion has decayed, or all of them.
 
     A block of readings contains motion where its deviation is more than `limits.alive` times the noise. The motion has
-    decayed where at least as much of the recording as would be held out contains none: nothing could be predicted
-    there.
+    decayed where at least half of what would be held out contains none: predictions of a machine at rest neither
+    confirm nor refute a model.
     """
     sensor = choose_main_sensor(observation)
     blocks = np.array_split(fill_lost(observation.readings[:, sensor]), BLOCKS)
     alive = np.array([float(np.std(block)) for block in blocks]) > limits.alive * observation.noises[sensor]
     last = int(np.flatnonzero(alive)[-1]) + 1 if alive.any() else BLOCKS
-    if last > (1.0 - limits.share) * BLOCKS:
+    if last > (1.0 - 0.5 * limits.share) * BLOCKS:
         return observation.samples
     return sum(len(block) for block in blocks[:last])
 

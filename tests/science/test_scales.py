@@ -1,0 +1,112 @@
+"""A column in a wrong unit, with a wrong sign, or behind a gear is told before any name; other machines are not."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import lostmotion as lm
+from lostmotion.diagnosis.run import run_diagnosis
+from lostmotion.diagnosis.scales import describe_wrong_scale
+from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
+from lostmotion.likelihood.system import System
+from lostmotion.preparation.prepare import Prepared, prepare
+from lostmotion.registry import Registry, default
+
+
+def describe(prepared: Prepared) -> tuple[str, ...]:
+    """Return what is said of the scales of a case."""
+    train, _ = split_heldout(prepared.observations)
+    problem = make_problem(System(prepared.model, prepared.terms), prepared.case, train)
+    return describe_wrong_scale(
+        search_maximum(problem, np.random.default_rng(0)), prepared.case, np.random.default_rng(1)
+    )
+
+
+CASES = {
+    "i08_rpm_as_rads": r"'speed' multiplied by 0\.105, 1/9\.55 \(rpm read as rad/s\)",
+    "i07_gear_50": r"'motor' multiplied by 0\.02, 1/50.* \(the ratio of a gear\)",
+}
+
+
+@pytest.mark.parametrize(("name", "says"), CASES.items(), ids=CASES)
+def test_the_scale_of_a_case_is_told(shared_cases: Path, name: str, says: str) -> None:
+    (said,) = describe(prepare(shared_cases / name / "case.toml", Registry.discover()))
+    assert re.search(says, said), said
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("name", "says"), CASES.items(), ids=CASES)
+def test_it_is_the_first_line_of_the_result(shared_cases: Path, tmp_path: Path, name: str, says: str) -> None:
+    found = run_diagnosis(shared_cases / name / "case.toml", tmp_path, Registry.discover(), propose=False)
+    assert re.search(says, found.says[0]), found.says
+
+
+DRIVES = (
+    "harmonic:amplitude=3,frequency=0.9",
+    "harmonic:amplitude=2,frequency=1.7",
+    "harmonic:amplitude=2,frequency=2.9",
+)
+MACHINES: dict[str, dict[str, Any]] = {
+    "linear_oscillator": {"values": {"m": 1.3, "c": 1.1, "k": 160.0}, "known": ["m"]},
+    "rigid_drive": {"values": {"m": 0.02, "c": 0.15}, "known": ["m"]},
+}
+
+
+def machine(model: str, scale: dict[str, float], units: dict[str, str], **more: Any) -> Prepared:
+    """Return the case of a simulated machine, whose columns are multiplied by `scale` and said to be in `units`."""
+    spec = MACHINES[model]
+    made = lm.simulate(
+        model, values=spec["values"], drives=DRIVES, duration=20.0, rate=200.0, noise=0.002,
+        motion="rotation" if "rad" in "".join(units.values()) else None, **more,
+    )  # fmt: skip
+    drive = "torque" if any("N m" in unit for unit in units.values()) else "force"
+    seen = next(name for name in units if name != drive)
+    recording = lm.Recording.from_arrays(
+        made.columns["time"],
+        inputs={drive: made.columns["force"] * scale.get(drive, 1.0)},
+        sensors={seen: made.columns[seen] * scale.get(seen, 1.0)},
+        units=units,
+    )
+    known = {name: spec["values"][name] for name in spec["known"]}
+    free = {k: lm.LogUniform(v / 10, 10 * v) for k, v in spec["values"].items() if k not in known}
+    return lm.Case(recording, model, known, free).prepare(default())
+
+
+N_M = {"force": "N", "position": "m"}
+N_A = {"force": "N", "acceleration": "m/s^2"}
+T_V = {"torque": "N m", "velocity": "rad/s"}
+WRONG: dict[str, tuple[str, dict[str, float], dict[str, str], str]] = {
+    "mm as m": ("linear_oscillator", {"position": 1e3}, N_M, r"by 0\.001, 1/1000"),
+    "m as mm": ("linear_oscillator", {}, {"force": "N", "position": "mm"}, r"by (1000|0\.001, 1/1000) \("),
+    "g as m/s^2": ("linear_oscillator", {"acceleration": 1 / 9.80665}, N_A, r"by (9\.81|0\.102, 1/9\.81) \("),
+    "sign of the force": ("linear_oscillator", {"force": -1.0}, N_M, r"by -1 \(the sign\)"),
+    "deg/s as rad/s": ("rigid_drive", {"velocity": 57.29578}, T_V, r"1/57\.3 \(degrees"),
+    "rpm as rad/s": ("rigid_drive", {"velocity": 9.5493}, T_V, r"1/9\.55 \(rpm"),
+}
+
+
+@pytest.mark.parametrize(("model", "scale", "units", "says"), WRONG.values(), ids=WRONG)
+def test_a_wrong_unit_is_told_with_its_factor(
+    model: str, scale: dict[str, float], units: dict[str, str], says: str
+) -> None:
+    (said,) = describe(machine(model, scale, units))
+    assert re.search(says, said), said
+
+
+MISSING = [
+    "coulomb_friction:force=4", "coulomb_friction:force=6", "cubic_stiffness:coefficient=2e4",
+    "quadratic_damping:coefficient=40",
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("term", [None, *MISSING])
+@pytest.mark.parametrize("seed", range(3))
+def test_what_is_missing_in_a_machine_is_no_wrong_scale(term: str | None, seed: int) -> None:
+    """15 machines, 12 of which lack a force of the size of the drive: no false alarm; the rate is below 18 % (95 %)."""
+    more: dict[str, Any] = {"seed": seed} | ({"terms": term} if term else {})
+    assert describe(machine("linear_oscillator", {}, {"force": "N", "position": "m"}, **more)) == ()
