@@ -119,6 +119,14 @@ CALLS: dict[str, tuple[Callable[[], Any], str]] = {
         lambda: lm.embed(PLACE, None, dt=0.01),  # type: ignore[arg-type]
         "embedder is None: expected an embedder",
     ),
+    "a number as the name of an input": (
+        lambda: lm.Recording.from_arrays(rate=1.0, sensors={3: PLACE}, units={}),  # type: ignore[dict-item]
+        "a key of sensors is 3: expected a text",
+    ),
+    "a period longer than the recording": (
+        lambda: lm.analyse(recorded(), period=10.0, progress=False),
+        "the period of 10 s does not fit 4 s at 100 Hz",
+    ),
     "no pairs of samples": (
         lambda: lm.analyse(recorded(), every=0),
         "every is 0: expected a whole number from 1",

@@ -11,6 +11,7 @@ from lostmotion.analysis.denoise import Denoised
 from lostmotion.analysis.source import Source
 from lostmotion.analysis.surrogates import SurrogateTest
 from lostmotion.contracts import Array, Series
+from lostmotion.errors import DataError
 from lostmotion.results import Estimate
 from lostmotion.results.analysis import DriveSource
 from lostmotion.settings import DEFAULT, MotionSettings
@@ -52,6 +53,11 @@ class MotionEvidence:
 def find_base_period(x: Array, source: Source, given: float | None) -> BasePeriod:
     """Return the base period: as given, from the measured excitation, or from the strongest line of the response."""
     if given is not None:
+        if not 2.0 * source.dt < given < 0.5 * len(x) * source.dt:
+            raise DataError(
+                f"the period of {given:g} s does not fit {len(x) * source.dt:.4g} s at {1.0 / source.dt:.4g} Hz: give"
+                " one longer than two samples, of which the recording has two at least, or none"
+            )
         return BasePeriod(given, "given")
     if source.excitation is not None:
         period = refined_period(source.excitation, source.dt)

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from lostmotion.arguments import checked, error, instance, positive, random, whole
+from lostmotion.arguments import checked, error, instance, positive, random, text, whole
 from lostmotion.contracts import Quantifier, Series, Surrogate
 from lostmotion.errors import ContractError, DataError
 from lostmotion.kernels.threads import spread
@@ -57,6 +57,7 @@ class SurrogateTest:
     surrogate=instance(Surrogate, "a surrogate, such as lm.registry.default().make('surrogate', NAME)"),
     draws=whole(0, 1_000_000),
     rng=random,
+    sided=text,
     jobs=whole(0),
     level=positive,
 )

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from lostmotion.arguments import checked, mapping, maybe, number, positive
+from lostmotion.arguments import anything, checked, mapping, maybe, number, positive
 from lostmotion.contracts import Array, Assembly, Model, Term
 from lostmotion.diagnosis.findings import Outcome
 from lostmotion.errors import CaseError, DataError, nearest
@@ -119,13 +119,12 @@ def _read_signals(inputs: Mapping[str, Signal] | Recording, rate: float | None) 
         return {str(a.attrs["of"]): np.asarray(a) for a in inputs.inputs}, inputs.rate
     if rate is None:
         raise CaseError("the rate is missing: give rate=, the samples per second of the arrays and of the simulation")
-    if not isinstance(inputs, Mapping):
-        raise CaseError("the inputs are not a mapping: give {'force': array} or {'force': function of time}")
-    for name, signal in inputs.items():
+    signals: dict[str, Signal] = mapping(anything, "{'force': array} or {'force': function of time}")(inputs, "inputs")
+    for name, signal in signals.items():
         values = None if callable(signal) else np.asarray(signal)
         if values is not None and (values.dtype.kind not in "iufb" or values.ndim != 1):
             raise CaseError(f"the input {name!r} is neither an array (n,) of numbers nor a function of time (s)")
-    return dict(inputs), rate
+    return signals, rate
 
 
 def _count_samples(signals: Mapping[str, Signal], duration: float | None, rate: float) -> int:
