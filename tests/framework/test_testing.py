@@ -301,7 +301,7 @@ BAD = [
     ("motion_is_known", Cart, {"motion": "sideways"}, set()),
     ("motion_is_known", Cart, {"motions": ("rotation",)}, set()),
     ("motion_is_known", Wheels, {"turned": stays}, set()),
-    ("inputs_and_channels_are_named", Cart, {"inputs": ("voltage",)}, set()),
+    ("inputs_and_channels_are_named", Cart, {"inputs": ("warmth",)}, set()),
     ("inputs_and_channels_are_named", Cart, {"inputs": ("base_position", "force", "base_velocity")}, set()),
     ("inputs_and_channels_are_named", Cart, {"inputs": ("base_position",)}, set()),
     ("channels_are_named_by_quantity", Cart, {"channels": ("position", "velocity", "heat")}, set()),

@@ -137,7 +137,8 @@ def _refine_ratio(nominal: Fit, case: CaseFile, scaled: _Scaled, seed: int) -> _
 
 def _measure_missing(fit: Fit) -> float:
     """Return the rms of the missing force of a fit, as a share of the drive; infinite where the fit diverged."""
-    missing = smooth_latent_force(fit.problem.on(fit.problem.observations[:1]), fit.theta).force
+    with np.errstate(invalid="ignore", over="ignore"):  # a model with a wrong scale may diverge
+        missing = smooth_latent_force(fit.problem.on(fit.problem.observations[:1]), fit.theta).force
     size = float(np.std(missing)) / fit.problem.scales.force
     return size if math.isfinite(size) else math.inf
 
