@@ -168,3 +168,23 @@ def test_noise_with_a_memory_is_no_force_and_is_part_of_every_explanation(tmp_pa
     for one in found.found.values():
         assert {AR1_LEVEL, AR1_MEMORY} <= set(one.frame.problem.keys)
     assert np.exp(found.nominal.values[AR1_MEMORY]) == pytest.approx(0.1, rel=0.5)
+
+
+def test_a_cancelled_search_gives_the_best_explanation_so_far(tmp_path):
+    """The user cancels once nothing missing was weighed; before that there is no answer, and the command ends."""
+    told, nominal = [], nominal_of(tmp_path, rub)
+
+    def cancel_after(text):
+        def say(now):
+            told.append(now)
+            if told[-2:-1] == [text]:
+                raise KeyboardInterrupt
+
+        return say
+
+    found = Course(KEYS, (), Budget(600.0), cancel_after("weighing no term")).find_explanations(nominal)
+    assert found.terms == {"coulomb_friction"}
+    assert found.skipped == ("any set",)
+    assert told[-1].startswith("weighing an unknown force") or "cancelled: the best explanation so far" in told
+    with pytest.raises(KeyboardInterrupt):
+        Course(KEYS, (), Budget(600.0), cancel_after("score tests beside no term")).find_explanations(nominal)
