@@ -118,14 +118,15 @@ def rubbing():
 def test_term_that_is_null_changes_no_bit(rubbing):
     """The nominal model is nested in every augmented one, so evidence ratios mean something. No chance.
 
-    A way travelled has a kink at each reversal of the motion, where the filter takes finer steps.
+    A way travelled has a kink at each reversal of the motion, where the filter takes finer steps: 0.002 % here, where a
+    friction of 3 N is hidden and the errors are large.
     """
     problem, theta, _ = rubbing
     bare = problem.innovations(theta)
     for key in problem.system.keys:
         null = replace(problem, active=frozenset({key})).innovations(theta)
         if key == "friction_drift_travel":
-            assert null.log_likelihood == pytest.approx(bare.log_likelihood, abs=0.1)
+            assert null.log_likelihood == pytest.approx(bare.log_likelihood, rel=1e-4)
             continue
         assert np.array_equal(null.errors, bare.errors), key
         assert np.array_equal(null.variances, bare.variances), key
