@@ -49,8 +49,7 @@ class Course:
         bare = nominal if short is nominal.problem else maximise(short, nominal.theta)
         if bare is nominal or bare.status == "diverged":
             whole.run()
-            whole.drop_each()
-            whole.weigh_unknown()
+            self._complete(whole)
             return whole
         self.say(f"search on {short.samples} samples in {len(short.observations)} stretches")
         share = short.samples / nominal.problem.samples
@@ -71,9 +70,15 @@ class Course:
                 whole.weigh(fit, found.values, found.choice)
         whole.skipped += first.skipped
         whole.bare.promised |= first.bare.promised
-        whole.drop_each()
-        whole.weigh_unknown()
+        self._complete(whole)
         return whole
+
+    def _complete(self, search: ExplanationSearch) -> None:
+        """Weigh the best set without each of its terms, and unknown forces, unless the user has cancelled."""
+        if "any set" not in search.skipped:
+            with search.cancellable():
+                search.drop_each()
+                search.weigh_unknown()
 
     def _find_memory(self, search: ExplanationSearch) -> Fit | None:
         """Return the nominal fit with AR(1) noise where a fit supports it; white noise and a force imitate it."""

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -65,15 +66,21 @@ class ExplanationSearch:
 
     def run(self) -> ExplanationSearch:
         """Return the search after it has ended by itself, when its time was used up, or when the user cancelled it."""
-        try:
+        with self.cancellable():
             self._run()
+        return self
+
+    @contextmanager
+    def cancellable(self) -> Iterator[None]:
+        """End the work within, and use up the time, when the user cancels it and nothing missing is weighed already."""
+        try:
+            yield
         except KeyboardInterrupt:
             if frozenset() not in self.found:
                 raise
-            self.say("cancelled: the best explanation so far")
             self.budget.end()
             self.skipped.append("any set")
-        return self
+            self.say("cancelled: the best explanation so far")
 
     def _run(self) -> None:
         """Climb, weigh what is near the best set, and extend it."""
