@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 from explained import made_of
 
-from lostmotion.evidence.bare import BareFits, Budget, compute_unknown_price, name_terms
+from lostmotion.evidence.bare import BareFits, Budget, name_terms
 from lostmotion.evidence.channels import list_channel_errors
 from lostmotion.inference.candidates import join_term
 from lostmotion.inference.curves import add_all_curves
 from lostmotion.inference.fit import maximise, restart
-from lostmotion.inference.penalties import compute_price
+from lostmotion.inference.penalties import compute_price, compute_unknown_price
 from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
 
 NOTHING, FRICTION, LEVELS = frozenset(), frozenset({"coulomb_friction"}), frozenset({"directional_friction"})

@@ -60,7 +60,7 @@ def _draw_near(fit: Fit) -> Array:
     if not np.all(np.isfinite(fit.local.covariance)):
         return fit.theta[None]
     noise = np.random.default_rng(0).standard_normal((DRAWS, len(fit.theta)))
-    return np.vstack([fit.theta, fit.problem.clip(fit.theta + noise @ compute_root(fit.local).T)])
+    return np.vstack([fit.theta, fit.problem.clip(fit.theta + noise @ compute_root(fit.local.covariance).T)])
 
 
 def _compute_log_densities(fit: Fit, piece: HeldOutStretch, thetas: Array) -> Array:

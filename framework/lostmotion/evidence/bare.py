@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -180,8 +179,3 @@ class BareFits:
 def name_terms(terms: Iterable[str]) -> str:
     """Return a set of terms in words."""
     return " and ".join(sorted(terms)) or "no term"
-
-
-def compute_unknown_price(many: int) -> float:
-    """Return the log prior odds against a force that the library lacks: those of one more law."""
-    return math.log(max(many, 1)) + 1.0

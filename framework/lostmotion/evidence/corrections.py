@@ -78,7 +78,7 @@ def _describe_error(error: ChannelError, size: float, first: Observation) -> str
 
 def find_corrections(found: Hypothesis) -> Corrections:
     """Return the corrections of a hypothesis: those of the channels, of the known values, each if one is clear."""
-    frame, sds = found.frame, np.sqrt(np.diag(np.linalg.inv(found.precision)))
+    frame, sds = found.frame, np.sqrt(np.diag(found.joint_covariance))
     spread = dict(zip(found.used.tolist(), sds.tolist(), strict=True))
     middle = np.concatenate([np.zeros(frame.own), frame.middle])
 

@@ -55,7 +55,8 @@ class Course:
         share = short.samples / nominal.problem.samples
         part, recordings = self.budget.part(FIRST), nominal.problem.observations
         first = ExplanationSearch(bare, self.keys, (), part, share, self.say, whole.errors, recordings).run()
-        if part.seconds == 0.0:
+        whole.cancelled = first.cancelled
+        if whole.cancelled:
             self.budget.end()
         self.say("the best explanations on all samples")
         for rank, found in enumerate(_list_best(first)):
@@ -75,7 +76,7 @@ class Course:
 
     def _complete(self, search: ExplanationSearch) -> None:
         """Weigh the best set without each of its terms, and unknown forces, unless the user has cancelled."""
-        if "any set" not in search.skipped:
+        if not search.cancelled:
             with search.cancellable():
                 search.drop_each()
                 search.weigh_unknown()

@@ -100,7 +100,7 @@ def _test_onsets(found: Hypothesis, ever: Promise, effect: TermEffect, less: flo
     problem, best = found.frame.problem, ever
     if not can_have_onset(problem, effect.key):
         return ever
-    times = np.concatenate([np.repeat(o.time[: o.samples], len(o.sensors)) for o in problem.observations])
+    times = np.concatenate([np.repeat(o.time, len(o.sensors)) for o in problem.observations])
     for onset in list_onsets(problem).tolist():
         after = times >= onset
         cut = replace(effect, errors=effect.errors * after, variances=effect.variances * after)

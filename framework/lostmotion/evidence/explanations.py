@@ -17,9 +17,10 @@ import numpy as np
 from lostmotion.contracts import Array
 from lostmotion.evidence.bare import Terms
 from lostmotion.evidence.hypothesis import UNKNOWN, Hypothesis
-from lostmotion.evidence.search import ExplanationSearch, compute_probabilities
+from lostmotion.evidence.search import ExplanationSearch, compute_probabilities, measure_temper
 from lostmotion.inference.curves import drop_all_curves
 from lostmotion.inference.fit import Fit
+from lostmotion.inference.mixture import compute_root
 from lostmotion.inference.natural import find_term
 from lostmotion.likelihood.space import LEVELS
 
@@ -58,8 +59,7 @@ class Explanations:
     def probabilities(self) -> Mapping[Terms, float]:
         """The posterior probability of each set."""
         allowed = [one for terms, one in self.found.items() if terms - {UNKNOWN} not in self.refuted]
-        temper = max(allowed, key=lambda one: one.score()).scatter
-        return _share_ties(allowed, compute_probabilities(allowed, temper))
+        return _share_ties(allowed, compute_probabilities(allowed, measure_temper(allowed)))
 
     @property
     def best(self) -> Hypothesis:
@@ -147,10 +147,7 @@ def _draw(found: Hypothesis, keys: list[str], count: int, rng: np.random.Generat
     """Return draws (count, keys) of parameters from the posterior of one hypothesis; NaN where it lacks one."""
     free = found.frame.problem.free[: found.frame.own]
     places = {f.key: i for i, f in enumerate(free) if f.level not in LEVELS}
-    covariance = found.scatter * found.covariance
-    sd = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
-    values, vectors = np.linalg.eigh(covariance / np.outer(sd, sd))
-    root = sd[:, None] * vectors * np.sqrt(np.maximum(values, 0.0))
+    root = compute_root(found.scatter * found.covariance)
     low, high = (np.array([getattr(f, end) for f in free]) for end in ("low", "high"))
     theta = np.clip(found.theta + rng.standard_normal((count, len(free))) @ root.T, low, high)
     made = np.full((count, len(keys)), np.nan)

@@ -87,10 +87,14 @@ class Hypothesis:
         return dict(zip(self.frame.names, map(float, self.at), strict=True))
 
     @cached_property
+    def joint_covariance(self) -> Array:
+        """The posterior covariance (used, used) of the free coordinates."""
+        return solve_scaled(self.precision, np.eye(len(self.used)))
+
+    @property
     def covariance(self) -> Array:
         """The posterior covariance (own, own) of the own coordinates, with the discrepancy integrated."""
-        own = self.frame.own
-        return np.asarray(solve_scaled(self.precision, np.eye(len(self.used)))[:own, :own])
+        return self.joint_covariance[: self.frame.own, : self.frame.own]
 
     @property
     def used(self) -> NDArray[np.intp]:

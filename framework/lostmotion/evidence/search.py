@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from lostmotion.evidence.bare import MOST_TERMS, BareFits, Budget, Say, Terms, compute_unknown_price, name_terms
+from lostmotion.evidence.bare import MOST_TERMS, BareFits, Budget, Say, Terms, name_terms
 from lostmotion.evidence.channels import ChannelError, list_channel_errors
 from lostmotion.evidence.discrepancy import LARGE, LENGTHS, SIZES, Choice, make_frame
 from lostmotion.evidence.effects import Promise
@@ -18,7 +18,7 @@ from lostmotion.evidence.hypothesis import Hypothesis, fit_hypothesis
 from lostmotion.inference.candidates import ScoreTest, add_term
 from lostmotion.inference.curves import add_all_curves
 from lostmotion.inference.fit import ROUGHLY, Fit, maximise, restart
-from lostmotion.inference.penalties import compute_price
+from lostmotion.inference.penalties import compute_price, compute_unknown_price
 from lostmotion.likelihood.observation import Observation
 
 MOST_BESIDE, MOST_CLOSE = 3, 4
@@ -39,8 +39,9 @@ FAR = 300.0
 class ExplanationSearch:
     """A search beside a `nominal` fit among terms `keys`; `pieces` are held-out data with their first samples.
 
-    `found` has the hypothesis of each set that was weighed, and `skipped` the sets that were not extended for lack of
-    time. On a part of the samples, `temper` is its share of all: scores then predict those of all samples.
+    `found` has the hypothesis of each set that was weighed, `skipped` the sets that were not extended for lack of time,
+    and `cancelled` tells whether the user ended it. On a part of the samples, `temper` is its share of all: scores then
+    predict those of all samples.
     """
 
     nominal: Fit
@@ -55,6 +56,7 @@ class ExplanationSearch:
     extended: set[Terms] = field(default_factory=set)
     dropped: set[tuple[Terms, Terms]] = field(default_factory=set)
     skipped: list[str] = field(default_factory=list)
+    cancelled: bool = False
 
     def __post_init__(self) -> None:
         """Prepare the system with every curve, and the usual errors of the channels if they are not given."""
@@ -79,6 +81,7 @@ class ExplanationSearch:
             if frozenset() not in self.found:
                 raise
             self.budget.end()
+            self.cancelled = True
             self.skipped.append("any set")
             self.say("cancelled: the best explanation so far")
 
@@ -88,8 +91,7 @@ class ExplanationSearch:
         self.weigh(self.bare.fits[self.bare.lead])
         if frozenset() not in self.found:
             self._drop_all(self.best)
-        for key in sorted(self.best.terms):
-            self._drop(self.best, key)
+        self._drop_every(self.best)
         self._weigh_close()
         while (target := self._choose_next()) is not None:
             if self.budget.spent:
@@ -103,8 +105,12 @@ class ExplanationSearch:
         tried: set[Terms] = set()
         while (best := self.best).terms not in tried:
             tried.add(best.terms)
-            for key in sorted(best.frame.terms):
-                self._drop(best, key)
+            self._drop_every(best)
+
+    def _drop_every(self, target: Hypothesis) -> None:
+        """Weigh a set without each of its terms in turn."""
+        for key in sorted(target.frame.terms):
+            self._drop(target, key)
 
     def weigh_unknown(self) -> None:
         """Fit the best sets, and the model without any term, with an unknown force."""
@@ -114,8 +120,7 @@ class ExplanationSearch:
 
     def score(self, found: Hypothesis) -> float:
         """Return the score of a hypothesis over the temper of all, the scatter of the best one."""
-        scatter = max(self.found.values(), key=lambda one: one.score(self.temper)).scatter
-        return found.score(self.temper * scatter)
+        return found.score(measure_temper(self.found.values(), self.temper))
 
     @property
     def best(self) -> Hypothesis:
@@ -223,6 +228,11 @@ def _leave_out(target: Hypothesis, keys: Iterable[str]) -> dict[str, float]:
     """Return the coordinates of a hypothesis by name, without those of some terms."""
     owners = tuple(f"{key}." for key in keys)
     return {name: value for name, value in target.values.items() if not name.startswith(owners)}
+
+
+def measure_temper(found: Iterable[Hypothesis], share: float = 1.0) -> float:
+    """Return what log evidences are divided by: a share of the samples, times the scatter of the best hypothesis."""
+    return share * max(found, key=lambda one: one.score(share)).scatter
 
 
 def compute_probabilities(found: Iterable[Hypothesis], temper: float) -> dict[Terms, float]:

@@ -12,12 +12,11 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit
+from lostmotion.inference.late import find_span
 from lostmotion.inference.natural import compute_size, sort_slots
 from lostmotion.inference.setup import choose_steps
 from lostmotion.inference.shape_scan import SmoothedMotion
-from lostmotion.likelihood.latent import smooth_expected_force
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import Problem
 from lostmotion.likelihood.system import Slot
 
 FINER = 8
@@ -40,8 +39,9 @@ def scan_waves(fit: Fit, observations: Sequence[Observation]) -> dict[str, list[
     if not keys or not observations[0].harmonic.omega:
         return {}
     problem = choose_steps(fit.problem, fit.theta)
-    motions = [_smooth(problem.on((one,)), fit.theta) for one in observations]
-    found = {key: _list_waves(motions, key, slot) for key, slot in keys.items()}
+    motions = [SmoothedMotion.of(problem.on((one,)), fit.theta) for one in observations]
+    span = find_span(problem.on(tuple(observations)))
+    found = {key: _list_waves(motions, span, key, slot) for key, slot in keys.items()}
     return {key: shapes for key, shapes in found.items() if shapes}
 
 
@@ -50,23 +50,18 @@ def _find(fit: Fit, key: str) -> Slot | None:
     return next((slot for slot in sort_slots(fit.problem, key)[1] if slot.param.wave), None)
 
 
-def _smooth(problem: Problem, theta: Array) -> SmoothedMotion:
-    """Return the smoothed motion of a problem with one recording."""
-    states, gradient = smooth_expected_force(problem, theta)
-    return SmoothedMotion(problem, theta, np.ascontiguousarray(states[:, : len(problem.system.model.states)]), gradient)
-
-
-def _list_waves(motions: Sequence[SmoothedMotion], key: str, wave: Slot) -> list[dict[str, float]]:
-    """Return the shapes of a term with the frequencies that stand out, the clearest first."""
-    dt, omega = motions[0].problem.observations[0].dt, motions[0].problem.observations[0].harmonic.omega
-    end = max(float(m.problem.observations[0].time[-1]) for m in motions)
-    begin = min(float(m.problem.observations[0].time[0]) for m in motions)
-    shape = {s.key: compute_size(s.param, motions[0].problem.scales) for s in sort_slots(motions[0].problem, key)[1]}
-    signal = np.zeros(round((end - begin) / dt) + 1)
+def _list_waves(
+    motions: Sequence[SmoothedMotion], span: tuple[float, float], key: str, wave: Slot
+) -> list[dict[str, float]]:
+    """Return the shapes of a term with the frequencies that stand out over a span of time (s), the clearest first."""
+    problem = motions[0].problem
+    dt, omega = problem.observations[0].dt, problem.observations[0].harmonic.omega
+    shape = {s.key: compute_size(s.param, problem.scales) for s in sort_slots(problem, key)[1]}
+    signal = np.zeros(round((span[1] - span[0]) / dt))
     for motion in motions:
         columns = motion.compute_columns(key, [{**shape, wave.key: 0.0}])[0]
         product = columns[:, np.argmax(np.abs(columns).sum(axis=0))] * motion.gradient
-        first = round((float(motion.problem.observations[0].time[0]) - begin) / dt)
+        first = round((float(motion.problem.observations[0].time[0]) - span[0]) / dt)
         signal[first : first + len(product)] += product - product.mean()
     power = np.abs(np.fft.rfft(signal, FINER * len(signal))) ** 2
     ratio = power / _measure_level(power)

@@ -273,7 +273,7 @@ def _solve_from_gradient(
     return ScoreTest(key, 0.5 * float(force[kept] @ estimate), {**shape, **start}, distinct)
 
 
-def fit_term(fit: Fit, hint: ScoreTest, *, hopeless: float = -math.inf) -> Fit:
+def fit_term(fit: Fit, hint: ScoreTest) -> Fit:
     """Return the best fit with one more term, started at the estimate of its score test or at shares of it.
 
     Without the term the likelihood is that of the given fit; a fit that ends lower has failed.
@@ -285,14 +285,14 @@ def fit_term(fit: Fit, hint: ScoreTest, *, hopeless: float = -math.inf) -> Fit:
     order = (*np.argsort(log_densities)[::-1], *range(2, len(SHARES)))
     fits: list[Fit] = []
     for i in order:
-        fits.append(maximise(problems[i], hopeless=hopeless, tolerance=ROUGHLY))
-        if fits[-1].status in ("converged", "abandoned") and fits[-1].log_likelihood > fit.log_likelihood - 1.0:
+        fits.append(maximise(problems[i], tolerance=ROUGHLY))
+        if fits[-1].status == "converged" and fits[-1].log_likelihood > fit.log_likelihood - 1.0:
             break
     best = max(fits, key=lambda f: f.local.log_posterior)
     return refine_change(refine_onset(best, hint.key), hint.key)
 
 
-def replace_term(fit: Fit, key: str, hint: ScoreTest, *, hopeless: float = -math.inf) -> Fit:
+def replace_term(fit: Fit, key: str, hint: ScoreTest) -> Fit:
     """Return the fit with the term of `hint` in place of the related term `key`, started from shared parameters."""
     values = fit.values
     _, slots = find_term(fit.problem, hint.key)
@@ -303,7 +303,7 @@ def replace_term(fit: Fit, key: str, hint: ScoreTest, *, hopeless: float = -math
     begins = np.array([problem.start, *_list_shape_starts(problem, own), *_list_smaller_starts(problem, own)])
     begins = problem.clip(np.vstack([begins, [raise_random_force(problem, theta, RAISED) for theta in begins]]))
     log_densities = problem.log_posteriors(begins)
-    return maximise(problem, begins[int(np.argmax(log_densities))], hopeless=hopeless, tolerance=ROUGHLY)
+    return maximise(problem, begins[int(np.argmax(log_densities))], tolerance=ROUGHLY)
 
 
 def _list_shape_starts(problem: Problem, slots: Sequence[Slot]) -> Iterator[Array]:

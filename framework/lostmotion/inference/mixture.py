@@ -43,7 +43,7 @@ def draw_posterior(fit: Fit, rng: np.random.Generator, count: int) -> Array:
     which = rng.choice(len(nodes), size=count, p=weights / weights.sum())
     wider = np.sqrt(np.diag(compute_robust_covariance(fit)) / np.maximum(np.diag(fit.local.covariance), 1e-300))
     noise = rng.standard_normal((count, len(fit.theta)))
-    roots = [compute_root(node.local) for node in nodes]
+    roots = [compute_root(node.local.covariance) for node in nodes]
     theta = np.array([nodes[k].local.theta + wider * (roots[k] @ z) for k, z in zip(which, noise, strict=True)])
     if len(nodes) > 1:
         at = fit.problem.keys.index(RANDOM)
@@ -51,9 +51,8 @@ def draw_posterior(fit: Fit, rng: np.random.Generator, count: int) -> Array:
     return fit.problem.clip(theta)
 
 
-def compute_root(local: LocalExpansion) -> Array:
-    """Return a square root of the covariance of an expansion, with each coordinate scaled to unit deviation first."""
-    covariance = local.covariance
+def compute_root(covariance: Array) -> Array:
+    """Return a square root (n, n) of a covariance, with each coordinate scaled to unit deviation first."""
     sd = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
     values, vectors = np.linalg.eigh(covariance / np.outer(sd, sd))
     return np.asarray(sd[:, None] * vectors * np.sqrt(np.maximum(values, 0.0)))

@@ -16,6 +16,11 @@ def is_simpler(one: Term, other: Term) -> bool:
     return one.at == other.at and one.name in other.extends
 
 
+def compute_unknown_price(many: int) -> float:
+    """Return the log prior penalty of any one more law, also of one that the library of `many` terms lacks."""
+    return math.log(max(many, 1)) + 1.0
+
+
 def compute_penalty(term: Term, many: int, settings: Settings = DEFAULT) -> float:
     """Return the log prior penalty of a term: one of `many`, a factor e, its further parameters and its choices.
 
@@ -24,8 +29,7 @@ def compute_penalty(term: Term, many: int, settings: Settings = DEFAULT) -> floa
     choices = [len(q.choices) for q in term.params if q.choices]
     further = len(term.params) - len(choices) - 1
     return (
-        math.log(max(many, 1))
-        + 1.0
+        compute_unknown_price(many)
         + term.unlikely
         + settings.select.further * further
         + sum(math.log(count) for count in choices)

@@ -52,6 +52,12 @@ class SmoothedMotion:
     states: Array
     gradient: Array
 
+    @classmethod
+    def of(cls, problem: Problem, theta: Array) -> SmoothedMotion:
+        """Return the motion of the first recording of a problem at coordinates `theta`."""
+        states, gradient = smooth_expected_force(problem, theta)
+        return cls(problem, theta, np.ascontiguousarray(states[:, : len(problem.system.model.states)]), gradient)
+
     @property
     def travel(self) -> float:
         """The range of the first position (m or rad)."""
@@ -175,10 +181,7 @@ def scan_shapes(fit: Fit) -> dict[str, list[dict[str, float]]]:
     if not keys:
         return found
     problem = choose_steps(fit.problem, fit.theta).on((whole.part(0, min(whole.samples, MOST_SAMPLES)),))
-    states, gradient = smooth_expected_force(problem, fit.theta)
-    motion = SmoothedMotion(
-        problem, fit.theta, np.ascontiguousarray(states[:, : len(problem.system.model.states)]), gradient
-    )
+    motion = SmoothedMotion.of(problem, fit.theta)
     slopes = None
     for key in keys:
         of_sensor = find_term(problem, key)[0].acts == "sensor"

@@ -15,7 +15,7 @@ from lostmotion.inference.curves import CHOICES, ROUNDS, add_all_curves, fit_cur
 from lostmotion.inference.fit import Fit, maximise
 from lostmotion.inference.learned import LearnedTerm
 from lostmotion.inference.natural import find_term
-from lostmotion.inference.penalties import compute_penalty
+from lostmotion.inference.penalties import compute_penalty, compute_unknown_price
 from lostmotion.inference.random_force import compute_random_force_gain, reduces_random_force
 from lostmotion.inference.surfaces import RICHER
 from lostmotion.likelihood.problem import RANDOM, Problem
@@ -74,7 +74,7 @@ class Search:
         """Return the log prior penalty of a term, as in the selection, or of a curve with its chosen smoothness."""
         term, _ = find_term(problem, key)
         if isinstance(term, LearnedTerm):
-            return math.log(max(self.many, 1)) + 1.0 + CHOICES
+            return compute_unknown_price(self.many) + CHOICES
         return compute_penalty(term, self.many, problem.settings)
 
     def learn(self, fit: Fit, count: int = FITTED, *, richer: bool = False) -> None:

@@ -74,7 +74,7 @@ def _compute_parameter_variance(problem: Problem, local: LocalExpansion) -> Arra
     at = problem.smooth(local.theta).states[:, 0]
     total = np.zeros_like(at)
     held = np.array([key == RANDOM for key in problem.keys])
-    for way in compute_root(local).T:
+    for way in compute_root(local.covariance).T:
         seen = problem.smooth(problem.clip(local.theta + np.where(held, 0.0, way)))
         if seen.innovations.finite.all():
             total += (seen.states[:, 0] - at) ** 2

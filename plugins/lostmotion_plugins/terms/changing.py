@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 from lostmotion.contracts import Array, Param, Term, Values
 from lostmotion.quantities import NUMBER, SPEED
 from lostmotion_plugins.laws import subtract_gap
+
+RATIO = Param("ratio", "frequency over that of the drive", NUMBER, low=0.0, scale="log", wave=True)
+"""The frequency of a wave; a term gives it the choices that are usual for its cause."""
 
 
 @dataclass(frozen=True)
@@ -30,15 +33,7 @@ class ParametricStiffness(Term):
     params = (
         Param("cosine", "share of the stiffness that pulsates as cos(ratio omega t)", NUMBER, null=0.0, typical=0.2),
         Param("sine", "share of the stiffness that pulsates as sin(ratio omega t)", NUMBER, null=0.0, typical=0.2),
-        Param(
-            "ratio",
-            "frequency over that of the drive",
-            NUMBER,
-            low=0.0,
-            scale="log",
-            choices=(1.0, 2.0, 3.0, 0.5),
-            wave=True,
-        ),
+        replace(RATIO, choices=(1.0, 2.0, 3.0, 0.5)),
     )
     further = (Param("depth", "share of the stiffness that pulsates", NUMBER), Param("phase", "phase in rad", NUMBER))
     needs = ("stiffness", "play", "omega")

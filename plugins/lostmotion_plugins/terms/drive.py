@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
 
 from lostmotion.contracts import Array, DriveTerm, Input, Param, Values
 from lostmotion.quantities import FORCE, NUMBER, TIME
-from lostmotion_plugins.terms.changing import ParametricStiffness
+from lostmotion_plugins.terms.changing import RATIO, ParametricStiffness
 
 FAR_DELAYS = (-2.0, -1.0, -0.5, -0.2, 0.2, 0.5, 1.0, 1.5, 2.0, 2.8, 4.0, 5.5)
 """Delays that are tried, in units of the time in which the motion turns by one radian.
@@ -37,15 +37,7 @@ class ExcitationHarmonic(DriveTerm):
     params = (
         Param("cosine", "share of the drive as cos(ratio omega t)", NUMBER, null=0.0, typical=0.1),
         Param("sine", "share of the drive as sin(ratio omega t)", NUMBER, null=0.0, typical=0.1),
-        Param(
-            "ratio",
-            "frequency over that of the drive",
-            NUMBER,
-            low=0.0,
-            scale="log",
-            choices=(2.0, 3.0, 4.0, 5.0, 0.5, 1.5),
-            wave=True,
-        ),
+        replace(RATIO, choices=(2.0, 3.0, 4.0, 5.0, 0.5, 1.5)),
     )
     further = (Param("share", "share of the amplitude of the drive", NUMBER), Param("phase", "phase in rad", NUMBER))
     needs = ("omega", "amplitude")
