@@ -24,7 +24,7 @@ from lostmotion.inference.mixture import compute_root
 from lostmotion.likelihood.space import LEVELS
 
 TIED = math.log(20.0)
-"""Two laws are not distinguished where the log likelihood ratio that one expects against the other is less than this."""
+"""Two laws are not distinguished where the expected log likelihood ratio of one to the other is less than this."""
 LEAST = 1e-3
 """Parameters are averaged over the hypotheses with at least this probability."""
 
