@@ -104,8 +104,11 @@ def _warn_of_rest(d: SearchResult, key: str) -> Iterator[str]:
             "Beside the term, an unknown force that is larger than the usual errors of a model has the probability"
             f" {rounded(unknown)}: the term may be a part of it."
         )
-    elif (share := measure_remains(d)) > d.settings.name.remains:
-        yield f"With it, {percent(share)} of the missing force is still missing."
+    elif (left := d.explained.leftover) > d.settings.name.remains * (gain := compute_gain(d, key)):
+        yield (
+            f"Beside the term, small errors of the model without a name add {rounded(left)} to the log evidence, the"
+            f" term {rounded(max(gain, 0.0))}: the term may be a part of them."
+        )
 
 
 def compute_gain(d: SearchResult, key: str) -> float:

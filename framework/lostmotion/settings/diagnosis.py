@@ -243,8 +243,9 @@ class NameSettings:
     remains: float = threshold(
         0.5,
         (
-            "A finding is at most likely where the remaining random force exceeds this share of the missing force, and"
-            " open where the model does not predict held-out data either."
+            "A finding is at most likely where the discrepancy adds more than this share of the log evidence that the"
+            " finding adds. It is open where the model does not predict held-out data and the remaining random"
+            " force exceeds this share of the missing force."
         ),
         most=1.0,
     )
