@@ -89,7 +89,8 @@ def test_a_sure_term_is_named():
 def test_a_term_with_an_alternative_is_not_named_and_says_which():
     d = diagnosis(explanations(hypothesis(RUB, 20.0), hypothesis(LATE, 20.0 - math.log(4.0))))
     assert compute_probability(d, FRICTION) == pytest.approx(0.8)
-    assert list_warnings(d, FRICTION) == ["Its probability is 0.8; the alternative is excitation delay."]
+    (doubt,) = list_warnings(d, FRICTION)
+    assert doubt == "Its probability is 0.8; the alternative is excitation delay. Together they have the probability 1."
 
 
 def test_a_term_that_nothing_missing_rivals_is_not_named():
