@@ -137,15 +137,26 @@ def fit_hypothesis(frame: JointFrame, begin: Array, price: float, choice: Choice
     """Return the hypothesis of a frame, fitted from coordinates `begin` (count,) with the smooth forces of `choice`.
 
     Without a choice, errors of channels and known values are fitted first, and then smooth forces beside them: what
-    both explain is not left to the more flexible one because of the point where the fit began.
+    both explain is not left to the more flexible one because of the point where the fit began. Smooth forces that make
+    the evidence smaller are left out.
     """
     steps = choose_first_steps(replace(frame.problem, free=frame.problem.free[: frame.own]))
     begin = begin.copy()
     begin[frame.own :][frame.widths(choice or frame.none) == 0.0] = 0.0
     expansion = frame.expand(begin, steps, choice or frame.none)
+    made = []
     if choice is None:
-        expansion, choice, _ = _maximise(frame, expansion, frame.none, free=False)
+        expansion, choice, converged = _maximise(frame, expansion, frame.none, free=False)
+        made.append(_make_hypothesis(frame, expansion, choice, price, converged=converged))
     expansion, choice, converged = _maximise(frame, expansion, choice, free=True)
+    made.append(_make_hypothesis(frame, expansion, choice, price, converged=converged))
+    return max(made, key=lambda one: one.log_evidence)
+
+
+def _make_hypothesis(
+    frame: JointFrame, expansion: Expansion, choice: Choice, price: float, *, converged: bool
+) -> Hypothesis:
+    """Return the hypothesis at the point of an expansion, with its log evidence."""
     quadratic = Quadratic.of(frame, expansion)
     smooth = quadratic.evaluate(choice) - quadratic.evaluate(frame.none)
     evidence = _compute_log_evidence(frame, expansion, choice)
