@@ -105,6 +105,7 @@ def diagnosis(explained, *, left=None, learned=None, withdrawn=()):
         learned=learned,
         left=left,
         located=missing(1.0),
+        laws={key: np.array([1.0, -1.0]) for key in found},
         unexplained=left is not None,
         withdrawn=withdrawn,
         settings=DEFAULT,

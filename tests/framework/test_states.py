@@ -61,6 +61,14 @@ def test_a_name_beside_a_discrepancy_that_explains_more_than_half_as_much_is_lik
     assert said == ([] if sure else [True])
 
 
+@pytest.mark.parametrize(("left", "sure"), [(1.5, False), (0.9, True)])
+def test_a_term_that_is_smaller_than_the_random_force_beside_it_is_likely(left, sure):
+    doubts = list_warnings(rubbing(left=missing(left)), FRICTION)
+    assert doubts == (
+        [] if sure else ["The random force that remains is 1.5 times as large as that of the term (rms)."]
+    )
+
+
 @pytest.mark.parametrize(("error", "shared"), [(10.1, True), (10.4, False)])
 def test_laws_that_predict_the_same_readings_share_their_probability(error, shared):
     """100 predictions that differ by 0.1 standard deviations are expected to give 0.5, by 0.4 they give 8."""

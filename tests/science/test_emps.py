@@ -8,7 +8,7 @@ from machines import CARRIAGE, EMPS, EMPS_FILES, PUBLISHED
 
 from lostmotion.diagnosis.compare import compute_rates, cut_heldout, predict
 from lostmotion.diagnosis.findings import compute_intervals, draw_parameters
-from lostmotion.diagnosis.run import compare_heldout, draw_posteriors
+from lostmotion.diagnosis.run import check_heldout, draw_posteriors
 from lostmotion.diagnosis.search import diagnose
 from lostmotion.inference.candidates import compute_slopes, fit_term, run_score_test
 from lostmotion.likelihood.system import System
@@ -33,7 +33,7 @@ def outcome(shared, tmp_path_factory):
     case.write_text("".join(EMPS.format(file=file) for file in files) + CARRIAGE)
     prepared, rng = prepare(case, default()), np.random.default_rng(0)
     found = diagnose(prepared.case, prepared.observations, System(prepared.model, prepared.terms), rng=rng)
-    return draw_posteriors(compare_heldout(found), rng)
+    return draw_posteriors(check_heldout(found, rng.spawn(1)[0], lambda _: None), rng)
 
 
 def test_friction_and_damping_by_direction_are_found(outcome):

@@ -127,9 +127,9 @@ def list_vague(found: Hypothesis, key: str) -> list[str]:
 
 
 def _is_vague(found: Hypothesis, places: Sequence[int], null: Sequence[float]) -> bool:
-    """Return whether the region of 95 % of some own coordinates contains a point: the Wald test."""
+    """Return whether the region of 95 % of some own coordinates contains a point: the Wald test, over the scatter."""
     apart = found.theta[list(places)] - np.array(null)
-    square = float(apart @ solve_scaled(found.covariance[np.ix_(places, places)], apart))
+    square = float(apart @ solve_scaled(found.scatter * found.covariance[np.ix_(places, places)], apart))
     return square < float(chi2.ppf(0.95, len(apart)))
 
 
