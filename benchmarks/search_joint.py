@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.flow import flow_of
+from lostmotion_chaos.flows.flow import flow_of
 from lostmotion.kernels.threads import spread
 from lostmotion.registry import default
 

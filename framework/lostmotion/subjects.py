@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Protocol, TypeVar
 
@@ -43,6 +44,23 @@ class Orbit:
     states: Array
     growth: Array
     status: str = "ok"
+
+
+@dataclass(frozen=True, eq=False)
+class Motions:
+    """The motions of a diagnosis: "recorded", and free runs "before" and, with an augmented model, "after".
+
+    `states` (samples, n) begin with position and velocity; `responses` (samples,) are readings of the first sensor, those
+    of the recording with NaN where one was lost. `exponents` (1/s) are the largest ones of the models. `period` (samples)
+    is that of the drive, None without one; `dt` is in s; `noise` is the standard deviation of the readings.
+    """
+
+    states: Mapping[str, Array]
+    responses: Mapping[str, Array]
+    exponents: Mapping[str, float]
+    dt: float
+    period: float | None
+    noise: float
 
 
 class Flow(Protocol):

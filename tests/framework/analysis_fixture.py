@@ -12,7 +12,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from lostmotion.signals.sections import stroboscopic
+from lostmotion_chaos.signals.sections import stroboscopic
 from lostmotion.signals.spectra import spectrum, without_harmonics
 from lostmotion.storage import StoredArray, save_arrays, save_json
 
@@ -87,7 +87,7 @@ def facts(title, dt, lag):
     }
     tests = zip(NULLS, ("iaaft", "pseudo_periodic"), (0.02, 0.0004), strict=True)
     return {
-        "schema": "lostmotion.analysis/1",
+        "schema": "lostmotion_chaos.analysis/1",
         "title": title,
         "verdict": "chaotic",
         "strength": "firm",
@@ -222,7 +222,7 @@ def write(folder: Path, said, arrays) -> Path:
 
 
 if __name__ == "__main__":
-    from lostmotion.analysis.report.page import write_analysis
+    from lostmotion_chaos.analysis.report.page import write_analysis
 
     for kind, make in KINDS.items():
         write_analysis(write(Path(sys.argv[1]) / kind, *make()))

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lostmotion.analysis.source import WantedChannel, load_source
+from lostmotion_chaos.analysis.source import WantedChannel, load_source
 from lostmotion.case import CaseFile, Measured, Prior, SensorSpec, dump_case, load_case
 from lostmotion.errors import CaseError
 from lostmotion.preparation.prepare import prepare

@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 
 from lostmotion.errors import DataError
-from lostmotion.maps.layout import make_grid_layout
-from lostmotion.maps.run import Request, RunOptions, make_map, make_study
-from lostmotion.maps.store import _require_same, load
-from lostmotion.maps.sweep import Workers
+from lostmotion_chaos.maps.layout import make_grid_layout
+from lostmotion_chaos.maps.run import Request, RunOptions, make_map, make_study
+from lostmotion_chaos.maps.store import _require_same, load
+from lostmotion_chaos.maps.sweep import Workers
 from lostmotion.registry import Registry, sources
 
 REQUEST = Request(
@@ -28,7 +28,7 @@ REQUEST = Request(
 )
 FAR = """
 import pickle, sys
-from lostmotion.maps.sweep import _far
+from lostmotion_chaos.maps.sweep import _far
 texts, packed, cells = pickle.load(open(sys.argv[1], "rb"))
 assert not set(texts) & set(sys.modules)
 columns = _far(texts, packed, cells)

@@ -7,7 +7,7 @@ import pytest
 
 from lostmotion.contracts import Assembly
 from lostmotion.errors import ContractError, DataError
-from lostmotion.flow import Harmonic, make_stepped_flow
+from lostmotion_chaos.flows.flow import Harmonic, make_stepped_flow
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.motion import compute_derivatives
 from lostmotion.likelihood.observation import Observation

@@ -11,7 +11,7 @@ from lostmotion.case import CaseFile, Prior
 from lostmotion.case.levels import Level, Measured
 from lostmotion.codec import to_plain
 from lostmotion.errors import CaseError, DataError
-from lostmotion.identification.levels import (
+from lostmotion_chaos.levels.levels import (
     MapGrid,
     _make_free_parameter,
     compute_derived,
@@ -21,11 +21,11 @@ from lostmotion.identification.levels import (
 )
 from lostmotion.identification.result import make_drive_level
 from lostmotion.likelihood.space import FreeParameter
-from lostmotion.maps.atlas import CHAOTIC, PERIODIC, Atlas
-from lostmotion.maps.inversion import Inversion, compute_likelihood, group_levels, predict_levels
-from lostmotion.maps.map import RING_WEIGHT, Map
-from lostmotion.maps.numbers import NumberLaw, NumberPower, make_law
-from lostmotion.maps.run import Request, RunOptions, make_map, make_study
+from lostmotion_chaos.maps.atlas import CHAOTIC, PERIODIC, Atlas
+from lostmotion_chaos.maps.inversion import Inversion, compute_likelihood, group_levels, predict_levels
+from lostmotion_chaos.maps.map import RING_WEIGHT, Map
+from lostmotion_chaos.maps.numbers import NumberLaw, NumberPower, make_law
+from lostmotion_chaos.maps.run import Request, RunOptions, make_map, make_study
 from lostmotion.registry import default
 from lostmotion.settings import DEFAULT
 

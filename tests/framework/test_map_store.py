@@ -14,10 +14,10 @@ import pytest
 import xarray as xr
 
 from lostmotion.errors import CaseError, DataError
-from lostmotion.maps.cells import compute_cells, find_period
-from lostmotion.maps.layout import make_grid_layout
-from lostmotion.maps.run import Request, RunOptions, make_map, make_study
-from lostmotion.maps.sweep import Workers
+from lostmotion_chaos.maps.cells import compute_cells, find_period
+from lostmotion_chaos.maps.layout import make_grid_layout
+from lostmotion_chaos.maps.run import Request, RunOptions, make_map, make_study
+from lostmotion_chaos.maps.sweep import Workers
 from lostmotion.registry import default
 from lostmotion.results import STATUSES
 

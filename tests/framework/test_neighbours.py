@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from lostmotion.errors import DataError
-from lostmotion.kernels import neighbours, threads
-from lostmotion.signals import delay_vectors
+from lostmotion.kernels import threads
+from lostmotion_chaos.kernels import neighbours
+from lostmotion_chaos.signals.series import delay_vectors
 
 
 def distances(points, norm):

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lostmotion.analysis.source import WantedChannel, load_source
+from lostmotion_chaos.analysis.source import WantedChannel, load_source
 from lostmotion.errors import DataError
 from lostmotion.quantities import si_factor, spell_unit
 from lostmotion.recording import Channel, RecordingSpec, load_recording

@@ -8,9 +8,9 @@ import math
 import pytest
 
 from lostmotion.codec import from_plain, schema, to_plain
-from lostmotion.maps.layout import MapSettings
+from lostmotion_chaos.maps.layout import MapSettings
 from lostmotion.results import Interval
-from lostmotion.results.analysis import Analysis
+from lostmotion_chaos.results import Analysis
 from lostmotion.results.background import Origin
 from lostmotion.results.identification import (
     DriveLevel,

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from lostmotion.errors import DataError
-from lostmotion.signals.sampling import commensurate, golden_step, resampled, unlocked
+from lostmotion_chaos.signals.sampling import commensurate, golden_step, resampled, unlocked
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from lostmotion.errors import DataError
-from lostmotion.signals.sections import poincare, return_spread, stroboscopic
+from lostmotion_chaos.signals.sections import poincare, return_spread, stroboscopic
 
 DT, PERIOD = 0.01, 0.3737
 

@@ -12,7 +12,7 @@ from lostmotion.diagnosis.report import show
 from lostmotion.diagnosis.show_words import describe_behaviour
 from lostmotion.likelihood.observation import Observation
 from lostmotion.results.behaviour import Behaviour
-from lostmotion.signals.distances import distances, energy_distance, same_chance
+from lostmotion_chaos.signals.distances import distances, energy_distance, same_chance
 
 PERIOD = 40.0
 

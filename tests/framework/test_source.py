@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from lostmotion.analysis.source import WantedChannel, load_source
+from lostmotion_chaos.analysis.source import WantedChannel, load_source
 from lostmotion.errors import CaseError, DataError
 from lostmotion.registry import Registry
 

@@ -7,7 +7,7 @@ import threading
 import numpy as np
 import pytest
 
-from lostmotion.analysis.surrogates import surrogate_test
+from lostmotion_chaos.analysis.surrogates import surrogate_test
 from lostmotion.contracts import Quantifier, Series, Surrogate
 from lostmotion.errors import ContractError, DataError
 from lostmotion.results import Embedding, Estimate

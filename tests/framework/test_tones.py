@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from lostmotion.signals import base_line, two_tones
+from lostmotion_chaos.signals.tones import base_line, two_tones
 
 GOLDEN = (np.sqrt(5) - 1) / 2
 T = 0.02 * np.arange(8000)

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from lostmotion.analysis.source import WantedChannel, load_source
+from lostmotion_chaos.analysis.source import WantedChannel, load_source
 from lostmotion.cli import main
 from lostmotion.errors import DataError
 from lostmotion.notebook.doors import make_case

@@ -8,7 +8,7 @@ from scipy.signal import lfilter
 
 from lostmotion.contracts import Series
 from lostmotion.results import STATUSES, Embedding
-from lostmotion_plugins.quantifiers.cheap import MutualInformation, PredictionError, TimeReversal
+from lostmotion_chaos.quantifiers.cheap import MutualInformation, PredictionError, TimeReversal
 
 ALL = [MutualInformation(), TimeReversal(), PredictionError()]
 

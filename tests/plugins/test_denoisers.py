@@ -8,9 +8,9 @@ from scipy.integrate import solve_ivp
 
 from lostmotion.contracts import Series
 from lostmotion.results import Embedding
-from lostmotion_plugins.denoisers._kernels_projection import project
-from lostmotion_plugins.denoisers.projective import LocalProjective
-from lostmotion_plugins.denoisers.simple import SimpleNonlinear
+from lostmotion_chaos.denoisers._kernels_projection import project
+from lostmotion_chaos.denoisers.projective import LocalProjective
+from lostmotion_chaos.denoisers.simple import SimpleNonlinear
 
 BOTH = [SimpleNonlinear(), LocalProjective()]
 RNG = np.random.default_rng(0)

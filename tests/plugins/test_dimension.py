@@ -9,16 +9,16 @@ from scipy.signal import lfilter
 from lostmotion.contracts import Series
 from lostmotion.errors import DataError
 from lostmotion.results import STATUSES, Embedding
-from lostmotion_plugins.quantifiers.correlation import (
+from lostmotion_chaos.quantifiers.correlation import (
     Effort,
     choose_lags,
     compute_correlation_sums,
     compute_edges,
     jackknife,
 )
-from lostmotion_plugins.quantifiers.correlation_curves import estimate_takens
-from lostmotion_plugins.quantifiers.dimension import CorrelationDimension, CorrelationEntropy
-from lostmotion_plugins.quantifiers.noise import (
+from lostmotion_chaos.quantifiers.correlation_curves import estimate_takens
+from lostmotion_chaos.quantifiers.dimension import CorrelationDimension, CorrelationEntropy
+from lostmotion_chaos.quantifiers.noise import (
     EXCESS,
     HIGH,
     LOW,

@@ -8,7 +8,7 @@ from scipy.signal import lfilter
 
 from lostmotion.contracts import Series
 from lostmotion.results import STATUSES, Embedding
-from lostmotion_plugins.quantifiers._kernels_divergence import (
+from lostmotion_chaos.quantifiers._kernels_divergence import (
     compute_square,
     find_same_phase,
     follow,
@@ -16,11 +16,11 @@ from lostmotion_plugins.quantifiers._kernels_divergence import (
     take_logarithms,
     walk,
 )
-from lostmotion_plugins.quantifiers.divergence import compute_components, reconstruct_states
-from lostmotion_plugins.quantifiers.divergence_fit import Curves, Domain, fit_line
-from lostmotion_plugins.quantifiers.kantz import Kantz
-from lostmotion_plugins.quantifiers.rosenstein import Rosenstein
-from lostmotion_plugins.quantifiers.wolf import Wolf
+from lostmotion_chaos.quantifiers.divergence import compute_components, reconstruct_states
+from lostmotion_chaos.quantifiers.divergence_fit import Curves, Domain, fit_line
+from lostmotion_chaos.quantifiers.kantz import Kantz
+from lostmotion_chaos.quantifiers.rosenstein import Rosenstein
+from lostmotion_chaos.quantifiers.wolf import Wolf
 
 RNG = np.random.default_rng(20260)
 METHODS = (Rosenstein(), Kantz(), Wolf())

@@ -11,11 +11,11 @@ from scipy.stats import kstest
 from lostmotion.contracts import Series
 from lostmotion.errors import DataError
 from lostmotion.results import Embedding
-from lostmotion_plugins.surrogates._kernels import arrange, impose, walk
-from lostmotion_plugins.surrogates.cycles import PseudoPeriodic, choose_noise_radius
-from lostmotion_plugins.surrogates.ends import find_matching_piece
-from lostmotion_plugins.surrogates.iterated import Iaaft
-from lostmotion_plugins.surrogates.spectral import Aaft, Fourier
+from lostmotion_chaos.surrogates._kernels import arrange, impose, walk
+from lostmotion_chaos.surrogates.cycles import PseudoPeriodic, choose_noise_radius
+from lostmotion_chaos.surrogates.ends import find_matching_piece
+from lostmotion_chaos.surrogates.iterated import Iaaft
+from lostmotion_chaos.surrogates.spectral import Aaft, Fourier
 
 ALL = [Fourier(), Aaft(), Iaaft(), PseudoPeriodic()]
 SPECTRAL = ALL[:3]

@@ -11,7 +11,7 @@ from click.testing import CliRunner
 
 from lostmotion.cli import main
 from lostmotion.errors import DataError
-from lostmotion.maps.map import Map
+from lostmotion_chaos.maps.map import Map
 from lostmotion.recording import read_columns
 from lostmotion.report.pages import load_template
 

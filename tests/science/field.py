@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from lostmotion.flow import make_stepped_flow
+from lostmotion_chaos.flows.flow import make_stepped_flow
 from lostmotion.likelihood.system import System
 
 

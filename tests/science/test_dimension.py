@@ -14,10 +14,10 @@ from scipy.integrate import solve_ivp
 
 from lostmotion.contracts import Series
 from lostmotion.results import Embedding
-from lostmotion_plugins.quantifiers.correlation import Effort, compute_correlation_sums
-from lostmotion_plugins.quantifiers.correlation_curves import estimate_takens
-from lostmotion_plugins.quantifiers.dimension import CorrelationDimension, CorrelationEntropy
-from lostmotion_plugins.quantifiers.noise import estimate_noise_level
+from lostmotion_chaos.quantifiers.correlation import Effort, compute_correlation_sums
+from lostmotion_chaos.quantifiers.correlation_curves import estimate_takens
+from lostmotion_chaos.quantifiers.dimension import CorrelationDimension, CorrelationEntropy
+from lostmotion_chaos.quantifiers.noise import estimate_noise_level
 
 PERIOD = 2.0 * math.pi / 40.0
 

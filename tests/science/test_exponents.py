@@ -9,9 +9,9 @@ from scipy.integrate import solve_ivp
 
 from lostmotion.contracts import Series
 from lostmotion.results import Embedding
-from lostmotion_plugins.quantifiers.kantz import Kantz
-from lostmotion_plugins.quantifiers.rosenstein import Rosenstein
-from lostmotion_plugins.quantifiers.wolf import Wolf
+from lostmotion_chaos.quantifiers.kantz import Kantz
+from lostmotion_chaos.quantifiers.rosenstein import Rosenstein
+from lostmotion_chaos.quantifiers.wolf import Wolf
 
 PERIOD = 2.0 * math.pi / 40.0
 LIN = 7.235

@@ -7,13 +7,13 @@ import pytest
 from scipy.signal import lfilter
 from scipy.stats import binom
 
-from lostmotion.analysis.surrogates import surrogate_test
+from lostmotion_chaos.analysis.surrogates import surrogate_test
 from lostmotion.contracts import Series
 from lostmotion.results import Embedding
-from lostmotion_plugins.quantifiers.cheap import MutualInformation, PredictionError, TimeReversal
-from lostmotion_plugins.surrogates.cycles import PseudoPeriodic
-from lostmotion_plugins.surrogates.iterated import Iaaft
-from lostmotion_plugins.surrogates.spectral import Aaft, Fourier
+from lostmotion_chaos.quantifiers.cheap import MutualInformation, PredictionError, TimeReversal
+from lostmotion_chaos.surrogates.cycles import PseudoPeriodic
+from lostmotion_chaos.surrogates.iterated import Iaaft
+from lostmotion_chaos.surrogates.spectral import Aaft, Fourier
 
 N, REPEATS = 1024, 200
 SIDES = {"information": "high", "reversal": "two", "prediction": "low"}

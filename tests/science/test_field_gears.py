@@ -10,7 +10,7 @@ import pytest
 from field import elsewhere
 
 from lostmotion.contracts import Assembly
-from lostmotion.flow import Harmonic, make_stepped_flow
+from lostmotion_chaos.flows.flow import Harmonic, make_stepped_flow
 from lostmotion.inference.fit import maximise
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.motion import compute_derivatives

@@ -12,12 +12,12 @@ from lostmotion.case import CaseFile, Prior
 from lostmotion.case.levels import Level, Measured
 from lostmotion.codec import to_plain
 from lostmotion.contracts import Orbit
-from lostmotion.flow import Harmonic, flow_of
-from lostmotion.identification.levels import MapGrid, make_inversion
-from lostmotion.identification.reading import read_level
-from lostmotion.identification.rehearsal import RecordingPlan, simulate_levels, simulate_signals
+from lostmotion_chaos.flows.flow import Harmonic, flow_of
+from lostmotion_chaos.levels.levels import MapGrid, make_inversion
+from lostmotion_chaos.levels.reading import read_level
+from lostmotion_chaos.levels.rehearsal import RecordingPlan, simulate_levels, simulate_signals
 from lostmotion.identification.result import make_drive_level
-from lostmotion.maps.inversion import predict_levels
+from lostmotion_chaos.maps.inversion import predict_levels
 from lostmotion.registry import default
 
 REGISTRY = default()
@@ -177,7 +177,7 @@ def test_dimension_decides_between_two_gaps_that_the_exponents_leave(tmp_path):
 @pytest.mark.slow
 def test_table_2_of_the_paper_holds_the_joint_that_was_searched_for(tmp_path):
     """Half gap 0.7589 degrees and 2 zeta = 0.1116 (`reproduce/joint.py`), of a machine that no one has seen."""
-    from lostmotion_trials.paper.joint import DAMPING, FREQUENCY, HALF, LEVELS, PAPER, RATIO
+    from lostmotion_chaos.paper.joint import DAMPING, FREQUENCY, HALF, LEVELS, PAPER, RATIO
 
     omega = 2.0 * math.pi * FREQUENCY
     levels = tuple(

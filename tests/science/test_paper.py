@@ -9,12 +9,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lostmotion.flow import flow_of
+from lostmotion_chaos.flows.flow import flow_of
 from lostmotion.registry import default
-from lostmotion_trials.paper import experiment, noisy, portraits, sweeps
-from lostmotion_trials.paper.cases import CASES, PRINTED
-from lostmotion_trials.paper.joint import LEVELS, PAPER, SUSPECT, follow_joint
-from lostmotion_trials.paper.lab import Lab, find_return_period
+from lostmotion_chaos.paper import experiment, noisy, portraits, sweeps
+from lostmotion_chaos.paper.cases import CASES, PRINTED
+from lostmotion_chaos.paper.joint import LEVELS, PAPER, SUSPECT, follow_joint
+from lostmotion_chaos.paper.lab import Lab, find_return_period
 
 
 @pytest.fixture(scope="module")

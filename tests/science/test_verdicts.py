@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from lostmotion.analysis.run import AnalysisRequest, analyse
-from lostmotion.analysis.source import Source
+from lostmotion_chaos.analysis.run import AnalysisRequest, analyse
+from lostmotion_chaos.analysis.source import Source
 from lostmotion.registry import default
 
 BENT = {"cubed": lambda x: x**3, "clipped": np.tanh, "lopsided": lambda x: x + 0.5 * x**2, "as it is": lambda x: x}

@@ -8,8 +8,8 @@ from click.testing import CliRunner
 from PIL import Image
 
 from lostmotion.cli import main
-from lostmotion_trials.paper.page import DRAWINGS
-from lostmotion_trials.paper.run import ITEMS, choose_names
+from lostmotion_chaos.paper.page import DRAWINGS
+from lostmotion_chaos.paper.run import ITEMS, choose_names
 
 VERDICTS = {"reproduced", "reproduced in part", "not reproduced", "beyond the paper"}
 

@@ -66,7 +66,8 @@ def command(
     run continues where it stopped. Exit status 0 when the sampling has ended, converged or not (a chain that has not
     converged gives no intervals); 2 for a case that cannot be used.
     """
-    from lostmotion.identification.run import IdentificationRequest, run_identification
+    from lostmotion.identification.routes import IdentificationRequest
+    from lostmotion.identification.run import run_identification
     from lostmotion.identification.sampling import SamplingPlan
 
     plan = SamplingPlan(**{key: given.pop(key) for key in ("ess", "max_steps", "walkers")}, limits=settings.chain)  # type: ignore[arg-type]
