@@ -19,9 +19,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from labelled_series import CASE_1, backlash
-from lostmotion_chaos.analysis.denoise import denoise
 from lostmotion.contracts import Quantifier, Series
 from lostmotion.results import Embedding, Estimate
+from lostmotion_chaos.analysis.denoise import denoise
 from lostmotion_chaos.denoisers.projective import LocalProjective
 from lostmotion_chaos.quantifiers.dimension import CorrelationDimension
 from lostmotion_chaos.quantifiers.noise import NoiseLevel

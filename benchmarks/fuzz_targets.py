@@ -15,18 +15,18 @@ import numpy as np
 
 from fuzz_door import door
 from fuzz_seeds import CASE, COLUMNS, TABLES, N
-from lostmotion_chaos.analysis import source
-from lostmotion_chaos.analysis.source import WantedChannel, load_source
 from lostmotion.case import Channel, RecordingSpec, dump_case, load_case
 from lostmotion.errors import LostMotionError
 from lostmotion.identification import checkpoint
 from lostmotion.inference.setup import make_known
 from lostmotion.likelihood.system import System
-from lostmotion_chaos.maps import store
 from lostmotion.preparation.prepare import prepare
 from lostmotion.recording import load, load_recording
 from lostmotion.recording.formats import table_of
 from lostmotion.registry import Registry, default
+from lostmotion_chaos.analysis import source
+from lostmotion_chaos.analysis.source import WantedChannel, load_source
+from lostmotion_chaos.maps import store
 
 STORED = ("diagnosis", "analysis", "chain", "map", "campaign")
 KINDS = (*TABLES, "case", "values", "plugin", *STORED, "door")

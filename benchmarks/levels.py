@@ -31,17 +31,17 @@ from scipy.stats import t as student
 from lostmotion.case import CaseFile, Prior
 from lostmotion.case.levels import Level, Measured
 from lostmotion.contracts import Array, Flow
+from lostmotion.identification.sampling import identify
+from lostmotion.kernels.threads import cores
+from lostmotion.registry import default
+from lostmotion.results import Estimate
+from lostmotion.settings import DEFAULT
 from lostmotion_chaos.flows.flow import Harmonic, flow_of
 from lostmotion_chaos.levels.levels import MapGrid, make_inversion, make_quantifier_task
 from lostmotion_chaos.levels.reading import correct_estimate, read_level
 from lostmotion_chaos.levels.rehearsal import RecordingPlan, simulate_levels, simulate_signals
-from lostmotion.identification.sampling import identify
-from lostmotion.kernels.threads import cores
 from lostmotion_chaos.maps.cells import find_period
 from lostmotion_chaos.maps.inversion import ERROR_DOF, Inversion, predict_levels
-from lostmotion.registry import default
-from lostmotion.results import Estimate
-from lostmotion.settings import DEFAULT
 from lostmotion_chaos.paper.joint import DAMPING, FREQUENCY, HALF, LEVELS, PAPER, RATIO
 
 OMEGA = 40.0

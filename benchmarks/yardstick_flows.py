@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
-from lostmotion_chaos.flows.flow import flow_of, make_stepped_flow
 from lostmotion.likelihood.system import System
-from lostmotion_plugins.models.lin import LinBacklash
+from lostmotion_chaos.flows.flow import flow_of, make_stepped_flow
 from lostmotion_chaos.quantifiers.flows import LyapunovMax
+from lostmotion_plugins.models.lin import LinBacklash
 from yardstick import Case, clocked
 
 CASE_1 = {"m": 1.0, "c": 8.0, "k1": 0.0, "k0": 4e4, "x0": 0.005}

@@ -15,6 +15,7 @@ as `analyse` and `map`. The plugins that all of them know are in `lostmotion.reg
 from __future__ import annotations
 
 from importlib import import_module
+from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -60,6 +61,8 @@ def __getattr__(name: str) -> Any:
     if name in _MODULES:
         return import_module(f"lostmotion.{name}")
     if name not in _TARGETS:
+        if name.startswith("_") or find_spec(f"lostmotion.{name}"):  # Python imports a module of this name by itself
+            raise AttributeError(f"module 'lostmotion' has no attribute {name!r}")
         return _find_offered(name)
     module, _, attribute = _TARGETS[name].partition(":")
     return getattr(import_module(f"lostmotion.{module}"), attribute)
@@ -71,7 +74,7 @@ def _find_offered(name: str) -> Any:
     from lostmotion.offers import FUNCTION
     from lostmotion.registry import default
 
-    if not name.startswith("_") and name in default().offered(FUNCTION):
+    if name in default().offered(FUNCTION):
         return default().function(FUNCTION, name)
     if name in _OFFERED:
         raise AbsentError(default().explain_absence(FUNCTION, name))

@@ -50,9 +50,9 @@ class Orbit:
 class Motions:
     """The motions of a diagnosis: "recorded", and free runs "before" and, with an augmented model, "after".
 
-    `states` (samples, n) begin with position and velocity; `responses` (samples,) are readings of the first sensor, those
-    of the recording with NaN where one was lost. `exponents` (1/s) are the largest ones of the models. `period` (samples)
-    is that of the drive, None without one; `dt` is in s; `noise` is the standard deviation of the readings.
+    `states` (samples, n) begin with position and velocity; `responses` (samples,) are readings of the first sensor, NaN
+    where one was lost. `exponents` (1/s) are the largest ones of the models. `dt` is in s; `period` is in samples, or
+    None without a drive. `noise` is the standard deviation of the noise of the recorded response.
     """
 
     states: Mapping[str, Array]

@@ -10,8 +10,6 @@ import third_party
 from click.testing import CliRunner
 
 from lostmotion import registry
-from lostmotion_chaos.analysis import run as analyse
-from lostmotion_chaos.analysis.period import BasePeriod
 from lostmotion.cli import main
 from lostmotion.contracts import Series
 from lostmotion.diagnosis import run as diagnose
@@ -23,6 +21,8 @@ from lostmotion.preparation.prepare import Prepared
 from lostmotion.preparation.vetting import MethodWatch, find_raising_terms, usable_terms
 from lostmotion.registry import Registry
 from lostmotion.results import Embedding
+from lostmotion_chaos.analysis import run as analyse
+from lostmotion_chaos.analysis.period import BasePeriod
 
 pytestmark = pytest.mark.filterwarnings("ignore::lostmotion.errors.PluginWarning")
 ALL = [*third_party.GOOD, *(cls for cls, _ in (*third_party.TERMS, *third_party.METHODS))]

@@ -5,9 +5,9 @@ from dataclasses import astuple
 import numpy as np
 import pytest
 import report_fixture as made
+from lostmotion.diagnosis.attractors import MOST, measure_distances, take_section
 
 from lostmotion.codec import from_plain, to_plain
-from lostmotion.diagnosis.attractors import MOST, measure_distances, take_section
 from lostmotion.diagnosis.report import show
 from lostmotion.diagnosis.show_words import describe_behaviour
 from lostmotion.likelihood.observation import Observation

@@ -11,9 +11,9 @@ from click.testing import CliRunner
 
 from lostmotion.cli import main
 from lostmotion.errors import DataError
-from lostmotion_chaos.maps.map import Map
 from lostmotion.recording import read_columns
 from lostmotion.report.pages import load_template
+from lostmotion_chaos.maps.map import Map
 
 ROOT = Path(__file__).parents[2]
 SOURCES = sorted([*(ROOT / "framework").rglob("*.py"), *(ROOT / "plugins" / "lostmotion_plugins").rglob("*.py")])

@@ -35,7 +35,7 @@ def prepare_quantifiers(
     rng: np.random.Generator,
     watch: Watch,
 ) -> Route:
-    """Return the sampling task of a case with levels, and the function that makes its result; maps are made in `out`."""
+    """Return the task of a case with levels, and the function that makes its result; maps are made in `out`."""
     folder_for(out)
     grid = MapGrid(maps=order.maps, jobs=order.jobs)
     watch(0, "reading the levels")

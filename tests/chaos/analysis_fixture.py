@@ -12,9 +12,9 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from lostmotion_chaos.signals.sections import stroboscopic
 from lostmotion.signals.spectra import spectrum, without_harmonics
 from lostmotion.storage import StoredArray, save_arrays, save_json
+from lostmotion_chaos.signals.sections import stroboscopic
 
 HOSTILE = "<script>alert('x')</script> & $\\frac{$ \"quoted\" " + "very long " * 30
 plain = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("analysis_curves.py"))))

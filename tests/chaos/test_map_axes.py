@@ -7,10 +7,10 @@ import pytest
 
 from lostmotion.contracts import Assembly
 from lostmotion.errors import CaseError, LostMotionError
+from lostmotion.registry import default
 from lostmotion_chaos.maps.axes import MapAxis, parse_axis
 from lostmotion_chaos.maps.rig import SweptMachine, measure_extent
 from lostmotion_chaos.maps.run import Request, make_study
-from lostmotion.registry import default
 
 X, Y = "alpha=0.2:0.5:4:inverse", "zeta=0.01:0.04:3"
 

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from lostmotion_chaos.analysis.source import WantedChannel, load_source
 from lostmotion.errors import CaseError, DataError
 from lostmotion.registry import Registry
+from lostmotion_chaos.analysis.source import WantedChannel, load_source
 
 ROWS = 400
 CASE = """

@@ -14,12 +14,12 @@ import pytest
 import xarray as xr
 
 from lostmotion.errors import CaseError, DataError
+from lostmotion.registry import default
+from lostmotion.results import STATUSES
 from lostmotion_chaos.maps.cells import compute_cells, find_period
 from lostmotion_chaos.maps.layout import make_grid_layout
 from lostmotion_chaos.maps.run import Request, RunOptions, make_map, make_study
 from lostmotion_chaos.maps.sweep import Workers
-from lostmotion.registry import default
-from lostmotion.results import STATUSES
 
 SMALL = Request(
     "lin_backlash", ("alpha=0.2:0.6:6:inverse", "zeta=0.01:0.04:5"), periods=60, transient=20, starts=2, seed=3

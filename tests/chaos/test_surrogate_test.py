@@ -7,10 +7,10 @@ import threading
 import numpy as np
 import pytest
 
-from lostmotion_chaos.analysis.surrogates import surrogate_test
 from lostmotion.contracts import Quantifier, Series, Surrogate
 from lostmotion.errors import ContractError, DataError
 from lostmotion.results import Embedding, Estimate
+from lostmotion_chaos.analysis.surrogates import surrogate_test
 
 DATA = Series(np.sin(0.1 * np.arange(400)), 0.1, Embedding(3, 2, 5))
 

@@ -5,12 +5,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from lostmotion_chaos.analysis.denoise import denoise
-from lostmotion_chaos.analysis.embed import embed
-from lostmotion_chaos.analysis.quantify import quantify
 from lostmotion.contracts import Denoiser, Embedder, Quantifier, Series
 from lostmotion.errors import CaseError, ContractError, DataError
 from lostmotion.results import Embedding, Estimate
+from lostmotion_chaos.analysis.denoise import denoise
+from lostmotion_chaos.analysis.embed import embed
+from lostmotion_chaos.analysis.quantify import quantify
 from lostmotion_chaos.signals.series import checked, delay_vectors
 
 

@@ -8,14 +8,14 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from lostmotion.errors import ContractError
-from lostmotion_chaos.flows.flow import Harmonic, SteppedFlow, flow_of, make_stepped_flow
 from lostmotion.likelihood.system import System
+from lostmotion_chaos.flows.flow import Harmonic, SteppedFlow, flow_of, make_stepped_flow
+from lostmotion_chaos.quantifiers.flows import KaplanYorke, LyapunovMax, LyapunovSpectrum
 from lostmotion_chaos.rates import exponent_in
 from lostmotion_plugins.models import _kernels
 from lostmotion_plugins.models.exact import ExactBacklash, solve_exactly, solve_joint_exactly
 from lostmotion_plugins.models.joint import RobotJoint
 from lostmotion_plugins.models.lin import LinBacklash
-from lostmotion_chaos.quantifiers.flows import KaplanYorke, LyapunovMax, LyapunovSpectrum
 from lostmotion_plugins.terms.viscous import ViscousDamping
 
 CASE_1 = {"m": 1.0, "c": 8.0, "k1": 0.0, "k0": 4e4, "x0": 0.005}

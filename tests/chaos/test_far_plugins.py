@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 
 from lostmotion.errors import DataError
+from lostmotion.registry import Registry, sources
 from lostmotion_chaos.maps.layout import make_grid_layout
 from lostmotion_chaos.maps.run import Request, RunOptions, make_map, make_study
 from lostmotion_chaos.maps.store import _require_same, load
 from lostmotion_chaos.maps.sweep import Workers
-from lostmotion.registry import Registry, sources
 
 REQUEST = Request(
     "lin_backlash",
@@ -41,7 +41,7 @@ print(columns["guest_crest"].tolist())
 def study(tmp_path):
     """Return a study with a quantifier that stands in a file that no other process can import."""
     file = tmp_path / "far_guests.py"
-    file.write_text((Path(__file__).parent / "third_party.py").read_text(encoding="utf-8").partition("GOOD = ")[0])
+    file.write_text((Path(__file__).parents[1] / "framework" / "third_party.py").read_text(encoding="utf-8").partition("GOOD = ")[0])
     yield make_study(REQUEST, Registry.discover().add_file(file))
     sys.modules.pop("far_guests")
 

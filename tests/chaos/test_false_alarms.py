@@ -7,9 +7,9 @@ import pytest
 from scipy.signal import lfilter
 from scipy.stats import binom
 
-from lostmotion_chaos.analysis.surrogates import surrogate_test
 from lostmotion.contracts import Series
 from lostmotion.results import Embedding
+from lostmotion_chaos.analysis.surrogates import surrogate_test
 from lostmotion_chaos.quantifiers.cheap import MutualInformation, PredictionError, TimeReversal
 from lostmotion_chaos.surrogates.cycles import PseudoPeriodic
 from lostmotion_chaos.surrogates.iterated import Iaaft

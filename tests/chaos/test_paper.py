@@ -9,8 +9,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lostmotion_chaos.flows.flow import flow_of
 from lostmotion.registry import default
+from lostmotion_chaos.flows.flow import flow_of
 from lostmotion_chaos.paper import experiment, noisy, portraits, sweeps
 from lostmotion_chaos.paper.cases import CASES, PRINTED
 from lostmotion_chaos.paper.joint import LEVELS, PAPER, SUSPECT, follow_joint

@@ -12,8 +12,8 @@ from scipy.special import digamma
 
 from lostmotion.errors import ContractError, DataError
 from lostmotion.results import STATUSES
-from lostmotion_chaos.signals.series import checked, delay_vectors
 from lostmotion_chaos.embedders import choices, delay, dimension, information
+from lostmotion_chaos.signals.series import checked, delay_vectors
 
 EMBEDDERS = [choices.AmiCao(), choices.AmiFnn(), choices.AmiKnnCao(most=500), choices.AutocorrelationCao()]
 

@@ -11,6 +11,10 @@ from lostmotion.case import CaseFile, Prior
 from lostmotion.case.levels import Level, Measured
 from lostmotion.codec import to_plain
 from lostmotion.errors import CaseError, DataError
+from lostmotion_chaos.levels.route import make_drive_level
+from lostmotion.likelihood.space import FreeParameter
+from lostmotion.registry import default
+from lostmotion.settings import DEFAULT
 from lostmotion_chaos.levels.levels import (
     MapGrid,
     _make_free_parameter,
@@ -19,15 +23,11 @@ from lostmotion_chaos.levels.levels import (
     make_level_numbers,
     make_quantifier_task,
 )
-from lostmotion.identification.result import make_drive_level
-from lostmotion.likelihood.space import FreeParameter
 from lostmotion_chaos.maps.atlas import CHAOTIC, PERIODIC, Atlas
 from lostmotion_chaos.maps.inversion import Inversion, compute_likelihood, group_levels, predict_levels
 from lostmotion_chaos.maps.map import RING_WEIGHT, Map
 from lostmotion_chaos.maps.numbers import NumberLaw, NumberPower, make_law
 from lostmotion_chaos.maps.run import Request, RunOptions, make_map, make_study
-from lostmotion.registry import default
-from lostmotion.settings import DEFAULT
 
 ALPHA, ZETA = np.linspace(0.2, 2.0, 37), np.linspace(0.01, 0.1, 10)
 

@@ -12,14 +12,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from lostmotion.codec import to_plain
+from lostmotion.errors import DataError
+from lostmotion.report.words import power_of_ten, shorten
 from lostmotion_chaos.analysis.report.measures import convert_to_natural
 from lostmotion_chaos.analysis.report.page import SECTIONS, render, write_analysis
 from lostmotion_chaos.analysis.report.summary import save_summary
 from lostmotion_chaos.analysis.report.tables import make_estimate_row, name_verdict, split_opening
 from lostmotion_chaos.analysis.report.view import read_analysis
-from lostmotion.codec import to_plain
-from lostmotion.errors import DataError
-from lostmotion.report.words import power_of_ten, shorten
 from lostmotion_chaos.results import DrivePeriod, Measure, Sign
 
 ALL = [section.name for section in SECTIONS]

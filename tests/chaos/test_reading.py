@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
+from lostmotion.registry import default
+from lostmotion.results import Estimate
 from lostmotion_chaos.flows.flow import Harmonic
 from lostmotion_chaos.levels.reading import ESTIMATOR_ERRORS, correct_estimate, read_level
 from lostmotion_chaos.levels.rehearsal import RecordingPlan, simulate_signals
-from lostmotion.registry import default
-from lostmotion.results import Estimate
 
 
 @pytest.mark.parametrize("name", ESTIMATOR_ERRORS)

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from lostmotion.errors import DataError
+from lostmotion.registry import default
 from lostmotion_chaos.maps.run import Request, RunOptions, make_map, make_study
 from lostmotion_chaos.maps.store import load
 from lostmotion_chaos.maps.sweep import Workers, _get_result
-from lostmotion.registry import default
 
 distributed = pytest.importorskip("distributed", reason="distributed is not installed: pip install lostmotion[cluster]")
 

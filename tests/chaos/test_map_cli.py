@@ -97,7 +97,8 @@ def test_help_has_examples_and_loads_nothing_heavy():
     assert "Examples:" in result.output
     assert "--refine" in result.output
     code = (
-        "import sys; import lostmotion_chaos.commands.map; print(sorted({'numpy', 'xarray', 'zarr', 'numba'} & set(sys.modules)))"
+        "import sys; import lostmotion_chaos.commands.map;"
+        " print(sorted({'numpy', 'xarray', 'zarr', 'numba'} & set(sys.modules)))"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"

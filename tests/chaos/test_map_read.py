@@ -10,13 +10,13 @@ import xarray as xr
 from PIL import Image
 
 from lostmotion.errors import DataError
+from lostmotion.registry import default
 from lostmotion_chaos.maps import figure as map_figure
 from lostmotion_chaos.maps.cells import compute_cells
 from lostmotion_chaos.maps.map import Map
 from lostmotion_chaos.maps.refine import _list_split_cells
 from lostmotion_chaos.maps.run import Request, RunOptions, make_map, make_study
 from lostmotion_chaos.maps.sweep import Workers
-from lostmotion.registry import default
 
 
 def quiet(done, total):

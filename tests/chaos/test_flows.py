@@ -10,14 +10,14 @@ from scipy.integrate import solve_ivp
 from scipy.signal import lfilter
 
 from lostmotion.contracts import Interface, Model, Orbit, Param
-from lostmotion_chaos.flows.flow import SteppedFlow, flow_of, make_stepped_flow
 from lostmotion.likelihood.system import System
 from lostmotion.quantities import NUMBER
+from lostmotion_chaos.flows.flow import SteppedFlow, flow_of, make_stepped_flow
+from lostmotion_chaos.quantifiers.flows import KaplanYorke, LyapunovMax, LyapunovSpectrum
 from lostmotion_chaos.rates import exponent_in
 from lostmotion_plugins.models.basic import LinearOscillator
 from lostmotion_plugins.models.joint import RobotJoint
 from lostmotion_plugins.models.lin import LinBacklash, ground
-from lostmotion_chaos.quantifiers.flows import KaplanYorke, LyapunovMax, LyapunovSpectrum
 from lostmotion_plugins.terms.elastic import CubicStiffness
 from lostmotion_plugins.terms.friction import CoulombFriction, StribeckFriction
 from lostmotion_plugins.terms.memory import DahlFriction

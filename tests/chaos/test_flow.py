@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 from lostmotion.errors import ContractError, DataError
-from lostmotion_chaos.flows.flow import FEWEST, Harmonic, flow_of, make_stepped_flow
 from lostmotion.likelihood.system import System
-from lostmotion_chaos.rates import UNITS, exponent_in
 from lostmotion.results import Estimate
+from lostmotion_chaos.flows.flow import FEWEST, Harmonic, flow_of, make_stepped_flow
+from lostmotion_chaos.quantifiers.flows import KaplanYorke, LyapunovMax, LyapunovSpectrum
+from lostmotion_chaos.rates import UNITS, exponent_in
 from lostmotion_plugins.models.basic import LinearOscillator
 from lostmotion_plugins.models.joint import RobotJoint
-from lostmotion_chaos.quantifiers.flows import KaplanYorke, LyapunovMax, LyapunovSpectrum
 from lostmotion_plugins.terms.contact import ContactDamping
 from lostmotion_plugins.terms.elastic import CubicStiffness
 from lostmotion_plugins.terms.friction import CoulombFriction

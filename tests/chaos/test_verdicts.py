@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
+from lostmotion.registry import default
 from lostmotion_chaos.analysis.run import AnalysisRequest, analyse
 from lostmotion_chaos.analysis.source import Source
-from lostmotion.registry import default
 
 BENT = {"cubed": lambda x: x**3, "clipped": np.tanh, "lopsided": lambda x: x + 0.5 * x**2, "as it is": lambda x: x}
 

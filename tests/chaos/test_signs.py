@@ -8,13 +8,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from lostmotion.contracts import Series
+from lostmotion.results import Embedding, Estimate
+from lostmotion.settings import DEFAULT
 from lostmotion_chaos.analysis.motion import _find_common_period, judge_motion
 from lostmotion_chaos.analysis.period import BasePeriod, MotionEvidence
 from lostmotion_chaos.analysis.signs import collect_signs
 from lostmotion_chaos.analysis.surrogates import SurrogateTest
-from lostmotion.contracts import Series
-from lostmotion.results import Embedding, Estimate
-from lostmotion.settings import DEFAULT
 from lostmotion_chaos.quantifiers.correlation_curves import measure_flatness
 from lostmotion_chaos.quantifiers.dimension import MOST_SCATTER, MOST_TILT
 
