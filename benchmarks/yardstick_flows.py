@@ -23,7 +23,7 @@ CASE_1 = {"m": 1.0, "c": 8.0, "k1": 0.0, "k0": 4e4, "x0": 0.005}
 DRIVE = (100.0, 40.0)
 START = np.array([0.001, 0.1])
 AFTER_8 = 0.0093999563898351222999
-"""Position after 8 periods, in 40-digit arithmetic (see tests/science/test_exact.py)."""
+"""Position after 8 periods, in 40-digit arithmetic (see tests/chaos/test_exact.py)."""
 WHOLE = 10_000
 EXACT = flow_of(LinBacklash(), CASE_1, drive=DRIVE, start=START)
 GENERAL = make_stepped_flow(System.of(LinBacklash()), CASE_1, drive=DRIVE, start=START)

@@ -21,7 +21,7 @@ from lostmotion.quantities import Dimension
 from lostmotion.recording.arrays import table_of_arrays
 from lostmotion.recording.table import Table
 from lostmotion.results import Embedding, Estimate
-from lostmotion.subjects import Data, Flow, Orbit, Series
+from lostmotion.subjects import Data, Flow, Motions, Orbit, Series
 
 if TYPE_CHECKING:
     from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Smoothed
@@ -29,8 +29,8 @@ if TYPE_CHECKING:
 
 __all__ = [
     "KINDS", "PSEUDO_NEEDS", "Array", "Assembly", "Data", "Denoiser", "Drive", "DriveTerm", "Embedder", "Engine",
-    "Flow", "Group", "Input", "Interface", "Model", "Motion", "Orbit", "Param", "Quantifier", "SensorTerm", "Series",
-    "Surrogate", "Table", "Term", "Values", "place_of", "table_of_arrays"]  # fmt: skip
+    "Flow", "Group", "Input", "Interface", "Model", "Motion", "Motions", "Orbit", "Param", "Quantifier", "SensorTerm",
+    "Series", "Surrogate", "Table", "Term", "Values", "place_of", "table_of_arrays"]  # fmt: skip
 
 _NOWHERE = Interface("", -1, "", lambda y, u: (0.0, 0.0))
 

@@ -1,4 +1,4 @@
-"""Lets the tests of this folder import fixtures of their own, integrators of tests/science, and `toys` of tests/framework."""
+"""Lets the tests of this folder import its fixtures, integrators of tests/science, and `toys` of tests/framework."""
 
 import sys
 from pathlib import Path

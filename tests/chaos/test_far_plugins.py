@@ -41,7 +41,9 @@ print(columns["guest_crest"].tolist())
 def study(tmp_path):
     """Return a study with a quantifier that stands in a file that no other process can import."""
     file = tmp_path / "far_guests.py"
-    file.write_text((Path(__file__).parents[1] / "framework" / "third_party.py").read_text(encoding="utf-8").partition("GOOD = ")[0])
+    file.write_text(
+        (Path(__file__).parents[1] / "framework" / "third_party.py").read_text(encoding="utf-8").partition("GOOD = ")[0]
+    )
     yield make_study(REQUEST, Registry.discover().add_file(file))
     sys.modules.pop("far_guests")
 

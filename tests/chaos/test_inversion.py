@@ -11,7 +11,6 @@ from lostmotion.case import CaseFile, Prior
 from lostmotion.case.levels import Level, Measured
 from lostmotion.codec import to_plain
 from lostmotion.errors import CaseError, DataError
-from lostmotion_chaos.levels.route import make_drive_level
 from lostmotion.likelihood.space import FreeParameter
 from lostmotion.registry import default
 from lostmotion.settings import DEFAULT
@@ -23,6 +22,7 @@ from lostmotion_chaos.levels.levels import (
     make_level_numbers,
     make_quantifier_task,
 )
+from lostmotion_chaos.levels.route import make_drive_level
 from lostmotion_chaos.maps.atlas import CHAOTIC, PERIODIC, Atlas
 from lostmotion_chaos.maps.inversion import Inversion, compute_likelihood, group_levels, predict_levels
 from lostmotion_chaos.maps.map import RING_WEIGHT, Map

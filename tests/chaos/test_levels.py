@@ -12,12 +12,12 @@ from lostmotion.case import CaseFile, Prior
 from lostmotion.case.levels import Level, Measured
 from lostmotion.codec import to_plain
 from lostmotion.contracts import Orbit
-from lostmotion_chaos.levels.route import make_drive_level
 from lostmotion.registry import default
 from lostmotion_chaos.flows.flow import Harmonic, flow_of
 from lostmotion_chaos.levels.levels import MapGrid, make_inversion
 from lostmotion_chaos.levels.reading import read_level
 from lostmotion_chaos.levels.rehearsal import RecordingPlan, simulate_levels, simulate_signals
+from lostmotion_chaos.levels.route import make_drive_level
 from lostmotion_chaos.maps.inversion import predict_levels
 
 REGISTRY = default()

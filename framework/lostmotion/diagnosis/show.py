@@ -57,7 +57,7 @@ def measure_behaviour(
     both = {"before": (outcome.before, d.before)}
     if d.found:
         both["after"] = (outcome.after, d.after)
-    attractors = _measure_attractors(outcome, states, registry, rng)
+    attractors = measure_attractors(outcome, states, registry, rng)
     models = {
         name: _describe_model(prediction, outcome.horizon, attractors.distances[name], attractors.dimensions[name])
         for name, (prediction, _) in both.items()
@@ -100,7 +100,7 @@ def _describe_model(
     )
 
 
-def _measure_attractors(
+def measure_attractors(
     outcome: Outcome, states: Mapping[str, Array], registry: Registry, rng: np.random.Generator
 ) -> Attractors:
     """Return what a package measures of the attractors; a motion that decays has none."""
