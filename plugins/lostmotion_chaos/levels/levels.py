@@ -14,7 +14,7 @@ from lostmotion.case import CaseFile, Prior
 from lostmotion.case.levels import Level
 from lostmotion.contracts import Array, Model
 from lostmotion.errors import CaseError, ContractError, DataError, nearest
-from lostmotion.identification.sampling import ShownCoordinate, Task, TMixture
+from lostmotion.identification.sampling import ShownCoordinate, Task
 from lostmotion.likelihood.space import FreeParameter
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.vetting import make_plugin
@@ -22,6 +22,7 @@ from lostmotion.quantities import unit_of
 from lostmotion.registry import Registry
 from lostmotion.settings import DEFAULT, LevelSettings, Settings
 from lostmotion_chaos.defaults import SECTION_DIMENSION
+from lostmotion_chaos.levels.incremental_mixture import find_mixture
 from lostmotion_chaos.levels.reading import read_levels
 from lostmotion_chaos.maps.atlas import FREQUENCY_RATIO, Atlas
 from lostmotion_chaos.maps.inversion import Inversion, group_levels
@@ -99,7 +100,7 @@ def make_quantifier_task(
     levels = read_or_take_levels(case, registry, rng, settings)
     posterior = make_inversion(case, levels, registry, out, grid or MapGrid(), say=say, limits=settings.levels)
     shown = tuple(ShownCoordinate(f.key, f.unit, 1.0 if f.log else 0.0) for f in posterior.free)
-    mixture = TMixture.by_importance_sampling(posterior, rng)
+    mixture = find_mixture(posterior, rng)
     points = mixture.draw(FIRST_DRAWS, rng)
     log_densities = posterior.log_likelihoods(points) + np.array([posterior.log_prior(p) for p in points])
     if not np.isfinite(log_densities).any():
