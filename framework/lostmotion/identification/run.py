@@ -10,7 +10,7 @@ import time
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -113,21 +113,17 @@ def _prepare_trajectory(
     return Route(make_trajectory_task(prepared, fits, terms), complete)
 
 
-def make_inference_data(done: Identified) -> Any:
-    """Return the draws of an identification as ArviZ's `InferenceData`."""
+def collect_groups(done: Identified) -> dict[str, xr.Dataset]:
+    """Return the groups of an identification in the layout of ArviZ, by name."""
     attrs: dict[str, str | int] = {
         "title": done.result.title,
         "model": done.result.model,
         "converged": int(done.posterior.converged),
     }
-    data = done.posterior.inference_data(attrs)
-    if done.groups:
-        data.add_groups(dict(done.groups))
-    return data
+    return {**done.posterior.groups(attrs), **done.groups}
 
 
 def _write_files(folder: Path, done: Identified) -> None:
-    data = make_inference_data(done)
-    save_datasets(folder / "posterior.nc", {name: data[name] for name in data.groups()}, data.attrs)
+    save_datasets(folder / "posterior.nc", dict(collect_groups(done).items()), {})
     save_json(folder / "identification.json", to_plain(done.result))
     write_identification(folder)

@@ -122,7 +122,7 @@ def identify(
     case and accepts `maps`. `settings` are as for `diagnose`.
     """
     from lostmotion.identification.routes import IdentificationRequest, choose_route
-    from lostmotion.identification.run import identify_case, make_inference_data
+    from lostmotion.identification.run import collect_groups, identify_case
     from lostmotion.identification.sampling import SamplingPlan
     from lostmotion.preparation.prepare import case_of
 
@@ -142,8 +142,8 @@ def identify(
                 known_to, settings=limits
             )
             done = identify_case(prepared.case, prepared, place, known_to, order, lambda _steps, says: say(says))
-        data = make_inference_data(done)
-    found = IdentificationResult(done.result, {name: data[name] for name in data.groups()})
+        groups = collect_groups(done)
+    found = IdentificationResult(done.result, groups)
     if out is not None:
         found.save(out)
     return found
