@@ -31,10 +31,10 @@ from lostmotion.errors import CaseError, DataError
 from lostmotion.notebook.case import Case
 from lostmotion.notebook.diagnosis import DiagnosisResult, load_diagnosis
 from lostmotion.notebook.posterior import IdentificationResult, load_identification
-from lostmotion.notebook.progress import show_progress
 from lostmotion.notebook.recorded import read_recorded_case
 from lostmotion.notebook.rules import CASE
 from lostmotion.offers import RESULT
+from lostmotion.progress import show_progress
 from lostmotion.recording import Recording
 from lostmotion.recording.checks import fill_lost
 from lostmotion.recording.formats import is_recording
@@ -75,7 +75,7 @@ def diagnose(
 
     known_to, limits = registry or default(), read(settings)
     asked = make_case(case, model, known, estimate, known_to, limits=limits)
-    with show_progress("diagnose", progress) as say:
+    with show_progress("diagnose", quiet=not progress, lines=False) as say:
         done = diagnose_prepared(
             asked.prepare(known_to, terms, limits), known_to, seed=seed, jobs=jobs, say=say, settings=limits
         )
@@ -132,7 +132,7 @@ def identify(
     order = IdentificationRequest(
         list_texts(terms), seed, jobs, plan, route, tuple(Path(m) for m in maps), fresh, limits
     )
-    with show_progress("identify", progress) as say, TemporaryDirectory() as spare:
+    with show_progress("identify", quiet=not progress, lines=False) as say, TemporaryDirectory() as spare:
         place = Path(out) if out is not None else Path(spare)
         file = case_of(Path(case), known_to) if isinstance(case, str | Path) else None
         if file is not None and choose_route(file, order) == "quantifiers":

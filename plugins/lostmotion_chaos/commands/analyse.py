@@ -9,7 +9,7 @@ import click
 
 from lostmotion.cli._lazy import PluginName, examples, registry_of
 from lostmotion.cli.options import add_common_options, add_settings_option
-from lostmotion.cli.progress import show_progress
+from lostmotion.progress import show_progress
 from lostmotion_chaos.defaults import EMBEDDER
 
 if TYPE_CHECKING:

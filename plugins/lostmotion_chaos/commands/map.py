@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 from lostmotion.cli._lazy import PluginName, examples, registry_of
+from lostmotion.progress import show_count
 
 if TYPE_CHECKING:
     from lostmotion_chaos.maps.map import Map
@@ -117,9 +116,17 @@ def command(
     study = make_study(Request(axes=axes, **settings), registry_of(ctx))  # type: ignore[arg-type]
     options = RunOptions(Workers(own["jobs"], own["address"]), own["refine"], own["fresh"])  # type: ignore[arg-type]
     begin = time.perf_counter()
-    with _show_bar(bool(own["quiet"])) as say:
+    with show_count("map", 0, "cells", quiet=bool(own["quiet"])) as show:
+        done = last = of = 0
+
+        def say(finished: int, total: int) -> None:
+            nonlocal done, last, of
+            if total == of and finished >= last:  # otherwise another pass begins, with what was done before
+                done += finished - last
+            last, of = finished, total
+            show(finished, total)
+
         found = make_map(study, out, options, say)
-        done = say.computed  # type: ignore[attr-defined]
     click.echo(_format_summary(out, found))
     for name in study.further:
         _report_failures(name, found)
@@ -131,32 +138,6 @@ def command(
         from lostmotion_chaos.maps.figure import save
 
         click.echo(str(save(found.dataset, out.with_suffix(".png"))))
-
-
-class _CellCounter:
-    """Count the computed cells and update the progress bar."""
-
-    def __init__(self, bar: object) -> None:
-        self._bar, self._last, self.computed = bar, 0, 0
-
-    def __call__(self, done: int, total: int) -> None:
-        bar = self._bar
-        if total != bar.total or done < self._last:  # type: ignore[attr-defined]
-            bar.reset(total)  # type: ignore[attr-defined]
-            bar.initial = done  # type: ignore[attr-defined]
-        else:
-            self.computed += done - self._last
-        bar.n = self._last = done  # type: ignore[attr-defined]
-        bar.refresh()  # type: ignore[attr-defined]
-
-
-@contextmanager
-def _show_bar(quiet: bool) -> Iterator[Callable[[int, int], None]]:
-    """Yield the callback for finished and all cells; it shows nothing when `quiet` or outside of a terminal."""
-    from tqdm import tqdm
-
-    with tqdm(total=0, desc="map", unit=" cells", leave=False, disable=True if quiet else None) as bar:
-        yield _CellCounter(bar)
 
 
 def _report_failures(name: str, found: Map) -> None:

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 from lostmotion.arguments import checked, choice, describe, flag, list_texts, maybe, positive, text, whole, words
 from lostmotion.errors import DataError, nearest
-from lostmotion.notebook.progress import show_progress
 from lostmotion.notebook.rules import RUN
+from lostmotion.progress import show_progress
 from lostmotion.recording import Recording
 from lostmotion.registry import Registry, default
 from lostmotion.settings import Settings, read
@@ -95,7 +95,7 @@ def analyse(
     else:
         wanted = WantedChannel(request.columns or list_texts(channel or ()), request.rate, request.every, time)
         source = load_source(Path(recording), wanted, known_to, request.settings.recording)
-    with show_progress("analyse", progress) as say:
+    with show_progress("analyse", quiet=not progress, lines=False) as say:
         result, arrays = analyse_source(source, known_to, request, say)
     found = AnalysisResult(result, arrays)
     if out is not None:
@@ -165,7 +165,7 @@ def map(
     )
     study = make_study(request, registry or default())
     options = RunOptions(Workers(jobs), refine, fresh)
-    with show_progress("map", progress) as say, TemporaryDirectory() as spare:
+    with show_progress("map", quiet=not progress, lines=False) as say, TemporaryDirectory() as spare:
         place = Path(out) if out is not None else Path(spare) / "map.nc"
         made = make_map(study, place, options, lambda done, of: say(f"{done} of {of} cells")).dataset
         return made.load() if out is None else made

@@ -1,4 +1,4 @@
-"""Progress on standard error: the current step and the elapsed time."""
+"""Progress of long work, in a terminal, a notebook or a log: the current step and the elapsed time."""
 
 from __future__ import annotations
 
@@ -6,49 +6,43 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from importlib import import_module
+from typing import Any
 
 MAX_LINE_LENGTH = 120
 COMPILING = "compiling (only once on this machine)"
 LINE_INTERVAL = 20.0
-"""Smallest number of seconds between two lines when standard error is not a terminal."""
+"""Smallest number of seconds between two lines where no bar is visible."""
 
 
 @contextmanager
-def show_count(what: str, total: int, unit: str, *, quiet: bool) -> Iterator[Callable[[int, int], None]]:
-    """Yield a callback for the finished and the total number; the first call counts as done before the start.
+def show_count(what: str, total: int, unit: str, *, quiet: bool) -> Iterator[Callable[..., None]]:
+    """Yield a callback `say(done, of, step="")` for the finished and the total number and the current step.
 
-    Outside of a terminal, a line with the remaining time is written from time to time.
+    The first call counts as done before the start, and so does one with another total or with less done than before.
+    Where no bar is visible, a line with the remaining time is written from time to time, if `quiet` nothing.
     """
-    from tqdm import tqdm
+    with _make_bar(what, quiet, total=total, unit=f" {unit}") as bar:
+        lines, first, last = _LineWriter(what), -1, -1
 
-    with tqdm(desc=what, total=total, unit=f" {unit}", leave=False, disable=True if quiet else None) as bar:
-        lines, first = _LineWriter(what), -1
-
-        def say(done: int, _of: int) -> None:
-            nonlocal first
-            first = done if first < 0 else first
-            if not bar.n:
-                bar.initial = done
-            bar.n = done
+        def say(done: int, of: int, step: str = "") -> None:
+            nonlocal first, last
+            if of != bar.total or done < last or first < 0:
+                bar.reset(of)
+                bar.initial = first = done
+            bar.n = last = done
+            bar.set_postfix_str(step, refresh=False)
             bar.refresh()
             if bar.disable and not quiet:
-                lines.write(f"{done} of {total} {unit}{lines.format_remaining(done - first, total - done)}")
+                lines.write(f"{step}{': ' * bool(step)}{done} of {of} {unit}{lines.remaining(done - first, of - done)}")
 
         yield say
 
 
 @contextmanager
-def show_progress(what: str, *, quiet: bool) -> Iterator[Callable[[str], None]]:
-    """Yield a callback for each step; outside of a terminal it writes a line from time to time, if `quiet` nothing."""
-    from tqdm import tqdm
-
-    with tqdm(
-        desc=what,
-        unit=" steps",
-        leave=False,
-        disable=True if quiet else None,
-        bar_format="{desc} {elapsed} · {n} steps{postfix}",
-    ) as bar:
+def show_progress(what: str, *, quiet: bool, lines: bool = True) -> Iterator[Callable[[str], None]]:
+    """Yield a callback for each step; where no bar is visible, `lines` are written from time to time."""
+    with _make_bar(what, quiet, unit=" steps", bar_format="{desc} {elapsed} · {n} steps{postfix}") as bar:
         last = ""
 
         def say(step: str) -> None:
@@ -58,13 +52,20 @@ def show_progress(what: str, *, quiet: bool) -> Iterator[Callable[[str], None]]:
             bar.update()
             bar.refresh()
 
-        if quiet:
-            yield say
-        elif bar.disable:
-            yield _LineWriter(what).write
+        if bar.disable:
+            yield _LineWriter(what).write if lines and not quiet else say
         else:
             with _watch_compilation(lambda busy: bar.set_postfix_str(f"{last} · {COMPILING}" if busy else last)):
                 yield say
+
+
+def _make_bar(what: str, quiet: bool, **options: Any) -> Any:
+    """Return a bar of tqdm for a terminal or a notebook; elsewhere, or if `quiet`, it is disabled."""
+    shell = sys.modules.get("IPython")
+    notebook = shell is not None and shell.get_ipython() is not None
+    seen = not quiet and (notebook or sys.stderr.isatty())
+    module = import_module("tqdm.auto" if notebook else "tqdm")
+    return module.tqdm(desc=what, leave=False, disable=not seen, **options)
 
 
 class _LineWriter:
@@ -82,7 +83,7 @@ class _LineWriter:
             sys.stderr.write(f"{self.what}: {_format_duration(now - self.begin)}: {_shorten_step(step)}\n")
             sys.stderr.flush()
 
-    def format_remaining(self, done: int, left: int) -> str:
+    def remaining(self, done: int, left: int) -> str:
         """Return the remaining time in words, from the numbers done since the beginning and left."""
         if done <= 0:
             return ""
