@@ -109,7 +109,7 @@ def lostmotion_measures() -> Mapping[str, tuple[str, str]]:
     """Return `{"attractors": ("package.module:function", "One line of help.")}`: what a diagnosis measures of motions.
 
     The function takes `Motions` (`contracts`), a `Registry`, a random generator and `MotionSettings`, and returns
-    `lostmotion.results.behaviour.Attractors`.
+    `Attractors` (`contracts`).
     """
     raise NotImplementedError
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Protocol, TypeVar
@@ -10,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.results import Embedding
+from lostmotion.results.behaviour import DimensionInterval, Distance
 
 Array = NDArray[np.float64]
 
@@ -61,6 +63,32 @@ class Motions:
     dt: float
     period: float | None
     noise: float
+
+
+@dataclass(frozen=True)
+class Attractors:
+    """Distances and dimensions by name: "before", and "after" if there is an augmented model.
+
+    The distance "noise_floor" is that between the halves of the recording; the dimension "recorded" is that of the
+    recording. `stroboscopic` states whether sections are compared, one point for each period of the drive.
+    """
+
+    distances: Mapping[str, Distance]
+    dimensions: Mapping[str, DimensionInterval]
+    stroboscopic: bool
+
+    @classmethod
+    def refused(cls, status: str, says: str) -> Attractors:
+        """Return measures without values, with the reason."""
+        nothing = math.nan
+        distance, dimension = (
+            Distance(nothing, nothing, status),
+            DimensionInterval(nothing, nothing, nothing, status, says),
+        )
+        names = ("before", "after")
+        return cls(
+            dict.fromkeys((*names, "noise_floor"), distance), dict.fromkeys((*names, "recorded"), dimension), False
+        )
 
 
 class Flow(Protocol):

@@ -13,9 +13,9 @@ from lostmotion.diagnosis.motions import take_section
 from lostmotion.errors import LostMotionError
 from lostmotion.registry import Registry
 from lostmotion.results import Estimate
-from lostmotion.results.behaviour import Attractors, DimensionInterval, Distance
+from lostmotion.results.behaviour import DimensionInterval, Distance
 from lostmotion.settings import MotionSettings
-from lostmotion.subjects import Motions
+from lostmotion.subjects import Attractors, Motions
 from lostmotion_chaos.analysis.embed import embed
 from lostmotion_chaos.analysis.period import find_return
 from lostmotion_chaos.analysis.quantify import quantify

@@ -100,7 +100,7 @@ class DrivePeriod:
 class Analysis:
     """The content of `analysis.json`: the kind of a motion, the signs of chaos, and the measured quantities."""
 
-    schema: str = described("name and version of the format", default="lostmotion_chaos.analysis/1")
+    schema: str = described("name and version of the format", default="lostmotion.analysis/1")
     title: str = described("title of the case, or name of the recording")
     verdict: MotionKind = described("the kind of motion")
     strength: Strength = described("strength of the evidence for the verdict")

@@ -87,7 +87,7 @@ def facts(title, dt, lag):
     }
     tests = zip(NULLS, ("iaaft", "pseudo_periodic"), (0.02, 0.0004), strict=True)
     return {
-        "schema": "lostmotion_chaos.analysis/1",
+        "schema": "lostmotion.analysis/1",
         "title": title,
         "verdict": "chaotic",
         "strength": "firm",

@@ -54,7 +54,7 @@ def test_the_verdict_is_said_and_the_files_are_there(done):
 
 def test_the_json_keeps_its_contract(done):
     content = json.loads((done[1] / "analysis.json").read_text())
-    assert content["schema"] == "lostmotion_chaos.analysis/1"
+    assert content["schema"] == "lostmotion.analysis/1"
     assert content["verdict"] == "chaotic"
     assert set(content["delay"]) >= {"samples", "seconds", "method"}
     assert content["delay"]["method"] == "ami"

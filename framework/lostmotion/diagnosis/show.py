@@ -18,7 +18,6 @@ from lostmotion.likelihood.predict import Horizon, observe_states
 from lostmotion.offers import MEASURE
 from lostmotion.registry import Registry
 from lostmotion.results.behaviour import (
-    Attractors,
     Behaviour,
     Chance,
     DimensionInterval,
@@ -30,7 +29,7 @@ from lostmotion.results.behaviour import (
     NoiseFloor,
     ValidTime,
 )
-from lostmotion.subjects import Motions
+from lostmotion.subjects import Attractors, Motions
 
 STUDENT = 2.262
 """The half width of the 95 % interval of a mean of ten blocks, in standard errors (Student's t)."""

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 from lostmotion.codec import described
@@ -45,32 +43,6 @@ class DimensionInterval:
     high: float = described("upper end of it")
     status: str = described("a status of an estimate")
     says: str = described("the reason where the status is not ok")
-
-
-@dataclass(frozen=True)
-class Attractors:
-    """Distances and dimensions by name: "before", and "after" if there is an augmented model.
-
-    The distance "noise_floor" is that between the halves of the recording; the dimension "recorded" is that of the
-    recording. `stroboscopic` states whether sections are compared, one point for each period of the drive.
-    """
-
-    distances: Mapping[str, Distance]
-    dimensions: Mapping[str, DimensionInterval]
-    stroboscopic: bool
-
-    @classmethod
-    def refused(cls, status: str, says: str) -> Attractors:
-        """Return measures without values, with the reason."""
-        nothing = math.nan
-        distance, dimension = (
-            Distance(nothing, nothing, status),
-            DimensionInterval(nothing, nothing, nothing, status, says),
-        )
-        names = ("before", "after")
-        return cls(
-            dict.fromkeys((*names, "noise_floor"), distance), dict.fromkeys((*names, "recorded"), dimension), False
-        )
 
 
 @dataclass(frozen=True)
