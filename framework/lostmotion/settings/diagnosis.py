@@ -87,7 +87,7 @@ class SelectSettings:
         "A value of an amplitude beyond the reach of a score test is tried when it gains this much in log-likelihood.",
     )
     budget: float = threshold(
-        0.0, "The processor time of the search, in s; 0: a time in proportion to the readings and the states."
+        0.0, "The processor time of the search, in s; 0: work in proportion to the readings and the states."
     )
     onset_first: float = threshold(
         0.04, "An onset before this share of a recording is not considered: the term acts from the beginning.", most=1.0
