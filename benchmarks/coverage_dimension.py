@@ -19,12 +19,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from labelled_series import CASE_1, backlash
-from lostmotion.analysis.denoise import denoise
 from lostmotion.contracts import Quantifier, Series
 from lostmotion.results import Embedding, Estimate
-from lostmotion_plugins.denoisers.projective import LocalProjective
-from lostmotion_plugins.quantifiers.dimension import CorrelationDimension
-from lostmotion_plugins.quantifiers.noise import NoiseLevel
+from lostmotion_chaos.analysis.denoise import denoise
+from lostmotion_chaos.denoisers.projective import LocalProjective
+from lostmotion_chaos.quantifiers.dimension import CorrelationDimension
+from lostmotion_chaos.quantifiers.noise import NoiseLevel
 
 Array = NDArray[np.float64]
 PERIOD = 2.0 * math.pi / CASE_1[4]

@@ -22,8 +22,8 @@ from scipy.integrate import solve_ivp
 
 from lostmotion.contracts import Quantifier, Series
 from lostmotion.results import Embedding
-from lostmotion_plugins.quantifiers.kantz import Kantz
-from lostmotion_plugins.quantifiers.rosenstein import Rosenstein
+from lostmotion_chaos.quantifiers.kantz import Kantz
+from lostmotion_chaos.quantifiers.rosenstein import Rosenstein
 
 Array = NDArray[np.float64]
 PERIOD = 2.0 * math.pi / 40.0

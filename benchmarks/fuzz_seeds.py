@@ -13,7 +13,7 @@ import scipy.io
 import xarray as xr
 
 ROOT = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(ROOT / "tests" / "framework"))
+sys.path[:0] = [str(ROOT / "tests" / "framework"), str(ROOT / "tests" / "chaos")]
 TABLES = ("csv", "txt", "npz", "mat5", "mat73", "nc", "nc3", "h5", "uff")
 N = 240
 TIME = np.arange(N) / 100.0

@@ -15,18 +15,18 @@ import numpy as np
 
 from fuzz_door import door
 from fuzz_seeds import CASE, COLUMNS, TABLES, N
-from lostmotion.analysis import source
-from lostmotion.analysis.source import WantedChannel, load_source
 from lostmotion.case import Channel, RecordingSpec, dump_case, load_case
 from lostmotion.errors import LostMotionError
 from lostmotion.identification import checkpoint
 from lostmotion.inference.setup import make_known
 from lostmotion.likelihood.system import System
-from lostmotion.maps import store
 from lostmotion.preparation.prepare import prepare
 from lostmotion.recording import load, load_recording
 from lostmotion.recording.formats import table_of
 from lostmotion.registry import Registry, default
+from lostmotion_chaos.analysis import source
+from lostmotion_chaos.analysis.source import WantedChannel, load_source
+from lostmotion_chaos.maps import store
 
 STORED = ("diagnosis", "analysis", "chain", "map", "campaign")
 KINDS = (*TABLES, "case", "values", "plugin", *STORED, "door")
@@ -255,7 +255,7 @@ def report(kind, facts, arrays, seeds, rng, folder, write_only):
     if kind == "diagnosis":
         from lostmotion.diagnosis.report.page import write_report as write
     else:
-        from lostmotion.analysis.report.page import write_analysis as write
+        from lostmotion_chaos.analysis.report.page import write_analysis as write
     write(folder)
 
 
@@ -269,7 +269,7 @@ def chain(seeds, rng, folder, write_only):
 def stored_map(seeds, rng, folder, write_only):
     import shutil
 
-    from lostmotion.maps.map import Map
+    from lostmotion_chaos.maps.map import Map
 
     shutil.rmtree(folder / "map.zarr", ignore_errors=True)
     names = list(seeds.files["map"])

@@ -254,9 +254,10 @@ def _about(fit: Fit, count: int) -> Any:
 
 
 def _ess(chain: Any) -> float:
-    import arviz
+    import arviz_stats
 
-    return float(min(arviz.ess(np.ascontiguousarray(chain[:, :, i].T), method="bulk") for i in range(chain.shape[2])))
+    columns = (np.ascontiguousarray(chain[:, :, i].T) for i in range(chain.shape[2]))
+    return float(min(arviz_stats.ess(one, method="bulk", chain_axis=0, draw_axis=1) for one in columns))
 
 
 def _resampled(points: Any, weights: Any) -> Any:

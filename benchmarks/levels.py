@@ -31,18 +31,18 @@ from scipy.stats import t as student
 from lostmotion.case import CaseFile, Prior
 from lostmotion.case.levels import Level, Measured
 from lostmotion.contracts import Array, Flow
-from lostmotion.flow import Harmonic, flow_of
-from lostmotion.identification.levels import MapGrid, make_inversion, make_quantifier_task
-from lostmotion.identification.reading import correct_estimate, read_level
-from lostmotion.identification.rehearsal import RecordingPlan, simulate_levels, simulate_signals
 from lostmotion.identification.sampling import identify
 from lostmotion.kernels.threads import cores
-from lostmotion.maps.cells import find_period
-from lostmotion.maps.inversion import ERROR_DOF, Inversion, predict_levels
 from lostmotion.registry import default
 from lostmotion.results import Estimate
 from lostmotion.settings import DEFAULT
-from lostmotion_trials.paper.joint import DAMPING, FREQUENCY, HALF, LEVELS, PAPER, RATIO
+from lostmotion_chaos.flows.flow import Harmonic, flow_of
+from lostmotion_chaos.levels.levels import MapGrid, make_inversion, make_quantifier_task
+from lostmotion_chaos.levels.reading import correct_estimate, read_level
+from lostmotion_chaos.levels.rehearsal import RecordingPlan, simulate_levels, simulate_signals
+from lostmotion_chaos.maps.cells import find_period
+from lostmotion_chaos.maps.inversion import ERROR_DOF, Inversion, predict_levels
+from lostmotion_chaos.paper.joint import DAMPING, FREQUENCY, HALF, LEVELS, PAPER, RATIO
 
 OMEGA = 40.0
 SD_PAPER = 0.2

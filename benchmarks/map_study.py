@@ -19,10 +19,10 @@ import numpy as np
 from scipy.ndimage import distance_transform_edt
 
 from lostmotion.kernels.threads import cores
-from lostmotion.maps.map import Map
-from lostmotion.maps.run import Request, RunOptions, make_map, make_study
-from lostmotion.maps.sweep import Workers
 from lostmotion.registry import default
+from lostmotion_chaos.maps.map import Map
+from lostmotion_chaos.maps.run import Request, RunOptions, make_map, make_study
+from lostmotion_chaos.maps.sweep import Workers
 
 ALPHA, ZETA = "alpha=0.2:0.6666:{0}:inverse", "zeta=0.008:0.05:{0}"
 """1/alpha from 1.5 to 5: the first window of chaos, the gap behind it, and the edge of the second."""

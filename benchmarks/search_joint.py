@@ -19,9 +19,9 @@ from typing import NamedTuple
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.flow import flow_of
 from lostmotion.kernels.threads import spread
 from lostmotion.registry import default
+from lostmotion_chaos.flows.flow import flow_of
 
 OMEGA = 2.0 * math.pi * 1.54
 LEVELS = np.array([1.34, 2.07, 2.68, 3.41, 3.65, 3.78, 4.87, 5.73])

@@ -20,9 +20,9 @@ from labelled_fresh import fresh_series
 from labelled_recorded import recorded
 from labelled_series import LabelledSeries, rule_series
 from labelled_wide import wide_series
-from lostmotion.analysis.run import AnalysedChannel, AnalysisRequest, analyse
-from lostmotion.analysis.source import Source
 from lostmotion.registry import default
+from lostmotion_chaos.analysis.run import AnalysedChannel, AnalysisRequest, analyse
+from lostmotion_chaos.analysis.source import Source
 
 SAID = ("periodic", "quasiperiodic", "chaotic", "stochastic", "undecided")
 MARKS = {"for": "+", "against": "-", "silent": "."}

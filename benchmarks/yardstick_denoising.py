@@ -7,8 +7,8 @@ from scipy.spatial import cKDTree
 
 from lostmotion.contracts import Series
 from lostmotion.results import Embedding
-from lostmotion_plugins.denoisers.projective import LocalProjective
-from lostmotion_plugins.denoisers.simple import SimpleNonlinear
+from lostmotion_chaos.denoisers.projective import LocalProjective
+from lostmotion_chaos.denoisers.simple import SimpleNonlinear
 from yardstick import Array, Case, lorenz
 
 DIM = 7

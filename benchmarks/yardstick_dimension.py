@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from lostmotion.contracts import Series
 from lostmotion.results import Embedding
-from lostmotion_plugins.quantifiers.correlation import compute_correlation_sums
-from lostmotion_plugins.quantifiers.dimension import CorrelationDimension, CorrelationEntropy
-from lostmotion_plugins.quantifiers.noise import estimate_noise_level
+from lostmotion_chaos.quantifiers.correlation import compute_correlation_sums
+from lostmotion_chaos.quantifiers.dimension import CorrelationDimension, CorrelationEntropy
+from lostmotion_chaos.quantifiers.noise import estimate_noise_level
 from yardstick import Case, lorenz
 
 Array = NDArray[np.float64]

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
-from lostmotion.kernels import neighbours
-from lostmotion.signals import delay_vectors
-from lostmotion_plugins.embedders.dimension import unfold
-from lostmotion_plugins.embedders.information import compute_mutual_information, compute_mutual_information_knn
+from lostmotion_chaos.embedders.dimension import unfold
+from lostmotion_chaos.embedders.information import compute_mutual_information, compute_mutual_information_knn
+from lostmotion_chaos.kernels import neighbours
+from lostmotion_chaos.signals.series import delay_vectors
 from yardstick import Array, Case, lorenz
 
 LAG, THEILER, BINS, DIMS = 8, 100, 64, 8

@@ -8,9 +8,9 @@ from scipy.spatial import cKDTree
 
 from lostmotion.contracts import Series
 from lostmotion.results import Embedding
-from lostmotion_plugins.quantifiers.kantz import Kantz
-from lostmotion_plugins.quantifiers.rosenstein import Rosenstein
-from lostmotion_plugins.quantifiers.wolf import Wolf
+from lostmotion_chaos.quantifiers.kantz import Kantz
+from lostmotion_chaos.quantifiers.rosenstein import Rosenstein
+from lostmotion_chaos.quantifiers.wolf import Wolf
 from yardstick import Case, lorenz
 
 Array = NDArray[np.float64]

@@ -13,17 +13,17 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
-from lostmotion.flow import flow_of, make_stepped_flow
 from lostmotion.likelihood.system import System
+from lostmotion_chaos.flows.flow import flow_of, make_stepped_flow
+from lostmotion_chaos.quantifiers.flows import LyapunovMax
 from lostmotion_plugins.models.lin import LinBacklash
-from lostmotion_plugins.quantifiers.flows import LyapunovMax
 from yardstick import Case, clocked
 
 CASE_1 = {"m": 1.0, "c": 8.0, "k1": 0.0, "k0": 4e4, "x0": 0.005}
 DRIVE = (100.0, 40.0)
 START = np.array([0.001, 0.1])
 AFTER_8 = 0.0093999563898351222999
-"""Position after 8 periods, in 40-digit arithmetic (see tests/science/test_exact.py)."""
+"""Position after 8 periods, in 40-digit arithmetic (see tests/chaos/test_exact.py)."""
 WHOLE = 10_000
 EXACT = flow_of(LinBacklash(), CASE_1, drive=DRIVE, start=START)
 GENERAL = make_stepped_flow(System.of(LinBacklash()), CASE_1, drive=DRIVE, start=START)

@@ -7,10 +7,10 @@ from scipy.spatial import cKDTree
 
 from lostmotion.contracts import Series
 from lostmotion.results import Embedding
-from lostmotion_plugins.quantifiers.cheap import MutualInformation, PredictionError, TimeReversal
-from lostmotion_plugins.surrogates.cycles import PseudoPeriodic
-from lostmotion_plugins.surrogates.iterated import Iaaft
-from lostmotion_plugins.surrogates.spectral import Aaft, Fourier
+from lostmotion_chaos.quantifiers.cheap import MutualInformation, PredictionError, TimeReversal
+from lostmotion_chaos.surrogates.cycles import PseudoPeriodic
+from lostmotion_chaos.surrogates.iterated import Iaaft
+from lostmotion_chaos.surrogates.spectral import Aaft, Fourier
 from yardstick import Array, Case, lorenz
 
 DRAWS = 39

@@ -8,25 +8,22 @@ A recording and a model make a case, and a case can be diagnosed:
     case = lm.Case(recording, lm.model("lin_backlash"), known={"m": 1.0}, estimate={"c": lm.LogUniform(0.8, 80.0)})
     found = lm.diagnose(case)
 
-Each name is imported when it is first used: objects, the commands as functions, and the steps of the analysis. The
-plugins that they know are in `lostmotion.registry.default()`.
+Each name is imported when it is first used. Packages offer further functions by the hook `lostmotion_functions`, such
+as `analyse` and `map`. The plugins that all of them know are in `lostmotion.registry.default()`.
 """
 
 from __future__ import annotations
 
 from importlib import import_module
+from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from lostmotion.analysis.denoise import denoise
-    from lostmotion.analysis.embed import embed
-    from lostmotion.analysis.quantify import quantify
-    from lostmotion.analysis.surrogates import surrogate_test
     from lostmotion.errors import LostMotionError
     from lostmotion.errors import LostMotionError as LostmotionError
     from lostmotion.notebook.case import Case, model
-    from lostmotion.notebook.doors import analyse, diagnose, identify, load
-    from lostmotion.notebook.models import map, simulate
+    from lostmotion.notebook.doors import diagnose, identify, load
+    from lostmotion.notebook.models import simulate
     from lostmotion.notebook.priors import HalfNormal, LogNormal, LogUniform, Normal, Uniform
     from lostmotion.recording import Recording
     from lostmotion.settings import Settings
@@ -38,19 +35,17 @@ __all__ = [
     "simulate", "surrogate_test",
 ]  # fmt: skip
 _TARGETS = {
-    **{name: f"notebook.doors:{name}" for name in ("analyse", "diagnose", "identify", "load")},
-    **{name: f"notebook.models:{name}" for name in ("map", "simulate")},
+    **{name: f"notebook.doors:{name}" for name in ("diagnose", "identify", "load")},
     **{name: f"notebook.case:{name}" for name in ("Case", "model")},
     **{name: f"notebook.priors:{name}" for name in ("HalfNormal", "LogNormal", "LogUniform", "Normal", "Uniform")},
     "LostMotionError": "errors:LostMotionError",
     "LostmotionError": "errors:LostMotionError",
     "Recording": "recording:Recording",
     "Settings": "settings:Settings",
-    "denoise": "analysis.denoise:denoise",
-    "embed": "analysis.embed:embed",
-    "quantify": "analysis.quantify:quantify",
-    "surrogate_test": "analysis.surrogates:surrogate_test",
+    "simulate": "notebook.models:simulate",
 }
+_OFFERED = ("analyse", "denoise", "embed", "map", "quantify", "surrogate_test")
+"""Names in `__all__` that a package offers by a hook: functions of the analysis of chaos."""
 
 
 _MODULES = ("registry", "settings", "testing")
@@ -66,6 +61,21 @@ def __getattr__(name: str) -> Any:
     if name in _MODULES:
         return import_module(f"lostmotion.{name}")
     if name not in _TARGETS:
-        raise AttributeError(f"module 'lostmotion' has no attribute {name!r}: it has {', '.join(__all__)}")
+        if name.startswith("_") or find_spec(f"lostmotion.{name}"):  # Python imports a module of this name by itself
+            raise AttributeError(f"module 'lostmotion' has no attribute {name!r}")
+        return _find_offered(name)
     module, _, attribute = _TARGETS[name].partition(":")
     return getattr(import_module(f"lostmotion.{module}"), attribute)
+
+
+def _find_offered(name: str) -> Any:
+    """Return a function that a package offers by its hook; raise `AbsentError` or `AttributeError` where none does."""
+    from lostmotion.errors import AbsentError
+    from lostmotion.offers import FUNCTION
+    from lostmotion.registry import default
+
+    if name in default().offered(FUNCTION):
+        return default().function(FUNCTION, name)
+    if name in _OFFERED:
+        raise AbsentError(default().explain_absence(FUNCTION, name))
+    raise AttributeError(f"module 'lostmotion' has no attribute {name!r}: it has {', '.join(__all__)}")

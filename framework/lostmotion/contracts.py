@@ -21,16 +21,16 @@ from lostmotion.quantities import Dimension
 from lostmotion.recording.arrays import table_of_arrays
 from lostmotion.recording.table import Table
 from lostmotion.results import Embedding, Estimate
-from lostmotion.subjects import Data, Flow, Orbit, Series
+from lostmotion.subjects import Attractors, Data, Flow, Motions, Orbit, Series
 
 if TYPE_CHECKING:
     from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Smoothed
     from lostmotion.likelihood.observation import Observation
 
 __all__ = [
-    "KINDS", "PSEUDO_NEEDS", "Array", "Assembly", "Data", "Denoiser", "Drive", "DriveTerm", "Embedder", "Engine",
-    "Flow", "Group", "Input", "Interface", "Model", "Motion", "Orbit", "Param", "Quantifier", "SensorTerm", "Series",
-    "Surrogate", "Table", "Term", "Values", "place_of", "table_of_arrays"]  # fmt: skip
+    "KINDS", "PSEUDO_NEEDS", "Array", "Assembly", "Attractors", "Data", "Denoiser", "Drive", "DriveTerm", "Embedder",
+    "Engine", "Flow", "Group", "Input", "Interface", "Model", "Motion", "Motions", "Orbit", "Param", "Quantifier",
+    "SensorTerm", "Series", "Surrogate", "Table", "Term", "Values", "place_of", "table_of_arrays"]  # fmt: skip
 
 _NOWHERE = Interface("", -1, "", lambda y, u: (0.0, 0.0))
 

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-EMBEDDER = "ami_cao"
-EXPONENT = "lyapunov_kantz"
-EXPONENT_CHECKS = ("lyapunov_rosenstein",)
-"""Further methods for the exponent, with which the first one is compared."""
-DIMENSION, ENTROPY = "correlation_dimension", "correlation_entropy"
-METER, DENOISER = "noise_level", "local_projective"
-"""The methods that measure and remove the noise of a series."""
-STATISTIC = "prediction_error"
-"""The number that is compared between a recording and its surrogates."""
-SURROGATE, SURROGATE_OF_CYCLES = "iaaft", "pseudo_periodic"
-FLOW_EXPONENT, SECTION_DIMENSION = "lyapunov_max", "section_dimension"
-"""The quantities that a map of a model contains."""
+from collections.abc import Mapping
+
 OSCILLATOR, CARRIAGE, JOINT, SLIDER = "linear_oscillator", "rigid_drive", "robot_joint", "backlash_slider"
 """The textbook models for a first case: with a spring; without one; with a base that turns; with a base that shifts."""
+ATTRACTORS, QUANTIFIERS = "attractors", "quantifiers"
+"""The measure of motions in a diagnosis; the route from measures of chaos to parameters."""
+_CHAOS = "lostmotion_chaos"
+STEPS = ("denoise", "embed", "quantify", "surrogate_test")
+SOURCES: Mapping[str, str] = dict.fromkeys(("analyse", "map", "reproduce", *STEPS, ATTRACTORS, QUANTIFIERS), _CHAOS)
+"""The package of commands and functions that are documented as parts of lostmotion, for messages where it is absent."""

@@ -6,6 +6,7 @@
     ├── CaseError       the case file contains something that cannot be valid
     ├── ContractError   a plugin breaks the contract of its kind
     └── PluginError     a name is unknown, contested or could not be loaded
+        └── AbsentError  no installed package offers a function of `lostmotion`
 
 A message says what was found, what was expected and what to do.
 """
@@ -46,6 +47,10 @@ class ContractError(LostMotionError):
 
 class PluginError(LostMotionError):
     """A plugin name is unknown, contested or could not be loaded."""
+
+
+class AbsentError(PluginError, AttributeError):
+    """A function of `lostmotion` that no installed package offers; it is an `AttributeError` too, as Python expects."""
 
 
 class PluginWarning(UserWarning):

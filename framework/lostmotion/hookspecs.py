@@ -77,6 +77,44 @@ def lostmotion_commands() -> Mapping[str, tuple[str, str]]:
 
 
 @hookspec
+def lostmotion_functions() -> Mapping[str, tuple[str, str]]:
+    """Return `{"name": ("package.module:function", "One line of help.")}` for each function of the Python interface.
+
+    It becomes `lostmotion.name`, unless the framework itself has this name.
+    """
+    raise NotImplementedError
+
+
+@hookspec
+def lostmotion_results() -> Mapping[str, tuple[str, str]]:
+    """Return `{"file.json": ("package.module:function", "One line of help.")}` for each kind of stored result.
+
+    The function takes the `Path` of a folder that contains this file; `lostmotion.load` returns its result.
+    """
+    raise NotImplementedError
+
+
+@hookspec
+def lostmotion_routes() -> Mapping[str, tuple[str, str]]:
+    """Return `{"name": ("package.module:function", "One line of help.")}` for each route of an identification.
+
+    The function takes case, folder, registry, order, generator and progress, and returns a
+    `lostmotion.identification.routes.Route`.
+    """
+    raise NotImplementedError
+
+
+@hookspec
+def lostmotion_measures() -> Mapping[str, tuple[str, str]]:
+    """Return `{"attractors": ("package.module:function", "One line of help.")}`: what a diagnosis measures of motions.
+
+    The function takes `Motions` (`contracts`), a `Registry`, a random generator and `MotionSettings`, and returns
+    `Attractors` (`contracts`).
+    """
+    raise NotImplementedError
+
+
+@hookspec
 def lostmotion_readers() -> Mapping[str, tuple[str, str]]:
     """Return `{"xyz": ("package.module:function", "requirement")}` for each ending of a file name, without its dot.
 

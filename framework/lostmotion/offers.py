@@ -12,17 +12,21 @@ from lostmotion import hookspecs
 from lostmotion.errors import nearest
 
 KINDS = ("model", "term", "embedder", "quantifier", "surrogate", "denoiser", "engine")
-COMMAND, READER = "command", "reader"
-_SAID = {COMMAND: "One line of help.", READER: "what to install with pip if its library is absent"}
+COMMAND, FUNCTION, RESULT, ROUTE, MEASURE, READER = "command", "function", "result", "route", "measure", "reader"
+_SAID = {
+    **dict.fromkeys((COMMAND, FUNCTION, RESULT, ROUTE, MEASURE), "One line of help."),
+    READER: "what to install with pip if its library is absent",
+}
 """The kinds that are functions; a second text belongs to each of their names."""
-HOOKS = {f"lostmotion_{kind}s": kind for kind in (*KINDS, COMMAND, READER)}
+ALL_KINDS = (*KINDS, *_SAID)
+HOOKS = {f"lostmotion_{kind}s": kind for kind in ALL_KINDS}
 FAILURES = (Exception, SystemExit)
 """The exceptions of third-party code during import and in hooks that are handled; Ctrl-C is not."""
 _TARGET = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*")
 
 
 class Offer(NamedTuple):
-    """One name that a plugin offers; `about` is the help line of a command, or what a reader needs, else empty."""
+    """One name that a plugin offers; `about` is the help line of a function, or what a reader needs, else empty."""
 
     kind: str
     name: str

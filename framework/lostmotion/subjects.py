@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Protocol, TypeVar
 
@@ -9,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.results import Embedding
+from lostmotion.results.behaviour import DimensionInterval, Distance
 
 Array = NDArray[np.float64]
 
@@ -43,6 +46,49 @@ class Orbit:
     states: Array
     growth: Array
     status: str = "ok"
+
+
+@dataclass(frozen=True, eq=False)
+class Motions:
+    """The motions of a diagnosis: "recorded", and free runs "before" and, with an augmented model, "after".
+
+    `states` (samples, n) begin with position and velocity; `responses` (samples,) are readings of the first sensor, NaN
+    where one was lost. `exponents` (1/s) are the largest ones of the models. `dt` is in s; `period` is in samples, or
+    None without a drive. `noise` is the standard deviation of the noise of the recorded response.
+    """
+
+    states: Mapping[str, Array]
+    responses: Mapping[str, Array]
+    exponents: Mapping[str, float]
+    dt: float
+    period: float | None
+    noise: float
+
+
+@dataclass(frozen=True)
+class Attractors:
+    """Distances and dimensions by name: "before", and "after" if there is an augmented model.
+
+    The distance "noise_floor" is that between the halves of the recording; the dimension "recorded" is that of the
+    recording. `stroboscopic` states whether sections are compared, one point for each period of the drive.
+    """
+
+    distances: Mapping[str, Distance]
+    dimensions: Mapping[str, DimensionInterval]
+    stroboscopic: bool
+
+    @classmethod
+    def refused(cls, status: str, says: str) -> Attractors:
+        """Return measures without values, with the reason."""
+        nothing = math.nan
+        distance, dimension = (
+            Distance(nothing, nothing, status),
+            DimensionInterval(nothing, nothing, nothing, status, says),
+        )
+        names = ("before", "after")
+        return cls(
+            dict.fromkeys((*names, "noise_floor"), distance), dict.fromkeys((*names, "recorded"), dimension), False
+        )
 
 
 class Flow(Protocol):

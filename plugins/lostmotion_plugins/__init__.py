@@ -1,4 +1,4 @@
-"""The built-in plugins: names only, so that listing them imports neither NumPy nor numba."""
+"""The built-in models, terms, engines and readers: names only, so that listing them imports neither NumPy nor numba."""
 
 from lostmotion.hookspecs import hookimpl
 
@@ -72,62 +72,6 @@ def lostmotion_terms() -> dict[str, str]:
         "sensor_quantisation": f"{_HERE}.terms.sensor:SensorQuantisation",
         "stribeck_friction": f"{_HERE}.terms.friction:StribeckFriction",
         "viscous_damping": f"{_HERE}.terms.viscous:ViscousDamping",
-    }
-
-
-@hookimpl
-def lostmotion_embedders() -> dict[str, str]:
-    """Return the built-in embedders, named DELAY_DIMENSION after the methods for the delay and for the dimension."""
-    at = f"{_HERE}.embedders.choices"
-    return {
-        "ami_cao": f"{at}:AmiCao",
-        "ami_fnn": f"{at}:AmiFnn",
-        "ami_knn_cao": f"{at}:AmiKnnCao",
-        "autocorrelation_cao": f"{at}:AutocorrelationCao",
-        "fixed": f"{at}:Fixed",
-    }
-
-
-@hookimpl
-def lostmotion_quantifiers() -> dict[str, str]:
-    """Return the built-in quantifiers: those that read recordings and those that read the flow of a model."""
-    at = f"{_HERE}.quantifiers"
-    return {
-        "correlation_dimension": f"{at}.dimension:CorrelationDimension",
-        "correlation_entropy": f"{at}.dimension:CorrelationEntropy",
-        "kaplan_yorke": f"{at}.flows:KaplanYorke",
-        "lyapunov_kantz": f"{at}.kantz:Kantz",
-        "lyapunov_max": f"{at}.flows:LyapunovMax",
-        "lyapunov_rosenstein": f"{at}.rosenstein:Rosenstein",
-        "lyapunov_spectrum": f"{at}.flows:LyapunovSpectrum",
-        "lyapunov_wolf": f"{at}.wolf:Wolf",
-        "mutual_information": f"{at}.cheap:MutualInformation",
-        "noise_level": f"{at}.noise:NoiseLevel",
-        "prediction_error": f"{at}.cheap:PredictionError",
-        "section_dimension": f"{at}.section:SectionDimension",
-        "time_reversal": f"{at}.cheap:TimeReversal",
-    }
-
-
-@hookimpl
-def lostmotion_surrogates() -> dict[str, str]:
-    """Return the built-in surrogates."""
-    at = f"{_HERE}.surrogates"
-    return {
-        "aaft": f"{at}.spectral:Aaft",
-        "fourier": f"{at}.spectral:Fourier",
-        "iaaft": f"{at}.iterated:Iaaft",
-        "pseudo_periodic": f"{at}.cycles:PseudoPeriodic",
-    }
-
-
-@hookimpl
-def lostmotion_denoisers() -> dict[str, str]:
-    """Return the built-in denoisers."""
-    at = f"{_HERE}.denoisers"
-    return {
-        "local_projective": f"{at}.projective:LocalProjective",
-        "simple_nonlinear": f"{at}.simple:SimpleNonlinear",
     }
 
 

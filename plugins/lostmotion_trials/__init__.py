@@ -1,4 +1,4 @@
-"""Trials of lostmotion: a demonstration, a blind trial, a calibration of intervals, and a reproduction of the paper.
+"""Trials of lostmotion: a demonstration, a blind trial and a calibration of intervals.
 
 They use the framework as any other package could: their commands are registered by a hook.
 """
@@ -15,5 +15,4 @@ def lostmotion_commands() -> dict[str, tuple[str, str]]:
         "calibrate": (f"{_HERE}.coverage.command:command", "Test whether the intervals of identify cover the truth."),
         "demo": (f"{_HERE}.demo.command:command", "Hide friction in a simulated robot joint, and find it."),
         "prove": (f"{_HERE}.blind.command:command", "Run a blind trial of diagnose on machines with hidden effects."),
-        "reproduce": (f"{_HERE}.paper.command:command", "Reproduce the figures and tables of the paper of 2007."),
     }

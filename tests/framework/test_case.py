@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lostmotion.analysis.source import WantedChannel, load_source
 from lostmotion.case import CaseFile, Measured, Prior, SensorSpec, dump_case, load_case
 from lostmotion.errors import CaseError
 from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import Registry
+from lostmotion_chaos.analysis.source import WantedChannel, load_source
 
 GOOD = """
 title = "Link 2, 1.54 Hz"

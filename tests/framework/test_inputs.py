@@ -7,7 +7,6 @@ import pytest
 
 from lostmotion.contracts import Assembly
 from lostmotion.errors import ContractError, DataError
-from lostmotion.flow import Harmonic, make_stepped_flow
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.motion import compute_derivatives
 from lostmotion.likelihood.observation import Observation
@@ -16,6 +15,7 @@ from lostmotion.likelihood.reference import Reference
 from lostmotion.likelihood.system import Clock, System
 from lostmotion.quantities import quantity_of, unit_of
 from lostmotion.registry import default
+from lostmotion_chaos.flows.flow import Harmonic, make_stepped_flow
 
 DT, SAMPLES = 0.01, 200
 USUAL = ("lin_backlash", "robot_joint")

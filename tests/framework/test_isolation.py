@@ -10,8 +10,6 @@ import third_party
 from click.testing import CliRunner
 
 from lostmotion import registry
-from lostmotion.analysis import run as analyse
-from lostmotion.analysis.period import BasePeriod
 from lostmotion.cli import main
 from lostmotion.contracts import Series
 from lostmotion.diagnosis import run as diagnose
@@ -23,6 +21,8 @@ from lostmotion.preparation.prepare import Prepared
 from lostmotion.preparation.vetting import MethodWatch, find_raising_terms, usable_terms
 from lostmotion.registry import Registry
 from lostmotion.results import Embedding
+from lostmotion_chaos.analysis import run as analyse
+from lostmotion_chaos.analysis.period import BasePeriod
 
 pytestmark = pytest.mark.filterwarnings("ignore::lostmotion.errors.PluginWarning")
 ALL = [*third_party.GOOD, *(cls for cls, _ in (*third_party.TERMS, *third_party.METHODS))]
@@ -122,7 +122,7 @@ def test_a_map_goes_on_without_a_quantifier_that_breaks(known, tmp_path):
     assert "guest_q_nan has no value for 2 of 2 motions" in done.stderr
     assert "`lostmotion plugins check guest_q_nan`" in done.stderr
     assert "guest_crest" not in done.stderr
-    from lostmotion.maps.store import load
+    from lostmotion_chaos.maps.store import load
 
     table = load(tmp_path / "map.nc")
     assert np.isfinite(table["guest_crest"]).all()

@@ -8,12 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lostmotion.analysis.source import WantedChannel, load_source
 from lostmotion.errors import DataError
 from lostmotion.quantities import si_factor, spell_unit
 from lostmotion.recording import Channel, RecordingSpec, load_recording
 from lostmotion.recording.units import is_unit, note_unit, seconds, split_name, time_unit, unit_line
 from lostmotion.registry import Registry
+from lostmotion_chaos.analysis.source import WantedChannel, load_source
 
 N = 2000
 RATE = 997.0

@@ -12,6 +12,7 @@ from lostmotion import contracts, hookspecs, registry
 from lostmotion.cli import main
 from lostmotion.contracts import Model, Term
 from lostmotion.errors import PluginError
+from lostmotion.offers import ALL_KINDS, COMMAND
 from lostmotion.registry import Entry, Registry
 
 HOOK = "from lostmotion.hookspecs import hookimpl\n"
@@ -96,7 +97,7 @@ def test_the_built_in_plugins_are_found_through_their_entry_point():
 
 def test_kinds_and_hooks_agree_with_the_contracts():
     assert set(registry.KINDS) == set(contracts.KINDS)
-    assert {f"lostmotion_{kind}s" for kind in (*registry.KINDS, "command", "reader")} == {
+    assert {f"lostmotion_{kind}s" for kind in ALL_KINDS} == {
         name for name in vars(hookspecs) if name.startswith("lostmotion_")
     }
 
@@ -301,9 +302,9 @@ COMMANDS = HOOK + "@hookimpl\ndef lostmotion_commands():\n    return {}\n"
 
 def test_a_package_adds_a_command(installed):
     installed("polite", COMMANDS.replace("{}", '{"greet": ("polite_words:greet", "Say good day.")}'))
-    added = Registry.discover().commands()
+    added = Registry.discover().offered(COMMAND)
     assert added["greet"] == Entry("command", "greet", "polite", "1.0", "polite_words:greet", about="Say good day.")
-    assert {"demo", "prove", "calibrate", "reproduce"} <= set(added)
+    assert {"analyse", "calibrate", "demo", "map", "prove", "reproduce"} <= set(added)
 
 
 @pytest.fixture
@@ -316,11 +317,11 @@ def forgetful():
 
 @pytest.mark.usefixtures("forgetful")
 def test_a_command_in_a_file_runs_and_a_name_of_ours_stays_ours(file):
-    answer = '{"greet": ("rude:greet", "Say good day."), "map": ("rude:greet", "Draw.")}'
+    answer = '{"greet": ("rude:greet", "Say good day."), "simulate": ("rude:greet", "Draw.")}'
     rude = str(file("rude.py", COMMANDS.replace("{}", answer) + GREETING))
     run = CliRunner()
     assert run.invoke(main, ["--plugin", rude, "greet"]).output == "good day\n"
-    assert "Map the largest Lyapunov" in run.invoke(main, ["--plugin", rude, "map", "--help"]).output
+    assert "Simulate MODEL, and write" in run.invoke(main, ["--plugin", rude, "simulate", "--help"]).output
     assert "greet      Say good day." in run.invoke(main, ["--plugin", rude, "--help"]).output
 
 

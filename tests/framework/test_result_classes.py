@@ -12,7 +12,8 @@ from lostmotion import results
 from lostmotion.codec import schema
 from lostmotion.results.diagnosis import Diagnosis
 
-MODULES = [import_module(f"lostmotion.results.{one.name}") for one in pkgutil.iter_modules(results.__path__)]
+OURS = [f"lostmotion.results.{one.name}" for one in pkgutil.iter_modules(results.__path__)]
+MODULES = [import_module(name) for name in (*OURS, "lostmotion_chaos.results")]
 CLASSES = [
     kind
     for module in MODULES

@@ -8,9 +8,7 @@ import math
 import pytest
 
 from lostmotion.codec import from_plain, schema, to_plain
-from lostmotion.maps.layout import MapSettings
 from lostmotion.results import Interval
-from lostmotion.results.analysis import Analysis
 from lostmotion.results.background import Origin
 from lostmotion.results.identification import (
     DriveLevel,
@@ -21,6 +19,8 @@ from lostmotion.results.identification import (
     Parameter,
     Sampling,
 )
+from lostmotion_chaos.maps.layout import MapSettings
+from lostmotion_chaos.results import Analysis
 
 ORIGIN = Origin("identify", {"python": "3"}, {"terms": ["a"], "thresholds": {"select": {"decisive": 3.0}}}, 0, {})
 SAMPLING = Sampling(

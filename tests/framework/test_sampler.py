@@ -12,6 +12,7 @@ from lostmotion.identification.population import count_effective, temper_weights
 from lostmotion.identification.sampling import SamplingPlan, ShownCoordinate, Task, identify
 from lostmotion.identification.t_mixture import TMixture
 from lostmotion.likelihood.problem import FreeParameter
+from lostmotion_chaos.levels.incremental_mixture import find_mixture
 
 
 def two_modes(size, share):
@@ -111,7 +112,7 @@ def rugged(points):
 @pytest.fixture(scope="module")
 def sampled():
     toy = Toy(rugged, free_of(2, 0.0, 1.0))
-    return toy, TMixture.by_importance_sampling(toy, np.random.default_rng(4))
+    return toy, find_mixture(toy, np.random.default_rng(4))
 
 
 def exact(bins):

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import lostmotion as lm
-from lostmotion.results.analysis import Analysis
+from lostmotion_chaos.results import Analysis
 
 CASES = Path(__file__).resolve().parents[2].parent / "shared" / "cases"
 N = 4000

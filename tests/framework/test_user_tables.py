@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from lostmotion.analysis.source import WantedChannel, load_source
 from lostmotion.cli import main
 from lostmotion.errors import DataError
 from lostmotion.notebook.doors import make_case
@@ -20,6 +19,7 @@ from lostmotion.recording import Recording, Table, read_table
 from lostmotion.recording.clock import find_time
 from lostmotion.recording.outline import GivenRoles, Outline, outline_table
 from lostmotion.registry import Registry, default
+from lostmotion_chaos.analysis.source import WantedChannel, load_source
 
 CASES = Path(__file__).resolve().parents[2].parent / "shared" / "cases"
 N = 300

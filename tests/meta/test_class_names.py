@@ -5,7 +5,12 @@ from collections import defaultdict
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
-PACKAGES = ("framework/lostmotion", "plugins/lostmotion_plugins", "plugins/lostmotion_trials")
+PACKAGES = (
+    "framework/lostmotion",
+    "plugins/lostmotion_plugins",
+    "plugins/lostmotion_chaos",
+    "plugins/lostmotion_trials",
+)
 
 
 def places_by_name():

@@ -10,7 +10,7 @@ from click.testing import CliRunner
 
 from lostmotion import registry
 from lostmotion.cli import main
-from lostmotion.maps.store import load
+from lostmotion_chaos.maps.store import load
 
 PAGE = (Path(__file__).parents[2] / "docs" / "howto" / "plugins-in-a-file.md").read_text(encoding="utf-8")
 

@@ -18,7 +18,20 @@ from lostmotion.offers import HOOKS
 from lostmotion.registry import Registry
 
 ROOT = Path(__file__).parents[2]
-HEAVY = ("numpy", "numba", "scipy", "xarray", "matplotlib", "emcee", "arviz", "pint", "h5py", "jinja2", "tqdm", "zarr")
+HEAVY = (
+    "numpy",
+    "numba",
+    "scipy",
+    "xarray",
+    "matplotlib",
+    "emcee",
+    "arviz_stats",
+    "pint",
+    "h5py",
+    "jinja2",
+    "tqdm",
+    "zarr",
+)
 LISTING_SECONDS = 0.3
 SLOWER_MACHINE = 3.0
 """How much slower than the machine of the promise a test machine may be, its other work included."""

@@ -13,7 +13,6 @@ from scipy.integrate import solve_ivp
 from test_units import CASE
 
 from lostmotion.cli import main
-from lostmotion.flow import flow_of, make_stepped_flow
 from lostmotion.inference.fit import compute_sensitivity
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.engine import Dynamics, Points
@@ -24,8 +23,9 @@ from lostmotion.likelihood.predict import WORST, FreeRuns, predict_freely
 from lostmotion.likelihood.problem import USUAL, Innovations
 from lostmotion.likelihood.space import FreeParameter, ParameterSpace
 from lostmotion.likelihood.system import System
-from lostmotion.maps.cells import CODES
 from lostmotion.settings import DEFAULT
+from lostmotion_chaos.flows.flow import flow_of, make_stepped_flow
+from lostmotion_chaos.maps.cells import CODES
 from lostmotion_plugins.models.exact import ExactBacklash
 from lostmotion_plugins.models.lin import LinBacklash
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from lostmotion.flow import make_stepped_flow
 from lostmotion.likelihood.system import System
+from lostmotion_chaos.flows.flow import make_stepped_flow
 
 
 def flow_of(model, values, *, drive, start, steps=0):

@@ -10,7 +10,6 @@ import pytest
 from field import elsewhere
 
 from lostmotion.contracts import Assembly
-from lostmotion.flow import Harmonic, make_stepped_flow
 from lostmotion.inference.fit import maximise
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.motion import compute_derivatives
@@ -18,6 +17,7 @@ from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import NOISE, RANDOM, FreeParameter, Problem, Scales
 from lostmotion.likelihood.sensors import Sensor
 from lostmotion.likelihood.system import Clock, System
+from lostmotion_chaos.flows.flow import Harmonic, make_stepped_flow
 from lostmotion_plugins.models.gear_pair import GearPair
 from lostmotion_plugins.terms.elastic import CubicStiffness
 from lostmotion_plugins.terms.friction import CoulombFriction

@@ -9,10 +9,10 @@ import pytest
 from field import elsewhere, flow_of, followed
 from scipy.optimize import brentq
 
-from lostmotion.flow import Harmonic
+from lostmotion_chaos.flows.flow import Harmonic
+from lostmotion_chaos.quantifiers.flows import LyapunovMax, LyapunovSpectrum
 from lostmotion_plugins.models.clearance_chain import ClearanceChain
 from lostmotion_plugins.models.impact_oscillator import ImpactOscillator
-from lostmotion_plugins.quantifiers.flows import LyapunovMax, LyapunovSpectrum
 
 RNG = np.random.default_rng(0)
 

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from field import elsewhere
 
-from lostmotion.flow import Harmonic, make_stepped_flow
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.system import System
+from lostmotion_chaos.flows.flow import Harmonic, make_stepped_flow
 from lostmotion_plugins.models.clearance_chain import ClearanceChain
 from lostmotion_plugins.terms.elastic import CubicStiffness
 from lostmotion_plugins.terms.friction import CoulombFriction

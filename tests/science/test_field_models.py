@@ -10,10 +10,10 @@ from field import elsewhere, flow_of, followed
 from scipy.optimize import brentq
 from scipy.special import ellipj, mathieu_a, mathieu_b
 
-from lostmotion.flow import Harmonic
+from lostmotion_chaos.flows.flow import Harmonic
+from lostmotion_chaos.quantifiers.flows import KaplanYorke, LyapunovMax
 from lostmotion_plugins.models.duffing import Duffing
 from lostmotion_plugins.models.gear_mesh import GearMesh
-from lostmotion_plugins.quantifiers.flows import KaplanYorke, LyapunovMax
 
 RNG = np.random.default_rng(0)
 

@@ -70,7 +70,8 @@ WAYS = [
 def test_friction_of_a_motor_is_named_with_its_size(
     model: str, drive: str, sensors: tuple[str, ...], known: dict[str, float]
 ) -> None:
-    found = diagnose(run_motor(FRICTION), model, drive, sensors, **known)
+    samples = 1000 if model == "current_motor" else 500
+    found = diagnose(run_motor(FRICTION, samples=samples), model, drive, sensors, **known)
     friction = next(one for one in found.found if one.mechanism == "coulomb_friction")
     assert friction.parameters["force"].median == pytest.approx(FRICTION, rel=0.02)
     after = found.parameters_after

@@ -1,6 +1,7 @@
 """The command line: `main` has a table of its commands and imports a command only when it runs.
 
-Packages add commands by a hook; `demo`, `prove`, `calibrate` and `reproduce` come from `lostmotion_trials` in this way.
+Packages add commands by a hook; `demo` and `prove` come from `lostmotion_trials`, `analyse` and `map` from
+`lostmotion_chaos` in this way.
 """
 
 from __future__ import annotations
@@ -19,11 +20,9 @@ __all__ = ["PluginName", "examples", "main", "registry_of"]
 
 class _Commands(LazyGroup):
     table: ClassVar[Mapping[str, tuple[str, str]]] = {
-        "analyse": ("lostmotion.cli.analyse:command", "Classify a recorded motion as periodic, chaotic or noise."),
         "diagnose": ("lostmotion.cli.diagnose:command", "Find the physics that the model of a case does not include."),
         "identify": ("lostmotion.cli.identify:command", "Estimate the parameters of a case, with intervals."),
         "init": ("lostmotion.cli.init:command", "Inspect a recording and write a first case for it."),
-        "map": ("lostmotion.cli.map:command", "Map an exponent or another quantity over parameters."),
         "settings": ("lostmotion.cli.settings:command", "List the thresholds of all decisions, with reasons."),
         "simulate": ("lostmotion.cli.simulate:command", "Simulate a machine with or without extra terms."),
         "plugins": ("lostmotion.cli.plugins:command", "List, show and check the models, terms and methods."),

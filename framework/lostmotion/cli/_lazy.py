@@ -12,6 +12,7 @@ from typing import Any, ClassVar
 import click
 from click.shell_completion import CompletionItem
 
+from lostmotion.defaults import SOURCES
 from lostmotion.errors import LostMotionError, PluginWarning, nearest
 from lostmotion.offers import COMMAND
 from lostmotion.registry import KINDS, Registry, default
@@ -71,7 +72,7 @@ class LazyGroup(click.Group):
 
     def find_commands(self, ctx: click.Context) -> dict[str, tuple[str, str]]:
         """Return import target and one-line help of all commands by name, in alphabetical order."""
-        added = {e.name: (e.target, e.about) for e in registry_of(ctx).commands().values()}
+        added = {e.name: (e.target, e.about) for e in registry_of(ctx).offered(COMMAND).values()}
         return dict(sorted({**added, **self.table}.items()))
 
     def list_commands(self, ctx: click.Context) -> list[str]:
@@ -84,7 +85,7 @@ class LazyGroup(click.Group):
             module, _, attribute = self.table[cmd_name][0].partition(":")
             own: click.Command = getattr(import_module(module), attribute)
             return own
-        added = registry_of(ctx).commands()
+        added = registry_of(ctx).offered(COMMAND)
         if cmd_name not in added:
             return None
         command: click.Command = import_target(added[cmd_name].target, added[cmd_name].whose, click.Command)
@@ -100,6 +101,8 @@ class LazyGroup(click.Group):
                 for entry in registry_of(ctx).entries():
                     if (entry.kind, entry.name) == (COMMAND, args[0]):
                         raise SentenceError(entry.why)
+                if args[0] in SOURCES:
+                    raise SentenceError(registry_of(ctx).explain_absence(COMMAND, args[0]))
                 raise click.UsageError(f"there is no command {args[0]!r}{nearest(args[0], known)}", ctx)
         return super().resolve_command(ctx, args)
 

@@ -10,7 +10,7 @@ import click
 
 from lostmotion.cli._lazy import examples, flatten_text, registry_of
 from lostmotion.cli.options import add_common_options, add_model_option, add_settings_option, prepare_case
-from lostmotion.cli.progress import show_count, show_progress
+from lostmotion.progress import show_count, show_progress
 
 if TYPE_CHECKING:
     from lostmotion.settings import Settings

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -18,6 +16,7 @@ from lostmotion.cli.options import (
     add_terms_option,
     prepare_case,
 )
+from lostmotion.progress import show_count
 
 if TYPE_CHECKING:
     from lostmotion.identification.run import Identified
@@ -66,34 +65,27 @@ def command(
     run continues where it stopped. Exit status 0 when the sampling has ended, converged or not (a chain that has not
     converged gives no intervals); 2 for a case that cannot be used.
     """
-    from lostmotion.identification.run import IdentificationRequest, run_identification
+    from lostmotion.identification.routes import IdentificationRequest
+    from lostmotion.identification.run import run_identification
     from lostmotion.identification.sampling import SamplingPlan
 
     plan = SamplingPlan(**{key: given.pop(key) for key in ("ess", "max_steps", "walkers")}, limits=settings.chain)  # type: ignore[arg-type]
     order = IdentificationRequest(seed=seed, jobs=jobs, plan=plan, settings=settings, **given)  # type: ignore[arg-type]
     case = prepare_case(ctx, case, out, model)
-    with _show_bar(plan.max_steps, quiet=quiet) as watch:
+    with show_count("identify", plan.max_steps, "steps", quiet=quiet) as say:
+        steps = 0
+
+        def watch(more: int, says: str) -> None:
+            nonlocal steps
+            steps += more
+            say(steps, plan.max_steps, says)
+
         done = run_identification(case, out, registry_of(ctx), order, watch)
     if done.posterior.replaced:
         click.echo("The stored chain belongs to another case or to other settings: a new chain was begun.", err=True)
     for line in (*_format_table(done), *done.result.says, *done.result.notes, _format_speed(done)):
         click.echo(line)
     click.echo(str(out / "report.html"))
-
-
-@contextmanager
-def _show_bar(most: int, *, quiet: bool) -> Iterator[Callable[[int, str], None]]:
-    """Yield a function that shows the number of steps and the state of the chain as a progress bar."""
-    from tqdm import tqdm
-
-    with tqdm(desc="identify", total=most, unit="step", leave=False, disable=True if quiet else None) as bar:
-
-        def watch(steps: int, says: str) -> None:
-            bar.set_postfix_str(says, refresh=False)
-            bar.update(steps)
-            bar.refresh()
-
-        yield watch
 
 
 def _format_table(done: Identified) -> list[str]:

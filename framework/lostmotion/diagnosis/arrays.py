@@ -7,9 +7,9 @@ from collections.abc import Mapping
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.diagnosis.attractors import take_section
 from lostmotion.diagnosis.findings import Outcome
 from lostmotion.diagnosis.levels import list_levels
+from lostmotion.diagnosis.motions import take_section
 from lostmotion.diagnosis.search import ForceLocation, SearchResult, list_physical_keys
 from lostmotion.inference.fit import Fit
 from lostmotion.quantities import unit_of

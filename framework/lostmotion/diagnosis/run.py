@@ -13,7 +13,6 @@ import numpy as np
 from lostmotion.case import CaseFile
 from lostmotion.codec import to_plain
 from lostmotion.diagnosis.arrays import list_arrays
-from lostmotion.diagnosis.attractors import list_motions
 from lostmotion.diagnosis.compare import (
     average_exponent,
     choose_heldout_horizon,
@@ -27,13 +26,14 @@ from lostmotion.diagnosis.disagreements import describe_disagreement
 from lostmotion.diagnosis.evidences import check_evidence
 from lostmotion.diagnosis.findings import Outcome, draw_parameters, explain_withheld, list_findings
 from lostmotion.diagnosis.mixed import draw_mixture
+from lostmotion.diagnosis.motions import list_motions
 from lostmotion.diagnosis.moving import note_rest
 from lostmotion.diagnosis.notes import write_notes
 from lostmotion.diagnosis.report.page import write_report
 from lostmotion.diagnosis.rivals import Proposals, describe_confusions, propose_experiments
 from lostmotion.diagnosis.search import SearchResult, diagnose, explain_by
 from lostmotion.diagnosis.sharings import add_sharing
-from lostmotion.diagnosis.show import ShownMotions, measure_behaviour
+from lostmotion.diagnosis.show import measure_behaviour
 from lostmotion.diagnosis.states import limit_confidence, list_open_terms, sort_findings
 from lostmotion.diagnosis.unknowns import describe_dependence
 from lostmotion.diagnosis.verdict import (
@@ -148,9 +148,7 @@ def diagnose_prepared(
     diagnosis = outcome.diagnosis
     motions = list_motions(diagnosis)
     say("attractors")
-    show = measure_behaviour(
-        ShownMotions(outcome, motions, diagnosis.corrected, registry), np.random.default_rng([seed, SHOW])
-    )
+    show = measure_behaviour(outcome, motions, registry, np.random.default_rng([seed, SHOW]))
     stream = np.random.default_rng([seed, NEXT])
     proposals = propose_experiments(diagnosis, prepared.case.experiment if propose else None, rng=stream, say=say)
     say("evidence by sampling")

@@ -19,6 +19,8 @@ from lostmotion.settings import DEFAULT, NoteSettings, Settings
 
 TRANSIENT = "transient"
 """The status of a measure of attractors if the motion decays; it has no sentence."""
+ABSENT = "absent"
+"""The status of a measure that no installed package offers."""
 
 
 def describe_behaviour(
@@ -74,6 +76,8 @@ def _describe_distance(entry: Distance, strobed: bool, limits: NoteSettings) -> 
     opening = f"Energy distance between {where} of recording and free run"
     if entry.status == TRANSIENT:
         return ""
+    if entry.status == ABSENT:
+        return f"{opening}: not measured, as no installed package does so."
     if entry.status == "too_short":
         return f"{opening}: the recording has too few points."
     if entry.status != "ok":

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,7 +13,12 @@ from lostmotion.contracts import Array
 from lostmotion.results import rounded
 from lostmotion.settings import DEFAULT, ChainSettings
 
+if TYPE_CHECKING:
+    import xarray as xr
+
 GROUPS = 4
+TAILS = (0.05, 0.95)
+"""The quantiles of which the less certain one determines the effective sample size of the tails."""
 
 
 @dataclass(frozen=True)
@@ -49,13 +53,15 @@ class ChainQuality:
 
 def measure_quality(chain: Array) -> ChainQuality:
     """Return the quality of a chain (walkers, steps, parameters) without burn-in."""
-    arviz = import_arviz()
+    import arviz_stats
+
     columns = list(np.moveaxis(chain, 2, 0))
+    where = {"chain_axis": 0, "draw_axis": 1}
     return ChainQuality(
         tau=compute_autocorrelation(chain),
-        ess=np.array([float(arviz.ess(c, method="bulk")) for c in columns]),
-        ess_tail=np.array([float(arviz.ess(c, method="tail")) for c in columns]),
-        rhat=np.array([float(arviz.rhat(group_walkers(c))) for c in columns]),
+        ess=np.array([float(arviz_stats.ess(c, method="bulk", **where)) for c in columns]),
+        ess_tail=np.array([float(arviz_stats.ess(c, method="tail", prob=TAILS, **where)) for c in columns]),
+        rhat=np.array([float(arviz_stats.rhat(group_walkers(c), **where)) for c in columns]),
         steps=chain.shape[1],
     )
 
@@ -79,28 +85,21 @@ def group_walkers(walks: Array) -> Array:
     return np.stack([walks[i::GROUPS][:size].T.ravel() for i in range(GROUPS)])
 
 
-def import_arviz() -> Any:
-    """Return the module arviz, imported without its warnings."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        import arviz
-    return arviz
-
-
-def make_inference_data(
+def make_groups_of_draws(
     variables: Mapping[str, Array], log_density: Array, units: Mapping[str, str], attrs: Mapping[str, str | int]
-) -> Any:
-    """Return variables and log density, each (walkers, steps), as ArviZ's `InferenceData`, units in the attributes.
+) -> dict[str, xr.Dataset]:
+    """Return the groups `posterior` and `sample_stats` of draws, each variable (chain, draw), in the layout of ArviZ.
 
-    The time of creation is left out, so that the same chain gives the same bytes.
+    `variables` and `log_density` are (walkers, steps); `attrs` stand on both groups. There is no time of creation, so
+    the same chain gives the same bytes.
     """
-    arviz = import_arviz()
-    with warnings.catch_warnings():  # arviz warns about more walkers than steps, which are intended here
-        warnings.simplefilter("ignore")
-        data = arviz.from_dict(posterior=dict(variables), sample_stats={"lp": log_density})
-    for group in (data.posterior, data.sample_stats):
-        group.attrs = dict(attrs)
-    for name, unit in units.items():
-        data.posterior[name].attrs["units"] = unit
-    data.sample_stats["lp"].attrs["long_name"] = "log posterior density in the coordinates of the sampler"
-    return data
+    import xarray as xr
+
+    walkers, steps = log_density.shape
+    dims, coords = ("chain", "draw"), {"chain": np.arange(walkers), "draw": np.arange(steps)}
+    rows = {name: (dims, values, {"units": units[name]}) for name, values in variables.items()}
+    said = {"long_name": "log posterior density in the coordinates of the sampler"}
+    return {
+        "posterior": xr.Dataset(rows, coords, attrs),
+        "sample_stats": xr.Dataset({"lp": (dims, log_density, said)}, coords, attrs),
+    }

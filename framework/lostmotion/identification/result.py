@@ -4,22 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-import numpy as np
-
 from lostmotion.case import CaseFile
-from lostmotion.case.levels import Measured
-from lostmotion.contracts import Array
-from lostmotion.identification.levels import compute_derived
 from lostmotion.identification.sampling import NOISES, SampledPosterior
 from lostmotion.likelihood.space import split_key
-from lostmotion.maps.inversion import Inversion, Predicted
 from lostmotion.results import Interval
 from lostmotion.results.background import Origin
 from lostmotion.results.identification import (
-    DriveLevel,
-    ExpectedMotion,
     Identification,
-    MeasuredRange,
     Parameter,
     RouteName,
     Sampling,
@@ -108,36 +99,3 @@ def write_mode_notes(modes: int) -> list[str]:
         f"The posterior has {modes} separate modes: {modes} different sets of parameters explain the recording. The"
         " draws contain each mode with its weight; look at the figure of pairs before you quote a single interval."
     ]
-
-
-def make_drive_level(one: Predicted) -> DriveLevel:
-    """Return a level with the measured values and the prediction of the posterior."""
-    level = one.level
-    return DriveLevel(
-        name=level.name,
-        amplitude=level.amplitude,
-        unit=level.unit,
-        omega=level.omega,
-        motion=level.motion,
-        lyapunov=_make_measured_range(level.lyapunov, "1/s"),
-        d2=_make_measured_range(level.d2, "1"),
-        predicted=ExpectedMotion(chaotic_share=one.chaotic_share, lyapunov=one.lyapunov, d2=one.d2),
-    )
-
-
-def _make_measured_range(seen: Measured | None, unit: str) -> MeasuredRange | None:
-    if seen is None:
-        return None
-    half = 1.96 * seen.sd
-    return MeasuredRange(value=seen.value, low=seen.value - half, high=seen.value + half, unit=unit)
-
-
-def compute_derived_intervals(posterior: Inversion, points: Array, found: SampledPosterior) -> Mapping[str, Interval]:
-    """Return the intervals of derived numbers; none from a chain that has not converged."""
-    if not found.converged:
-        return {}
-    rows = {}
-    for name, values in compute_derived(posterior, points).items():
-        low, median, high = np.quantile(values, [0.025, 0.5, 0.975]).tolist()
-        rows[name] = Interval(median, low, high, "1")
-    return rows

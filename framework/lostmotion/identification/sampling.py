@@ -7,13 +7,18 @@ import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.errors import CaseError, DataError
-from lostmotion.identification.chains import ChainQuality, compute_autocorrelation, make_inference_data, measure_quality
+from lostmotion.identification.chains import (
+    ChainQuality,
+    compute_autocorrelation,
+    make_groups_of_draws,
+    measure_quality,
+)
 from lostmotion.identification.checkpoint import StoredChain, compute_digest, load, remove_temporary_files, save
 from lostmotion.identification.moves import (
     JUMP_SHARE,
@@ -29,6 +34,9 @@ from lostmotion.identification.task import NOISES, ShownCoordinate, Task, make_t
 from lostmotion.provenance import origin_of
 from lostmotion.results import Interval
 from lostmotion.settings import DEFAULT, ChainSettings
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 __all__ = [
     "NOISES",
@@ -119,10 +127,10 @@ class SampledPosterior:
         """The standard deviation of each parameter; empty when the chain has not converged."""
         return dict(zip(self.keys, self.draws.std(axis=0).tolist(), strict=True)) if self.converged else {}
 
-    def inference_data(self, attrs: Mapping[str, str | int]) -> Any:
-        """Return the draws as ArviZ's `InferenceData`, groups posterior and sample_stats, with `attrs` on both."""
+    def groups(self, attrs: Mapping[str, str | int]) -> dict[str, xr.Dataset]:
+        """Return the draws as the groups `posterior` and `sample_stats` of ArviZ, with `attrs` on both."""
         columns = {k: np.ascontiguousarray(self.chain[:, :, i]) for i, k in enumerate(self.keys)}
-        return make_inference_data(columns, self.log_density, dict(zip(self.keys, self.units, strict=True)), attrs)
+        return make_groups_of_draws(columns, self.log_density, dict(zip(self.keys, self.units, strict=True)), attrs)
 
 
 def identify(

@@ -64,13 +64,6 @@ class TMixture:
         scores = scale.to_scores(points)
         return cls(np.ones(1), scores.mean(axis=0)[None], np.diag(scores.std(axis=0))[None], scale)
 
-    @classmethod
-    def by_importance_sampling(cls, posterior: Any, rng: np.random.Generator) -> TMixture:
-        """Return a mixture found from the prior by population Monte Carlo, for a cheap posterior with many modes."""
-        from lostmotion.identification.incremental_mixture import find_mixture  # that module imports this one
-
-        return find_mixture(posterior, rng)
-
     @property
     def kernels(self) -> int:
         """The number of kernels."""

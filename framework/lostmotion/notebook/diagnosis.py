@@ -174,29 +174,30 @@ class DiagnosisResult:
         """Return the arrays behind the diagnosis, with units and coordinates."""
         return self.arrays
 
-    def to_arviz(self) -> Any:
-        """Return ArviZ's `InferenceData`: draws of the parameters after (one chain), and the observed data.
+    def to_arviz(self) -> xr.DataTree:
+        """Return the groups of ArviZ as a tree: draws of the parameters after (one chain), and the observed data.
 
-        A diagnosis made in this session also has `log_likelihood` and `posterior_predictive`, for `arviz.loo` and
-        `arviz.plot_ppc`, with `PREDICTED_DRAWS` draws over the fitted part of the recording.
+        A diagnosis made in this session also has `log_likelihood` and `posterior_predictive`, for leave-one-out
+        predictions and their plots, with `PREDICTED_DRAWS` draws over the fitted part of the recording.
         """
-        import arviz
+        import xarray as xr
 
-        names = [str(name) for name in self.arrays["parameter_after"].values]
-        draws, predicted = np.asarray(self.arrays["posterior_after"], dtype=float), self._predict_readings()
-        response = {"response": np.asarray(self.arrays["response"], dtype=float)}
-        made = arviz.from_dict(
-            posterior={name: draws[None, :, i] for i, name in enumerate(names)},
-            observed_data=None if predicted else response,
-            constant_data=response if predicted else None,
-            dims={"response": ["time"]},
-            coords={"time": np.asarray(self.arrays["time"], dtype=float)},
+        names, predicted = [str(name) for name in self.arrays["parameter_after"].values], self._predict_readings()
+        draws, units = np.asarray(self.arrays["posterior_after"], dtype=float), self.parameters_after
+        rows = {
+            name: (("chain", "draw"), draws[None, :, i], {"units": units[name].unit} if name in units else {})
+            for i, name in enumerate(names)
+        }
+        response = xr.Dataset({"response": ("time", np.asarray(self.arrays["response"], dtype=float))})
+        response = response.assign_coords(time=np.asarray(self.arrays["time"], dtype=float))
+        coords = {"chain": np.arange(1), "draw": np.arange(len(draws))}
+        return xr.DataTree.from_dict(
+            {
+                "posterior": xr.Dataset(rows, coords),
+                "constant_data" if predicted else "observed_data": response,
+                **predicted,
+            }
         )
-        for name, interval in self.parameters_after.items():
-            if name in made.posterior:
-                made.posterior[name].attrs["units"] = interval.unit
-        made.add_groups(predicted)
-        return made
 
     def _predict_readings(self) -> dict[str, Any]:
         """Return the ArviZ groups for the readings, by name; none where the diagnosis was loaded from a folder."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -23,36 +23,28 @@ from lostmotion.arguments import (
     path,
     paths,
     positive,
-    text,
     whole,
-    words,
 )
 from lostmotion.case import GUESSED, Prior
 from lostmotion.contracts import Model
-from lostmotion.defaults import EMBEDDER
-from lostmotion.errors import CaseError, DataError, nearest
-from lostmotion.notebook.analysis import AnalysisResult, load_analysis
+from lostmotion.errors import CaseError, DataError
 from lostmotion.notebook.case import Case
 from lostmotion.notebook.diagnosis import DiagnosisResult, load_diagnosis
 from lostmotion.notebook.posterior import IdentificationResult, load_identification
-from lostmotion.notebook.progress import show_progress
 from lostmotion.notebook.recorded import read_recorded_case
-from lostmotion.notebook.rules import CASE, RUN
-from lostmotion.rates import UNITS
+from lostmotion.notebook.rules import CASE
+from lostmotion.offers import RESULT
+from lostmotion.progress import show_progress
 from lostmotion.recording import Recording
 from lostmotion.recording.checks import fill_lost
 from lostmotion.recording.formats import is_recording
 from lostmotion.registry import Registry, default
 from lostmotion.settings import DEFAULT, Settings, read
 
-if TYPE_CHECKING:
-    pass
-
 Modelled = Model | type[Model] | str | Sequence[str]
 LOADERS: Mapping[str, Callable[[Path], Any]] = {
     "diagnosis.json": load_diagnosis,
     "identification.json": load_identification,
-    "analysis.json": load_analysis,
 }
 
 
@@ -83,7 +75,7 @@ def diagnose(
 
     known_to, limits = registry or default(), read(settings)
     asked = make_case(case, model, known, estimate, known_to, limits=limits)
-    with show_progress("diagnose", progress) as say:
+    with show_progress("diagnose", quiet=not progress, lines=False) as say:
         done = diagnose_prepared(
             asked.prepare(known_to, terms, limits), known_to, seed=seed, jobs=jobs, say=say, settings=limits
         )
@@ -129,7 +121,8 @@ def identify(
     continued unless a `fresh` chain is wanted. `route` is "trajectory" or "quantifiers"; the latter needs the path of a
     case and accepts `maps`. `settings` are as for `diagnose`.
     """
-    from lostmotion.identification.run import IdentificationRequest, choose_route, identify_case, make_inference_data
+    from lostmotion.identification.routes import IdentificationRequest, choose_route
+    from lostmotion.identification.run import collect_groups, identify_case
     from lostmotion.identification.sampling import SamplingPlan
     from lostmotion.preparation.prepare import case_of
 
@@ -139,7 +132,7 @@ def identify(
     order = IdentificationRequest(
         list_texts(terms), seed, jobs, plan, route, tuple(Path(m) for m in maps), fresh, limits
     )
-    with show_progress("identify", progress) as say, TemporaryDirectory() as spare:
+    with show_progress("identify", quiet=not progress, lines=False) as say, TemporaryDirectory() as spare:
         place = Path(out) if out is not None else Path(spare)
         file = case_of(Path(case), known_to) if isinstance(case, str | Path) else None
         if file is not None and choose_route(file, order) == "quantifiers":
@@ -149,89 +142,8 @@ def identify(
                 known_to, settings=limits
             )
             done = identify_case(prepared.case, prepared, place, known_to, order, lambda _steps, says: say(says))
-        data = make_inference_data(done)
-    found = IdentificationResult(done.result, {name: data[name] for name in data.groups()})
-    if out is not None:
-        found.save(out)
-    return found
-
-
-@checked(
-    **RUN,
-    channel=maybe(text),
-    columns=words,
-    time=maybe(text),
-    rate=maybe(positive),
-    every=whole(1),
-    period=maybe(positive),
-    embedder=text,
-    denoiser=maybe(text),
-    quantifiers=words,
-    surrogates=words,
-    draws=whole(1, 100_000),
-    unit=choice(*UNITS),
-)
-def analyse(
-    recording: Recording | str | Path,
-    *,
-    channel: str | None = None,
-    progress: bool = True,
-    out: str | Path | None = None,
-    registry: Registry | None = None,
-    columns: str | Iterable[str] = (),
-    time: str | None = None,
-    rate: float | None = None,
-    every: int = 1,
-    period: float | None = None,
-    embedder: str = EMBEDDER,
-    denoiser: str | None = None,
-    quantifiers: str | Iterable[str] = (),
-    surrogates: str | Iterable[str] = (),
-    draws: int = 99,
-    unit: str = "1/s",
-    seed: int = 0,
-    jobs: int = 2,
-    settings: Settings | Mapping[str, float] | None = None,
-) -> AnalysisResult:
-    """Return the kind of motion in a recording, with exponents, dimensions and surrogate tests.
-
-    `channel` names a sensor of a `Recording`; for a file, `columns` names its columns, `time` that of time where the
-    automatic choice is wrong, and `rate` (Hz) is needed where it has no time. One sample of `every` is kept. `period`
-    (s) is the period of the drive, if it is known. Plugins are given by name: `embedder`, `denoiser` ("none" for no
-    reduction; with None the noise level decides), further `quantifiers`, and `surrogates` with the number of their
-    `draws`. `unit` is the unit of exponents: "1/s", "bit/s", "1/period" or "bit/period". `settings` are as for
-    `diagnose`.
-    """
-    from lostmotion.analysis.run import AnalysisRequest, analyse_source
-    from lostmotion.analysis.source import WantedChannel, extract_source, load_source
-
-    request = AnalysisRequest(
-        columns=list_texts(columns),
-        rate=rate,
-        every=every,
-        period=period,
-        embedder=embedder,
-        denoiser=denoiser,
-        quantifiers=list_texts(quantifiers),
-        surrogates=list_texts(surrogates),
-        draws=draws,
-        unit=unit,
-        seed=seed,
-        jobs=jobs,
-        settings=read(settings),
-        time=time,
-    )
-    known_to = registry or default()
-    if not isinstance(recording, (Recording, str, Path)):
-        raise DataError(f"recording is {describe(recording)}: expected a Recording, or the path of one")
-    if isinstance(recording, Recording):
-        source = extract_source(recording, _find_sensor(recording, channel))
-    else:
-        wanted = WantedChannel(request.columns or list_texts(channel or ()), request.rate, request.every, time)
-        source = load_source(Path(recording), wanted, known_to, request.settings.recording)
-    with show_progress("analyse", progress) as say:
-        result, arrays = analyse_source(source, known_to, request, say)
-    found = AnalysisResult(result, arrays)
+        groups = collect_groups(done)
+    found = IdentificationResult(done.result, groups)
     if out is not None:
         found.save(out)
     return found
@@ -240,11 +152,12 @@ def analyse(
 @checked(folder=path)
 def load(folder: str | Path) -> Any:
     """Return the result that a command or `.save` wrote into a folder: a diagnosis, identification or analysis."""
-    place = Path(folder)
-    for name, reader in LOADERS.items():
+    place, known = Path(folder), default()
+    offered = tuple(known.offered(RESULT))
+    for name in (*LOADERS, *offered):
         if (place / name).is_file():
-            return reader(place)
-    raise DataError(f"{place} contains no result: a folder with one of {', '.join(LOADERS)} is needed")
+            return (LOADERS[name] if name in LOADERS else known.function(RESULT, name))(place)
+    raise DataError(f"{place} contains no result: a folder with one of {', '.join((*LOADERS, *offered))} is needed")
 
 
 def make_case(
@@ -297,16 +210,4 @@ def _guess_case(
     return Case(recording, given, {**fixed, **known}, {**priors, **estimate}, recording.name, notes=notes)
 
 
-def _find_sensor(recording: Recording, channel: str | None) -> int:
-    """Return the index of the sensor with this name or channel; 0 where none is named."""
-    if channel is None:
-        return 0
-    for kind in ("sensor", "of"):
-        for number, array in enumerate(recording.sensors):
-            if array.attrs[kind] == channel:
-                return number
-    known = [str(array.attrs["sensor"] or array.attrs["of"]) for array in recording.sensors]
-    raise DataError(f"{recording.name} has no sensor {channel!r}{nearest(channel, known)}: it has {', '.join(known)}")
-
-
-__all__ = ["Case", "Modelled", "analyse", "diagnose", "identify", "load"]
+__all__ = ["Case", "Modelled", "diagnose", "identify", "load"]

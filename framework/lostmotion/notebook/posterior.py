@@ -92,12 +92,11 @@ class IdentificationResult:
         """Return the draws of each parameter (chain, draw), with units."""
         return self.groups["posterior"]
 
-    def to_arviz(self) -> Any:
-        """Return ArviZ's `InferenceData`."""
-        import arviz
+    def to_arviz(self) -> xr.DataTree:
+        """Return the groups of ArviZ as a tree, on which the functions of ArviZ work."""
+        import xarray as xr
 
-        groups: dict[str, Any] = dict(self.groups)
-        return arviz.InferenceData(**groups)
+        return xr.DataTree.from_dict(dict(self.groups))
 
     def report(self, path: str | Path = "report.html") -> Path:
         """Write the page as self-contained HTML and return its path."""

@@ -6,7 +6,7 @@ Listing the names imports neither NumPy nor numba nor the contracts.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from contextlib import nullcontext
 from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import lru_cache
@@ -15,9 +15,10 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+from lostmotion.defaults import SOURCES
 from lostmotion.errors import LostMotionError, PluginError, nearest
 from lostmotion.hookspecs import GROUP
-from lostmotion.offers import COMMAND, FAILURES, KINDS, READER, Host, RefusedError, call_guarded, first_line
+from lostmotion.offers import ALL_KINDS, FAILURES, KINDS, Host, RefusedError, call_guarded, first_line
 from lostmotion.provenance import digest
 from lostmotion.registry.classes import (
     class_of,
@@ -42,7 +43,7 @@ class Entry:
     """One offered name, or a faulty package that offers nothing (kind "package").
 
     `state` is "ready", "broken", "clash" or "misspelt hook"; `why` is one sentence when it is not "ready". `about` is
-    the help line of a command, or what the library of a reader is called for pip.
+    the help line of a function, or what the library of a reader is called for pip.
     """
 
     kind: str
@@ -120,13 +121,29 @@ class Registry:
 
     def entries(self) -> tuple[Entry, ...]:
         """Return all offered names, sorted by kind and name, with the reason where one cannot be used."""
-        order = {kind: i for i, kind in enumerate((*KINDS, COMMAND, READER, _PACKAGE))}
+        order = {kind: i for i, kind in enumerate((*ALL_KINDS, _PACKAGE))}
         checked = (self._checked_for_clash(e) for e in self._offers)
         return tuple(sorted(checked, key=lambda e: (order[e.kind], e.name, e.owner)))
 
-    def commands(self) -> dict[str, Entry]:
-        """Return the usable commands that packages add to the command line, by name."""
-        return {e.name: e for e in self.entries() if e.kind == COMMAND and e.state == "ready"}
+    def offered(self, kind: str) -> dict[str, Entry]:
+        """Return the usable names of a kind of `offers` that packages add, such as `COMMAND`, with their entries."""
+        return {e.name: e for e in self.entries() if e.kind == kind and e.state == "ready"}
+
+    def function(self, kind: str, name: str) -> Callable[..., Any]:
+        """Return the function of a kind of `offers`; raise `PluginError` where no usable package offers the name."""
+        entry = self.offered(kind).get(name)
+        if entry is None:
+            raise PluginError(self.explain_absence(kind, name))
+        found: Callable[..., Any] = import_target(entry.target, entry.whose, Callable)  # type: ignore[arg-type]
+        return found
+
+    def explain_absence(self, kind: str, name: str) -> str:
+        """Return the sentence on a function that no usable package offers."""
+        faulty = [e for e in self.entries() if e.why and ((e.kind, e.name) == (kind, name) or e.kind == _PACKAGE)]
+        if faulty:
+            return f"the {kind} {name!r} cannot be used: {faulty[0].owner}: {faulty[0].why}"
+        source = f"it belongs to {SOURCES[name]}, so install this" if name in SOURCES else "install one that does"
+        return f"no installed package offers the {kind} {name!r}: {source}"
 
     def entry(self, kind: str, name: str) -> Entry:
         """Return the entry of a name; raise `PluginError` when it is unknown or offered twice."""

@@ -10,7 +10,7 @@ import tempfile
 import threading
 import time
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from types import ModuleType
@@ -20,6 +20,7 @@ from lostmotion.errors import PluginError, PluginWarning, nearest
 from lostmotion.offers import FAILURES, first_line
 from lostmotion.registry.words import find_misfit
 
+_NAMES: Mapping[type[Any], str] = {type: "class", Callable: "function"}  # type: ignore[dict-item]
 SLOW = 2.0
 """The time (s) of an import above which a warning is given."""
 
@@ -61,7 +62,7 @@ def import_target(target: str, whose: str, wanted: type[Any] = type) -> Any:
     except FAILURES as err:
         raise PluginError(f"{whose} could not be imported from {module}: {first_line(err)}: inform its author") from err
     if not isinstance(thing := getattr(found, attribute, None), wanted):
-        near, what = nearest(attribute, vars(found)), "class" if wanted is type else f"{wanted.__name__}"
+        near, what = nearest(attribute, vars(found)), _NAMES.get(wanted, wanted.__name__)
         raise PluginError(f"{whose} points to {target}, and there is no such {what}{near}: correct its hook")
     return thing
 

@@ -21,7 +21,7 @@ class Distance:
 
     value: float = described("energy distance, in standard deviations of the motion")
     p: float = described("p-value against chance")
-    status: str = described("ok, too_short, diverged or transient")
+    status: str = described("ok, too_short, diverged, transient or absent", default="ok")
 
 
 @dataclass(frozen=True)

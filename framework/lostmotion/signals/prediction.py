@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
-from lostmotion.signals.series import Array
+Array = NDArray[np.float64]
 
 ORDER = 32
 """The order of the prediction: a sine needs two, each further one as many."""

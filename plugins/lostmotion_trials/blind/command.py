@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,6 +9,7 @@ import click
 
 from lostmotion.cli import PluginName, examples
 from lostmotion.cli.options import add_common_options
+from lostmotion.progress import show_count
 
 if TYPE_CHECKING:
     from lostmotion_trials.blind.results import Target
@@ -65,32 +64,16 @@ def command(ctx: click.Context, /, out: Path, only: tuple[str, ...], **given: An
 
     plugins = tuple(str(Path(file).absolute()) for file in ctx.find_root().params.get("plugin") or ())
     blind = Blind(given["seed"], given["samples"], only, given["clean"], given["world"])
-    with _show_progress(given["cases"], quiet=given["quiet"]) as say:
+    with show_count("prove", given["cases"], "cases", quiet=given["quiet"]) as show:
+
+        def say(step: str, done: int, of: int) -> None:
+            show(done, of, step)
+
         options = {key: given[key] for key in ("cases", "jobs", "fresh")}
         content = run_proof(blind, out, plugins=plugins, say=say, **options)
     for line in (*content.summary.says, *map(_format_target, content.summary.targets)):
         click.echo(line)
     click.echo(str(out / "report.html"))
-
-
-@contextmanager
-def _show_progress(cases: int, *, quiet: bool) -> Iterator[Callable[[str, int, int], None]]:
-    """Yield a function that shows the current step and how many of its cases are done."""
-    from tqdm import tqdm
-
-    with tqdm(desc="prove", total=cases, unit=" cases", leave=False, disable=True if quiet else None) as bar:
-        told: list[str] = []
-
-        def say(step: str, done: int, _of: int) -> None:
-            if step not in told:
-                told.append(step)
-                bar.set_description(step, refresh=False)
-                bar.reset()
-                bar.initial = done
-            bar.n = done
-            bar.refresh()
-
-        yield say
 
 
 def _format_target(target: Target) -> str:

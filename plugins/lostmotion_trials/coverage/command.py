@@ -11,7 +11,7 @@ import click
 
 from lostmotion.cli import examples
 from lostmotion.cli.options import add_case_options, add_maps_option, add_terms_option
-from lostmotion.cli.progress import show_count
+from lostmotion.progress import show_count
 
 if TYPE_CHECKING:
     from lostmotion_trials.coverage.results import ParameterCheck

@@ -10,7 +10,7 @@ from pathlib import Path
 import click
 
 from lostmotion.cli import examples, registry_of
-from lostmotion.cli.progress import show_progress
+from lostmotion.progress import show_progress
 
 NOT_FOUND = 1
 

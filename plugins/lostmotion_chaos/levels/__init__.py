@@ -1,0 +1,1 @@
+"""Parameters estimated from measures of chaos at several levels of the drive."""

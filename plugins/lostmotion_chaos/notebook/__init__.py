@@ -1,0 +1,1 @@
+"""The Python interface: `lostmotion.analyse(...)`, `lostmotion.map(...)` and their results."""
