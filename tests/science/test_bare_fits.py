@@ -9,6 +9,7 @@ from explained import made_of
 
 from lostmotion.evidence.bare import BareFits, Budget, name_terms
 from lostmotion.evidence.channels import list_channel_errors
+from lostmotion.evidence.loads import fit_loads
 from lostmotion.inference.candidates import join_term
 from lostmotion.inference.curves import add_all_curves
 from lostmotion.inference.fit import maximise, restart
@@ -147,3 +148,7 @@ def test_terms_are_named_in_order_and_an_unknown_force_costs_as_much_as_one_of_m
     assert name_terms(()) == "no term"
     assert compute_unknown_price(20) - compute_unknown_price(10) == pytest.approx(np.log(2.0))
     assert compute_unknown_price(0) == 1.0
+
+
+def test_forces_of_a_load_cell_are_tried_for_load_cells_only(nominal):
+    assert list(fit_loads(nominal, KEYS, lambda _: None)) == []

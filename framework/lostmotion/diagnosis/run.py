@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -34,7 +34,7 @@ from lostmotion.diagnosis.rivals import Proposals, describe_confusions, propose_
 from lostmotion.diagnosis.search import SearchResult, diagnose, explain_by
 from lostmotion.diagnosis.sharings import add_sharing
 from lostmotion.diagnosis.show import measure_behaviour
-from lostmotion.diagnosis.states import limit_confidence, list_open_terms, sort_findings
+from lostmotion.diagnosis.states import NAMED, limit_confidence, list_open_terms, sort_findings
 from lostmotion.diagnosis.unknowns import describe_dependence
 from lostmotion.diagnosis.verdict import (
     count_bodies,
@@ -72,7 +72,7 @@ from lostmotion.recording import Recording
 from lostmotion.registry import Registry
 from lostmotion.results.background import FittedMachine, Origin, RecordingFacts, SensorChannel, TermFacts
 from lostmotion.results.behaviour import Behaviour
-from lostmotion.results.diagnosis import Diagnosis, Response
+from lostmotion.results.diagnosis import Diagnosis, Mechanism, Response
 from lostmotion.settings import DEFAULT, Settings
 from lostmotion.storage import dataset_of, folder_for, save_datasets, save_json
 
@@ -80,6 +80,8 @@ if TYPE_CHECKING:
     import xarray as xr
 
 Say = Callable[[str], None]
+ABSURD = 10.0
+"""The share of the drive from which the force of a law means that a unit, a sign or a ratio is wrong."""
 MOST_REFUTED = 4
 """The largest number of sets that free runs over held-out data may refute."""
 SHOW, NEXT, EVIDENCE, WHEN, DRAWN = 1, 2, 3, 4, 5
@@ -220,6 +222,11 @@ def check_heldout(diagnosis: SearchResult, rng: np.random.Generator, say: Say = 
     return outcome
 
 
+def _explains_scale(found: Sequence[Mechanism]) -> bool:
+    """Return whether a law of usual size is named: then no scale of a column is wrong."""
+    return any(e.state == NAMED for e in found) and all((e.share_of_drive or 0.0) < ABSURD for e in found)
+
+
 def _make_result(prepared: Prepared, outcome: Outcome, seed: int, proposals: Proposals, show: Behaviour) -> Diagnosis:
     d, case = outcome.diagnosis, prepared.case
     found, sharing = add_sharing(d, list_findings(outcome))
@@ -234,7 +241,7 @@ def _make_result(prepared: Prepared, outcome: Outcome, seed: int, proposals: Pro
     return Diagnosis(
         title=case.title,
         verdict="mismatch" if found else "adequate",
-        says=(*d.scale, *summarise(outcome, found, rest)),
+        says=(*(() if _explains_scale(found) else d.scale), *summarise(outcome, found, rest)),
         found=found,
         open=rest,
         ranking=rank_candidates(d, found, failed=bool(explain_withheld(outcome))),

@@ -116,8 +116,8 @@ def _warn_of_rest(d: SearchResult, key: str) -> Iterator[str]:
             f"Beside the term, small errors of the model without a name add {rounded(left)} to the log evidence, the"
             f" term {rounded(max(gain, 0.0))}: the term may be a part of them."
         )
-    elif d.unexplained and d.left and (more := float(np.std(d.left.missing.force) / np.std(d.laws[key]))) > 1.0:
-        yield f"The random force that remains is {rounded(more)} times as large as that of the term (rms)."
+    elif d.unexplained and d.left and (more := np.std(d.left.missing.force) / np.sqrt(np.mean(d.laws[key] ** 2))) > 1.0:
+        yield f"The random force that remains is {rounded(float(more))} times as large as that of the term (rms)."
 
 
 def compute_gain(d: SearchResult, key: str) -> float:

@@ -11,6 +11,7 @@ from lostmotion.evidence.channels import ChannelError
 from lostmotion.evidence.discrepancy import make_frame
 from lostmotion.evidence.effects import Promise, list_promises
 from lostmotion.evidence.hypothesis import Hypothesis
+from lostmotion.evidence.loads import fit_loads
 from lostmotion.evidence.waves import scan_waves
 from lostmotion.inference.candidates import ScoreTest, fit_term, replace_term
 from lostmotion.inference.commoner import rewrite_term
@@ -128,6 +129,9 @@ class BareFits:
         single = use_one_core(bare)
         for fit in each(lambda p: self._fit(single, p), promises, bare.problem.jobs):
             self.keep(use_cores(fit, bare.problem.jobs))
+        if not terms:
+            for fit in fit_loads(bare, self.keys, self.say):
+                self.keep(fit)
 
     def list_promises(self, beside: Hypothesis, known: Iterable[Terms]) -> list[Promise]:
         """Return the terms that promise a better score beside a hypothesis, best first, without `known` sets.

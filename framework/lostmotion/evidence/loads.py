@@ -1,0 +1,58 @@
+"""Proposals for a load cell: a force of the library that is the main part of the readings.
+
+Without it, the nominal model explains such readings with values far from its prior, and its random force follows the
+recording sample by sample. Score tests at this fit are nearly blind, and a fit that starts there stops at a local
+maximum. So the fit starts at the centre of the prior of the model.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+
+from lostmotion.contracts import Array
+from lostmotion.inference.candidates import ScoreTest, add_term
+from lostmotion.inference.fit import ROUGHLY, Fit, maximise, restart
+from lostmotion.inference.natural import compute_size, sort_slots
+from lostmotion.likelihood.problem import RANDOM, Problem
+from lostmotion.quantities import FORCE
+
+SHARE = 0.7
+"""The first size of the force, in amplitudes of the measured one."""
+LEVELS = (2.0, 6.0, 9.0)
+"""The first random forces, in log intensity above the usual."""
+
+
+def fit_loads(bare: Fit, keys: Sequence[str], say: Callable[[str], None]) -> Iterator[Fit]:
+    """Yield the best fit of each force with one amplitude, where all sensors are load cells."""
+    if any(sensor.channel != "force" for o in bare.problem.observations for sensor in o.sensors):
+        return
+    for key in keys:
+        if (hint := _guess_load(bare.problem, key)) is not None:
+            say(f"fit with a large {key}")
+            problem = add_term(restart(bare), hint, hint.start)
+            starts = [problem.start, *(_begin_at_prior(problem, level) for level in LEVELS)]
+            found = [
+                fit for start in starts if (fit := maximise(problem, start, tolerance=ROUGHLY)).status != "diverged"
+            ]
+            yield from sorted(found, key=lambda fit: fit.local.log_posterior)[-1:]
+
+
+def _guess_load(problem: Problem, key: str) -> ScoreTest | None:
+    """Return a start at which a term is most of the measured force; None for one that is no force of one amplitude."""
+    amplitudes, shapes = sort_slots(problem, key)
+    if len(amplitudes) != 1 or amplitudes[0].param.dimension != FORCE or amplitudes[0].param.low < 0.0:
+        return None
+    usual = {s.key: compute_size(s.param, problem.scales) for s in shapes}
+    return ScoreTest(key, 0.0, {amplitudes[0].key: SHARE * problem.scales.force, **usual}, 1.0)
+
+
+def _begin_at_prior(problem: Problem, level: float) -> Array:
+    """Return the start of a problem with each parameter of the model at the centre of its prior."""
+    theta, model = problem.start.copy(), {param.name for param in problem.system.model.params}
+    for i, free in enumerate(problem.free):
+        if free.parameter == RANDOM:
+            theta[i] = problem.scales.usual + level
+        elif free.parameter in model:
+            theta[i] = free.mean if math.isfinite(free.sd) else 0.5 * (free.low + free.high)
+    return problem.clip(theta)
