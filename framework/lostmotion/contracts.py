@@ -1,4 +1,4 @@
-"""The seven kinds of plugin. Subclass one of them directly, as a frozen dataclass, and name the class in a hook.
+"""The eight kinds of plugin. Subclass one of them directly, as a frozen dataclass, and name the class in a hook.
 
 `rhs`, `observe`, `force` and `rate` are scalar Python functions on NumPy arrays. The framework compiles them with numba
 into one kernel, so they may use arithmetic, branches and `math`, but no NumPy functions and no objects. A quantity that
@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic, Literal, Self
 import numpy as np
 
 from lostmotion.errors import ContractError, nearest
+from lostmotion.noises import Noise, NoiseBlock, NoiseLevel, SensorScales
 from lostmotion.parts import PSEUDO_NEEDS, Array, Drive, Group, Input, Interface, Motion, Param, Values
 from lostmotion.quantities import Dimension
 from lostmotion.recording.arrays import table_of_arrays
@@ -29,8 +30,9 @@ if TYPE_CHECKING:
 
 __all__ = [
     "KINDS", "PSEUDO_NEEDS", "Array", "Assembly", "Data", "Denoiser", "Drive", "DriveTerm", "Embedder", "Engine",
-    "Flow", "Group", "Input", "Interface", "Model", "Motion", "Orbit", "Param", "Quantifier", "SensorTerm", "Series",
-    "Surrogate", "Table", "Term", "Values", "place_of", "table_of_arrays"]  # fmt: skip
+    "Flow", "Group", "Input", "Interface", "Model", "Motion", "Noise", "NoiseBlock", "NoiseLevel", "Orbit", "Param",
+    "Quantifier", "SensorScales", "SensorTerm", "Series", "Surrogate", "Table", "Term", "Values", "place_of",
+    "table_of_arrays"]  # fmt: skip
 
 _NOWHERE = Interface("", -1, "", lambda y, u: (0.0, 0.0))
 
@@ -396,5 +398,5 @@ class Engine(ABC):
 
 
 KINDS: Mapping[str, type[Any]] = {
-    kind.__name__.lower(): kind for kind in (Model, Term, Embedder, Quantifier, Surrogate, Denoiser, Engine)
+    kind.__name__.lower(): kind for kind in (Model, Term, Embedder, Quantifier, Surrogate, Denoiser, Engine, Noise)
 }

@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import cast
 
 from lostmotion.case.fields import Fields
 from lostmotion.errors import CaseError, DataError
 from lostmotion.quantities import names_quantity, quantity_of, si_factor
-from lostmotion.recording.spec import EXCITATIONS, KINDS, RESPONSES, Channel, Kind
+from lostmotion.recording.spec import EXCITATIONS, RESPONSES, Channel
 
 CHANNEL = ("column", "quantity", "unit", "factor")
 INPUT = ("input", "column", "unit", "factor")
@@ -87,9 +86,9 @@ def _read_sensor(table: Fields) -> Channel:
     channel, name = table.text("channel"), table.maybe_text("name") or ""
     if bad := [char for char in SEPARATORS if char in name]:
         raise table.error(f"has the name {name!r} with {bad[0]!r} in it: expected one without {' '.join(SEPARATORS)}")
-    noise = table.choice("noise", KINDS) if "noise" in table.values else "white"
+    noise = table.maybe_text("noise") or "white"
     made = Channel(table.text("column"), _read_quantity(table, "channel"), table.text("unit"), of=_model_name(channel))
-    return _check_unit(table, replace(made, name=name, noise=cast(Kind, noise)))
+    return _check_unit(table, replace(made, name=name, noise=noise))
 
 
 def _check_unit(table: Fields, channel: Channel) -> Channel:

@@ -22,7 +22,6 @@ from lostmotion.inference.curves import drop_all_curves
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.mixture import compute_root
 from lostmotion.inference.natural import find_term
-from lostmotion.likelihood.space import LEVELS
 
 TIED = math.log(20.0)
 """Two similar laws are not distinguished by log evidences that differ by less than this."""
@@ -146,7 +145,7 @@ def _is_tied(best: Hypothesis, other: Hypothesis) -> bool:
 def _draw(found: Hypothesis, keys: list[str], count: int, rng: np.random.Generator) -> Array:
     """Return draws (count, keys) of parameters from the posterior of one hypothesis; NaN where it lacks one."""
     free = found.frame.problem.free[: found.frame.own]
-    places = {f.key: i for i, f in enumerate(free) if f.level not in LEVELS}
+    places = {f.key: i for i, f in enumerate(free) if f.physical}
     root = compute_root(found.scatter * found.covariance)
     low, high = (np.array([getattr(f, end) for f in free]) for end in ("low", "high"))
     theta = np.clip(found.theta + rng.standard_normal((count, len(free))) @ root.T, low, high)

@@ -26,8 +26,9 @@ from lostmotion.likelihood.levels import (
 )
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem, Scales
-from lostmotion.likelihood.space import LEVELS, NOISE, OFFSET, RANDOM, FreeParameter, list_keys
+from lostmotion.likelihood.space import OFFSET, RANDOM, FreeParameter, list_keys
 from lostmotion.likelihood.system import Slot, System
+from lostmotion.noises import NOISE
 from lostmotion.quantities import quantity_of, unit_of
 from lostmotion.recording.checks import fill_lost
 from lostmotion.settings import DEFAULT, HeldOutSettings, Settings
@@ -235,7 +236,7 @@ def find_fastest_rate(problem: Problem, theta: Array) -> float:
     states[:, 0] = np.repeat(grid, 3) * scales.length
     states[:, 1] = np.tile([-1.0, 0.03, 1.0], len(grid)) * scales.velocity
     middle = np.repeat(np.mean(observation.inputs, axis=0)[None], len(states), axis=0)
-    alike = all(f.recording is None or f.level in LEVELS for f in problem.free)
+    alike = all(f.recording is None or not f.physical for f in problem.free)
     fulls = [problem.full(theta, i) for i in range(1 if alike else len(problem.observations))]
     return max(1.0 / scales.time, *(system.find_fastest_rate(full, problem.active, states, middle) for full in fulls))
 
@@ -279,7 +280,7 @@ def _draw_starts(problem: Problem, beginning: Problem, rng: np.random.Generator,
 
     A parameter with a value for each recording starts at the same value in all of them.
     """
-    names = list(dict.fromkeys(f.parameter for f in problem.free if f.level not in LEVELS))
+    names = list(dict.fromkeys(f.parameter for f in problem.free if f.physical))
     starts = np.repeat(problem.start[None], points, axis=0)
     cube = np.full((points, len(names)), 0.5)
     if names:

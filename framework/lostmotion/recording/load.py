@@ -17,7 +17,7 @@ from lostmotion.quantities import si_factor
 from lostmotion.recording.checks import check_finite, check_length, check_sensor, check_values, fill_input, note_stuck
 from lostmotion.recording.clock import checked_clock, note_repeated_rows, read_time
 from lostmotion.recording.formats import read_table
-from lostmotion.recording.spec import KINDS, Channel, Hold, RecordingSpec
+from lostmotion.recording.spec import Channel, Hold, RecordingSpec
 from lostmotion.recording.table import Table
 from lostmotion.recording.timing import EvenClock, check_step, resample_channel
 from lostmotion.recording.units import note_unit
@@ -34,7 +34,7 @@ _COMMON: Mapping[str, Rule] = {
     "sensors": mapping(anything, "{'position': ...}"),
     "units": maybe(mapping(text, "{'force': 'N', 'position': 'mm'}")),
     "rate": maybe(positive),
-    "noise": maybe(mapping(choice(*KINDS), "{'position': 'white'}")),
+    "noise": maybe(mapping(text, "{'position': 'white'}")),
     "hold": choice("smooth", "step"),
     "name": text,
 }
