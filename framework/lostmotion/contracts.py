@@ -282,8 +282,8 @@ class Assembly:
 
 def place_of(model: Model, term: Term) -> Interface:
     """Return the interface of `model` at which `term` acts; raise `ContractError` that says what is missing there."""
-    beside = (term.acts, *(model.inputs if term.acts == "drive" else (term.at,)))
-    named = {name: replace(_NOWHERE, name=name) for name in beside}
+    beside = model.inputs if term.acts == "drive" else (term.at,)
+    named = {name: replace(_NOWHERE, name=name) for name in (term.acts, *beside)}
     places = {i.name: i for i in model.interfaces} if term.acts == "motion" else named
     if term.at not in places:
         raise ContractError(
@@ -308,8 +308,8 @@ class Embedder(ABC):
     def choose(self, x: Array, *, dt: float) -> Embedding:
         """Return lag (samples), dimension and Theiler window (samples) for `x` (n,) sampled every `dt` s.
 
-        Example: `Embedding(lag=6, dim=3, theiler=20)` from `lostmotion.results`. For an unsuitable series raise no
-        error: set `status` to one of `results.STATUSES`, and explain it in `says`.
+        Example: `results.Embedding(lag=6, dim=3, theiler=20)`. For an unsuitable series raise no error: set `status` to
+        one of `results.STATUSES`, and explain it in `says`.
         """
 
 
@@ -333,9 +333,8 @@ class Quantifier(ABC, Generic[Data]):
 class Surrogate(ABC):
     """Draws random series that share the properties named in `preserves` with the recording.
 
-    `null` states in words the hypothesis under which the recording is one more such draw. `preserves` names some of
-    "mean", "variance", "amplitudes" (the sorted values), "spectrum", "cycles" (the shape of single periods).
-    Example of a shuffle: `return np.array([rng.permutation(series.x) for _ in range(draws)])`.
+    `null` says under which hypothesis the recording is one more such draw. `preserves` names some of "mean",
+    "variance", "amplitudes" (sorted values), "spectrum", "cycles". A shuffle: `rng.permuted(x, axis=1)`.
     """
 
     name: ClassVar[str]
@@ -367,10 +366,10 @@ class Denoiser(ABC):
 
 
 class Engine(ABC):
-    """Filters, smooths and simulates a model with its terms at many parameter points in one call, thread-safe.
+    """Filters, smooths and simulates a model with its terms at many points, thread-safe, each point independently.
 
-    The result of a point depends neither on the other points nor on their order. A point that diverges raises no
-    error: `Innovations.of(errors, variances, reached)` marks it. `lostmotion.likelihood.reference` is an example.
+    A point that diverges raises no error: `Innovations.of(errors, variances, reached)` marks it. An example is
+    `lostmotion.likelihood.reference`.
     """
 
     name: ClassVar[str]

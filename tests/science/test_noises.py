@@ -67,7 +67,7 @@ def test_a_noise_is_found_with_its_size(kind):
 
 @pytest.mark.parametrize("kind", NOISES)
 def test_white_noise_is_not_taken_for_another(kind):
-    """One more parameter gains 0.5 on average in a log-likelihood, and 8 with a probability below 1e-4; of 30 the most was 1."""
+    """One more parameter gains 0.5 on average in a log-likelihood, and 8 with one below 1e-4; of 30 the most was 1."""
     noise, _ = NOISES[kind]
     z = X + SPREAD * np.random.default_rng(6).standard_normal(COUNT)
     plain, fitted = (maximise(p, p.start) for p in (problem_of(z, (White(),)), problem_of(z, (White(), noise))))

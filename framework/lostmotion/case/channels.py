@@ -13,7 +13,7 @@ from lostmotion.recording.spec import EXCITATIONS, RESPONSES, Channel
 
 CHANNEL = ("column", "quantity", "unit", "factor")
 INPUT = ("input", "column", "unit", "factor")
-SENSOR = ("channel", "column", "unit", "factor", "name", "noise")
+SENSOR = ("channel", "column", "unit", "factor", "name", "noise", "differences", "zero")
 SEPARATORS = "[]:/@."
 """Characters that a name must not contain, because they separate the parts of keys."""
 FREE = "none"
@@ -88,7 +88,11 @@ def _read_sensor(table: Fields) -> Channel:
         raise table.error(f"has the name {name!r} with {bad[0]!r} in it: expected one without {' '.join(SEPARATORS)}")
     noise = table.maybe_text("noise") or "white"
     made = Channel(table.text("column"), _read_quantity(table, "channel"), table.text("unit"), of=_model_name(channel))
-    return _check_unit(table, replace(made, name=name, noise=noise))
+    summed = table.flag("differences")
+    loose = summed or (table.choice("zero", ("known", "unknown")) if "zero" in table.values else "known") == "unknown"
+    if summed and made.quantity != "position":
+        raise table.error(f"has differences of a {made.quantity}: only changes of a position are summed")
+    return _check_unit(table, replace(made, name=name, noise=noise, differences=summed, loose=loose))
 
 
 def _check_unit(table: Fields, channel: Channel) -> Channel:

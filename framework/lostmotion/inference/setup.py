@@ -217,14 +217,19 @@ def make_problem(
     jobs: int = 2,
     settings: Settings = DEFAULT,
 ) -> Problem:
-    """Return the problem of a case on the given recordings, with no term active, noise levels shared."""
+    """Return the problem of a case on the given recordings, with no term active, noise levels shared.
+
+    The zero of each loose sensor is free in each recording.
+    """
     known = make_known(system, case)
     scales = compute_scales(system, observations, known)
     names = [observation.name for observation in observations]
     frees = [f for name, prior in case.estimate.items() for f in make_case_parameters(system.slot(name), prior, names)]
     problem = Problem(system, observations, scales, known, tuple(frees), jobs=jobs, settings=settings)
     scales = replace(scales, usual=compute_usual_level(problem, find_fastest_rate(problem, problem.start)))
-    problem = replace(problem, scales=scales, free=(*frees, *make_noise_levels(observations, scales)))
+    problem = replace(
+        problem, scales=scales, free=(*frees, *_make_offsets(problem, None), *make_noise_levels(observations, scales))
+    )
     return choose_steps(problem, problem.start)
 
 
@@ -363,14 +368,18 @@ def separate_levels(fit: Fit, sensor: SensorSpec) -> Fit:
 
 
 def _make_offsets(problem: Problem, prior: Prior | None) -> tuple[FreeParameter, ...]:
-    """Return the offset of each sensor in each recording; none where it is known."""
-    if prior is None:
-        return ()
+    """Return the offset of each sensor in each recording whose zero is unknown: of all, or of loose ones."""
     motion, first = problem.system.model.motion, problem.observations[0]
     names = [observation.name for observation in problem.observations]
     return tuple(
-        _make_free(key, unit_of(sensor.channel, motion), prior, (-math.inf, math.inf))
+        _make_free(
+            key,
+            unit_of(sensor.channel, motion),
+            prior or Prior(mean=0.0, sd=first.amplitude_of(sensor.label)),
+            (-math.inf, math.inf),
+        )
         for i, sensor in enumerate(first.sensors)
+        if prior or sensor.loose
         for key in list_keys(first.level(OFFSET, i), names)
     )
 

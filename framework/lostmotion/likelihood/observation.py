@@ -327,7 +327,8 @@ def _make_sensor(array: xr.DataArray, model: Model, recording: str, make_noise: 
             f" {channel}{nearest(channel, model.channels)}: choose another model or another column"
         )
     made = [make_noise(kind.strip()) for kind in str(array.attrs["noise"]).split("+")]
-    return Sensor(channel, name, tuple(made) if isinstance(made[0], White) else (White(), *made))
+    noises = tuple(made) if isinstance(made[0], White) else (White(), *made)
+    return Sensor(channel, name, noises, loose=array.attrs.get("zero") == "unknown")
 
 
 def window_force(force: Array) -> Array:

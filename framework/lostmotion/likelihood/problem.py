@@ -279,8 +279,7 @@ class Problem:
         mean, covariance = compute_initial(self, fulls, gain, offset + more, index)
         process = np.exp(coordinates.at(thetas, RANDOM))
         first = np.zeros(len(thetas), dtype=np.int64)
-        sensing = (noise, gain, offset + more, lag)
-        return Points(fulls, process, pace, *sensing, mean, covariance, drives, which, first)  # fmt: skip
+        return Points(fulls, process, pace, noise, gain, offset + more, lag, mean, covariance, drives, which, first)
 
     def _list_noise(self, thetas: Array, index: int, sensor: int) -> list[NoiseBlock]:
         """Return the noise of a sensor at each of some coordinates (points, n)."""
@@ -367,8 +366,7 @@ class Problem:
 
     def begun(self, theta: Array, index: int = 0) -> Array:
         """Return the mean state (n,) of model and terms at the first sample of a recording."""
-        mean: Array = self.points(theta[None], index).mean[0]
-        return mean
+        return np.asarray(self.points(theta[None], index).mean[0])
 
     def smooth(self, theta: Array, index: int = 0) -> Smoothed:
         """Return the filtered and the smoothed states of a recording at the coordinates `theta`."""

@@ -15,12 +15,13 @@ from lostmotion.noises import Noise, Quantised, White
 class Sensor:
     """A sensor: a `channel` of the model, under a `name`, with noises that add up, white noise first.
 
-    Gain, offset and delay of a sensor are parameters like others, and no fields.
+    Gain, offset and delay of a sensor are parameters like others, and no fields. The zero of a `loose` one is unknown.
     """
 
     channel: str
     name: str = ""
     noises: tuple[Noise, ...] = (White(),)
+    loose: bool = False
 
     @property
     def noise_states(self) -> int:

@@ -19,6 +19,7 @@ class Channel:
 
     `of` is the input or the channel of the model, `quantity` its quantity. A sensor has a `name`, at which sensor terms
     act, and names of `noise` with plus signs between them. A sensor without a name is the only one of its recording.
+    With `differences` each value is the change since the row before; the zero is then `loose`, that is unknown.
     """
 
     column: str
@@ -28,6 +29,8 @@ class Channel:
     of: str = ""
     name: str = ""
     noise: str = "white"
+    differences: bool = False
+    loose: bool = False
 
     @property
     def target(self) -> str:

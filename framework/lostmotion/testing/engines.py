@@ -297,7 +297,7 @@ def points_do_not_know_each_other(engine: Engine) -> str:
 @rule("engine")
 def missing_readings_add_nothing(engine: Engine) -> str:
     """For a reading that is NaN, return the error 0 and the variance 1 / (2 pi), and continue."""
-    dynamics, observation, points = make_arguments(SENSORS["several sensors, two of them with AR(1) noise"])
+    dynamics, observation, points = make_arguments(SENSORS["several sensors, two of them with noise of their own"])
     found, lost = engine.filter(dynamics, observation, points), np.isnan(observation.readings)
     if np.any(found.errors[:, lost] != 0.0) or not np.allclose(found.variances[:, lost], 0.5 / math.pi, rtol=1e-12):
         return "a missing reading changes the likelihood"
