@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic, Literal, Self
 import numpy as np
 
 from lostmotion.errors import ContractError, nearest
-from lostmotion.noises import Noise, NoiseBlock, NoiseLevel, SensorScales
+from lostmotion.noises import Noise, NoiseBlock, NoiseParameter, SensorScales
 from lostmotion.parts import PSEUDO_NEEDS, Array, Drive, Group, Input, Interface, Motion, Param, Values
 from lostmotion.quantities import Dimension
 from lostmotion.recording.arrays import table_of_arrays
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "KINDS", "PSEUDO_NEEDS", "Array", "Assembly", "Data", "Denoiser", "Drive", "DriveTerm", "Embedder", "Engine",
-    "Flow", "Group", "Input", "Interface", "Model", "Motion", "Noise", "NoiseBlock", "NoiseLevel", "Orbit", "Param",
+    "Flow", "Group", "Input", "Interface", "Model", "Motion", "Noise", "NoiseBlock", "NoiseParameter", "Orbit", "Param",
     "Quantifier", "SensorScales", "SensorTerm", "Series", "Surrogate", "Table", "Term", "Values", "place_of",
     "table_of_arrays"]  # fmt: skip
 
@@ -368,8 +368,7 @@ class Denoiser(ABC):
 class Engine(ABC):
     """Filters, smooths and simulates a model with its terms at many points, thread-safe, each point independently.
 
-    A point that diverges raises no error: `Innovations.of(errors, variances, reached)` marks it. An example is
-    `lostmotion.likelihood.reference`.
+    A point that diverges raises no error: `Innovations.of` marks it, as in `likelihood.reference`.
     """
 
     name: ClassVar[str]

@@ -45,7 +45,7 @@ class SensorScales(NamedTuple):
     span: float
 
 
-class NoiseLevel(NamedTuple):
+class NoiseParameter(NamedTuple):
     """A parameter of a noise: `name` begins with "log_noise_"; all numbers are natural logarithms.
 
     `low` and `high` are bounds. The prior is uniform between them, or normal with `mean` and `sd`. `unit` is that of
@@ -127,7 +127,7 @@ class Noise(ABC):
     states: ClassVar[tuple[str, ...]] = ()
 
     @abstractmethod
-    def parameters(self, sensor: SensorScales) -> tuple[NoiseLevel, ...]:
+    def parameters(self, sensor: SensorScales) -> tuple[NoiseParameter, ...]:
         """Return the parameters that are estimated; all are positive and estimated as logarithms."""
 
     @abstractmethod
@@ -149,10 +149,10 @@ class White(Noise):
     name = "white"
     paper = "Wiener, Extrapolation, Interpolation and Smoothing of Stationary Time Series, MIT Press (1949)"
 
-    def parameters(self, sensor: SensorScales) -> tuple[NoiseLevel, ...]:
+    def parameters(self, sensor: SensorScales) -> tuple[NoiseParameter, ...]:
         """Return its size; the estimate from differences of readings is exceeded by a factor of 20 at most."""
         size = sensor.log_noise
-        return (NoiseLevel(NOISE, size, size - 7.0, size + 3.0),)
+        return (NoiseParameter(NOISE, size, size - 7.0, size + 3.0),)
 
     def covariance(self, p: Values, dt: float) -> NoiseBlock:
         """Return a block without states."""
@@ -175,14 +175,14 @@ class AR1(Noise):
     paper = "Uhlenbeck, Ornstein, Physical Review 36 (1930) 823-841"
     states = ("slow",)
 
-    def parameters(self, sensor: SensorScales) -> tuple[NoiseLevel, ...]:
+    def parameters(self, sensor: SensorScales) -> tuple[NoiseParameter, ...]:
         """Return size and correlation time (s)."""
         noise, dt = sensor.log_noise, sensor.dt
         low, high = math.log(SHORTEST * dt), math.log(max(LONGEST * sensor.time, LASTING * dt))
         middle = min(math.log(3.0 * dt), high)
         return (
-            NoiseLevel(AR1_LEVEL, noise - 0.5, noise - 5.0, noise + 3.0),
-            NoiseLevel(AR1_MEMORY, middle, low, high, mean=middle, sd=1.0, unit="s"),
+            NoiseParameter(AR1_LEVEL, noise - 0.5, noise - 5.0, noise + 3.0),
+            NoiseParameter(AR1_MEMORY, middle, low, high, mean=middle, sd=1.0, unit="s"),
         )
 
     def covariance(self, p: Values, dt: float) -> NoiseBlock:

@@ -139,7 +139,7 @@ def lostmotion_noises() -> dict[str, str]:
         "ar1": "lostmotion.noises:AR1",
         "quantised": "lostmotion.noises:Quantised",
         "white": "lostmotion.noises:White",
-        "drift": f"{at}.drift:Drift",
+        "drift": f"{at}.drift:DriftingZero",
         "hum": f"{at}.hum:Hum",
         "hum60": f"{at}.hum:Hum60",
         "jitter": f"{at}.jitter:Jitter",

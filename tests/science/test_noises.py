@@ -6,7 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from lostmotion.errors import LostMotionError
 from lostmotion.inference.fit import maximise
+from lostmotion.inference.setup import make_problem
 from lostmotion.likelihood.levels import make_noise_levels
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem, Scales
@@ -14,8 +16,10 @@ from lostmotion.likelihood.sensors import Sensor
 from lostmotion.likelihood.space import FreeParameter
 from lostmotion.likelihood.system import System
 from lostmotion.noises import AR1, NoiseBlock, White
+from lostmotion.preparation.prepare import prepare
+from lostmotion.registry import Registry
 from lostmotion_plugins.models.basic import LinearOscillator
-from lostmotion_plugins.noises.drift import Drift
+from lostmotion_plugins.noises.drift import DriftingZero
 from lostmotion_plugins.noises.hum import Hum
 from lostmotion_plugins.noises.jitter import Jitter
 
@@ -26,7 +30,7 @@ T = DT * np.arange(COUNT)
 PHASOR = 20.0 / complex(K - M * OMEGA**2, C * OMEGA)
 X, V = ((factor * PHASOR * np.exp(1j * OMEGA * T)).real for factor in (1.0, 1j * OMEGA))
 
-NOISES = {"jitter": (Jitter(), 1.5e-3), "drift": (Drift(), 5e-3), "hum": (Hum(), 3e-3)}
+NOISES = {"jitter": (Jitter(), 1.5e-3), "drift": (DriftingZero(), 5e-3), "hum": (Hum(), 3e-3)}
 """Each with its true size: 1.5 ms, 5 mm within a second (root), 3 mm."""
 
 
@@ -88,8 +92,71 @@ def test_noises_of_a_sensor_add_up():
     assert np.isfinite(problem.log_posterior(problem.start))
 
 
+OWN = '''
+from dataclasses import dataclass
+import numpy as np
+from lostmotion.contracts import Noise, NoiseBlock, NoiseParameter
+
+@dataclass(frozen=True)
+class Echo(Noise):
+    """The last reading stays by a half."""
+    name = "echo"
+    paper = "Own measurement, 2025"
+    states = ("last",)
+    def parameters(self, sensor):
+        size = sensor.log_noise
+        return (NoiseParameter("log_noise_echo", size, size - 7.0, size + 3.0),)
+    def covariance(self, p, dt):
+        whole = np.array([[p[0] ** 2]])
+        return NoiseBlock(shown=np.ones(1), transition=np.array([[0.5]]), driving=0.75 * whole, first=whole)
+    def words(self, p, share):
+        return f"An echo of {100 * share:.0f} %."
+'''
+OWN_CASE = """
+plugins = ["echo.py"]
+[[recordings]]
+file = "run.csv"
+time = "t"
+inputs = [{ input = "force", column = "F", unit = "N" }]
+sensors = [{ channel = "position", column = "x", unit = "m", noise = "NAME" }]
+[model]
+name = "linear_oscillator"
+[model.known]
+m = 1.0
+k = 25.0
+[model.estimate]
+c = { low = 0.05, high = 4.0, scale = "log" }
+"""
+
+
+def test_a_noise_of_a_third_party_file_is_fitted(tmp_path):
+    """One file and its name in the case: no other line. The echo has three quarters of the variance."""
+    rng = np.random.default_rng(9)
+    fresh, echo = rng.standard_normal(COUNT), np.zeros(COUNT)
+    for k in range(1, COUNT):
+        echo[k] = 0.5 * echo[k - 1] + math.sqrt(0.75) * fresh[k]
+    z = X + SPREAD * (0.5 * rng.standard_normal(COUNT) + math.sqrt(0.75) * echo)
+    np.savetxt(tmp_path / "run.csv", np.c_[T, 20.0 * np.cos(OMEGA * T), z], delimiter=",", header="t,F,x", comments="")
+    (tmp_path / "echo.py").write_text(OWN)
+    (tmp_path / "case.toml").write_text(OWN_CASE.replace("NAME", "echo"))
+    prepared = prepare(tmp_path / "case.toml", Registry.discover())
+    problem = make_problem(System(prepared.model), prepared.case, prepared.observations)
+    fit = maximise(problem, problem.start)
+    block = fit.problem.noise(fit.theta)
+    assert math.sqrt(block.first[0, 0]) == pytest.approx(math.sqrt(0.75) * SPREAD, rel=0.1)
+    assert math.sqrt(block.white) == pytest.approx(0.5 * SPREAD, rel=0.2)
+
+
+def test_an_unknown_noise_is_refused_with_the_known_ones(tmp_path):
+    np.savetxt(tmp_path / "run.csv", np.c_[T, np.cos(OMEGA * T), X], delimiter=",", header="t,F,x", comments="")
+    (tmp_path / "echo.py").write_text(OWN)
+    (tmp_path / "case.toml").write_text(OWN_CASE.replace("NAME", "pink"))
+    with pytest.raises(LostMotionError, match=r"(?s)noise.*'pink'.*ar1.*echo.*jitter"):
+        prepare(tmp_path / "case.toml", Registry.discover())
+
+
 def test_variance_of_a_walk_grows_evenly():
-    walk = Drift().covariance((2.0,), 0.1)
+    walk = DriftingZero().covariance((2.0,), 0.1)
     assert [walk.variance_after(n) for n in (0, 1, 7, 64)] == pytest.approx([0.0, 0.4, 2.8, 25.6])
 
 

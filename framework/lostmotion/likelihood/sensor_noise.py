@@ -12,7 +12,7 @@ from lostmotion.contracts import Array
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.sensors import Sensor
 from lostmotion.likelihood.space import FreeParameter, Scales
-from lostmotion.noises import Noise, NoiseBlock, NoiseLevel, SensorScales
+from lostmotion.noises import Noise, NoiseBlock, NoiseParameter, SensorScales
 
 _ANY = SensorScales(0.0, 1.0, 1.0, 1.0, 1.0, 1.0)
 
@@ -46,12 +46,12 @@ def make_levels(observation: Observation, sensor: int, noise: Noise, scales: Sen
 
 
 @lru_cache(maxsize=64)
-def list_levels(noise: Noise) -> tuple[NoiseLevel, ...]:
+def list_levels(noise: Noise) -> tuple[NoiseParameter, ...]:
     """Return the parameters of a noise; their numbers are those of any sensor."""
     return noise.parameters(_ANY)
 
 
-def find_noise_of(sensor: Sensor, level: str) -> tuple[Noise, NoiseLevel] | None:
+def find_noise_of(sensor: Sensor, level: str) -> tuple[Noise, NoiseParameter] | None:
     """Return the noise of a sensor that has a parameter of this name, and the parameter."""
     return next(((n, one) for n in sensor.noises for one in list_levels(n) if one.name == level), None)
 

@@ -23,7 +23,7 @@ from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.reference import Reference
 from lostmotion.likelihood.sensors import Sensor
 from lostmotion.likelihood.system import System
-from lostmotion.noises import AR1, Noise, NoiseBlock, NoiseLevel, SensorScales, White
+from lostmotion.noises import AR1, Noise, NoiseBlock, NoiseParameter, SensorScales, White
 from lostmotion.quantities import DAMPING, FORCE, INERTIA, LENGTH, STIFFNESS
 from lostmotion.testing.rules import rule
 
@@ -124,9 +124,9 @@ class Swing(Noise):
     paper = "Harvey, Cambridge (1989)"
     states = ("sine", "cosine")
 
-    def parameters(self, sensor: SensorScales) -> tuple[NoiseLevel, ...]:
+    def parameters(self, sensor: SensorScales) -> tuple[NoiseParameter, ...]:
         """Return its size."""
-        return (NoiseLevel("log_noise_swing", 0.0, -9.0, 9.0),)
+        return (NoiseParameter("log_noise_swing", 0.0, -9.0, 9.0),)
 
     def covariance(self, p: Values, dt: float) -> NoiseBlock:
         """Return a damped rotation."""
@@ -142,9 +142,9 @@ class Late(Noise):
     name = "late"
     paper = "Da Dalt et al. (2002)"
 
-    def parameters(self, sensor: SensorScales) -> tuple[NoiseLevel, ...]:
+    def parameters(self, sensor: SensorScales) -> tuple[NoiseParameter, ...]:
         """Return the deviation of the stamps (s)."""
-        return (NoiseLevel("log_noise_late", 0.0, -9.0, 9.0),)
+        return (NoiseParameter("log_noise_late", 0.0, -9.0, 9.0),)
 
     def covariance(self, p: Values, dt: float) -> NoiseBlock:
         """Return a block without states."""

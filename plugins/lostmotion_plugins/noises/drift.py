@@ -7,22 +7,22 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lostmotion.contracts import Noise, NoiseBlock, NoiseLevel, SensorScales, Values
+from lostmotion.contracts import Noise, NoiseBlock, NoiseParameter, SensorScales, Values
 from lostmotion.results import rounded
 
 
 @dataclass(frozen=True)
-class Drift(Noise):
+class DriftingZero(Noise):
     """A zero that drifts as a random walk, for instance with temperature."""
 
     name = "drift"
     paper = "Allan, IEEE Transactions on Ultrasonics, Ferroelectrics and Frequency Control 34 (1987) 647-654"
     states = ("zero",)
 
-    def parameters(self, sensor: SensorScales) -> tuple[NoiseLevel, ...]:
+    def parameters(self, sensor: SensorScales) -> tuple[NoiseParameter, ...]:
         """Return the drift within a second: at most the deviation of the readings within the recording."""
         high = math.log(max(sensor.size, 1e-300)) - 0.5 * math.log(sensor.span)
-        return (NoiseLevel("log_noise_drift", high - 4.0, high - 14.0, high, mean=high - 5.0, sd=3.0),)
+        return (NoiseParameter("log_noise_drift", high - 4.0, high - 14.0, high, mean=high - 5.0, sd=3.0),)
 
     def covariance(self, p: Values, dt: float) -> NoiseBlock:
         """Return a random walk from zero."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lostmotion.contracts import Noise, NoiseBlock, NoiseLevel, SensorScales, Values
+from lostmotion.contracts import Noise, NoiseBlock, NoiseParameter, SensorScales, Values
 from lostmotion.results import rounded
 
 
@@ -21,10 +21,10 @@ class Hum(Noise):
     paper = "Harvey, Forecasting, Structural Time Series Models and the Kalman Filter, Cambridge (1989), section 2.3"
     states = ("sine", "cosine")
 
-    def parameters(self, sensor: SensorScales) -> tuple[NoiseLevel, ...]:
+    def parameters(self, sensor: SensorScales) -> tuple[NoiseParameter, ...]:
         """Return the rms amplitude."""
         high = math.log(max(sensor.size, 1e-300))
-        return (NoiseLevel("log_noise_hum", sensor.log_noise, sensor.log_noise - 8.0, max(high, sensor.log_noise)),)
+        return (NoiseParameter("log_noise_hum", sensor.log_noise, sensor.log_noise - 8.0, max(high, sensor.log_noise)),)
 
     def covariance(self, p: Values, dt: float) -> NoiseBlock:
         """Return a rotation by the phase of a sample, stationary."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from lostmotion.contracts import Noise, NoiseBlock, NoiseLevel, SensorScales, Values
+from lostmotion.contracts import Noise, NoiseBlock, NoiseParameter, SensorScales, Values
 from lostmotion.results import rounded
 
 
@@ -19,10 +19,10 @@ class Jitter(Noise):
     name = "jitter"
     paper = "Da Dalt, Harteneck, Sandner, Wiesbauer, IEEE Transactions on Circuits and Systems I 49 (2002) 1354-1360"
 
-    def parameters(self, sensor: SensorScales) -> tuple[NoiseLevel, ...]:
+    def parameters(self, sensor: SensorScales) -> tuple[NoiseParameter, ...]:
         """Return the standard deviation (s) of the stamps: about 3 % of a sample, at most a sample."""
         middle = math.log(0.03 * sensor.dt)
-        return (NoiseLevel("log_noise_jitter", middle, middle - 7.0, math.log(sensor.dt), middle, 2.0, "s"),)
+        return (NoiseParameter("log_noise_jitter", middle, middle - 7.0, math.log(sensor.dt), middle, 2.0, "s"),)
 
     def covariance(self, p: Values, dt: float) -> NoiseBlock:
         """Return a block without states."""

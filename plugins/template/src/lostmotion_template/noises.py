@@ -8,7 +8,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from lostmotion.contracts import Noise, NoiseBlock, NoiseLevel, SensorScales, Values
+from lostmotion.contracts import Noise, NoiseBlock, NoiseParameter, SensorScales, Values
 from lostmotion.results import rounded
 
 
@@ -20,9 +20,9 @@ class FlickerNoise(Noise):
     paper: ClassVar[str] = "van der Ziel, Physica 16 (1950) 359-372"
     states = ("fast", "slow", "slowest")
 
-    def parameters(self, sensor: SensorScales) -> tuple[NoiseLevel, ...]:
+    def parameters(self, sensor: SensorScales) -> tuple[NoiseParameter, ...]:
         size = sensor.log_noise
-        return (NoiseLevel("log_noise_flicker", size, size - 7.0, size + 5.0),)
+        return (NoiseParameter("log_noise_flicker", size, size - 7.0, size + 5.0),)
 
     def covariance(self, p: Values, dt: float) -> NoiseBlock:
         kept = np.exp(-1.0 / np.array([3.0, 30.0, 300.0]))
