@@ -15,6 +15,7 @@ import pytest
 from lostmotion.errors import DataError
 from lostmotion.offers import READER
 from lostmotion.recording import read_table
+from lostmotion.recording.folders import digest_recording
 from lostmotion.recording.formats import ENDINGS, is_recording
 from lostmotion.recording.offered import OfferedReader, offered_readers
 from lostmotion.recording.outline import GivenRoles, outline_table
@@ -147,6 +148,21 @@ def to_bag(path: Path) -> None:
             bag.write(topic, 1_700_000_000_000_000_000 + i * 10_000_000, raw)
 
 
+def to_bag2(path: Path) -> None:
+    """Write a bag of ROS 2: a folder with its description and a database."""
+    from rosbags.rosbag2 import Writer
+    from rosbags.typesys import Stores, get_typestore
+
+    types = get_typestore(Stores.ROS2_HUMBLE)
+    pair = types.types["std_msgs/msg/Float64MultiArray"]
+    layout = types.types["std_msgs/msg/MultiArrayLayout"](dim=[], data_offset=0)
+    with Writer(path, version=9) as bag:
+        topic = bag.add_connection("/rig", pair.__msgtype__, typestore=types)
+        for i in range(N):
+            raw = types.serialize_cdr(pair(layout=layout, data=np.array([FORCE[i], PLACE[i]])), pair.__msgtype__)
+            bag.write(topic, 1_700_000_000_000_000_000 + i * 10_000_000, raw)
+
+
 WRITERS: dict[str, Callable[[Path], None]] = {
     "xlsx": to_xlsx, "tdms": to_tdms, "mf4": to_mf4, "parquet": to_parquet,
 }  # fmt: skip
@@ -186,6 +202,41 @@ def test_messages_of_a_robot_become_columns(
     if ending == "mcap":
         np.testing.assert_allclose(table.columns["/rig.header.stamp"], TIME, atol=1e-12)
     assert not any(name.startswith("/say.data") for name in table.columns)
+
+
+@pytest.mark.parametrize("what", ["folder", "database"])
+def test_a_bag_of_ros_2_is_read_as_a_folder_and_as_its_database(tmp_path: Path, what: str) -> None:
+    pytest.importorskip("rosbags", reason="the extra rosbag is not installed")
+    to_bag2(tmp_path / "run")
+    (database,) = (tmp_path / "run").glob("*.db3")
+    path = tmp_path / "run" if what == "folder" else database
+    assert is_recording(path)
+    table = read_table(path)
+    np.testing.assert_array_equal(table.columns["/rig.data[0]"], FORCE)
+    np.testing.assert_array_equal(table.columns["/rig.data[1]"], PLACE)
+    np.testing.assert_allclose(table.columns["/rig.time"], TIME, atol=1e-12)
+    if what == "folder":
+        before = digest_recording(path)
+        (path / "metadata.yaml").write_bytes((path / "metadata.yaml").read_bytes() + b"\n")
+        assert digest_recording(path) != before
+
+
+def test_a_database_without_its_description_is_read(tmp_path: Path) -> None:
+    """A copy of the database alone, as people send it."""
+    pytest.importorskip("rosbags", reason="the extra rosbag is not installed")
+    to_bag2(tmp_path / "run")
+    (database,) = (tmp_path / "run").glob("*.db3")
+    alone = tmp_path / "alone.db3"
+    alone.write_bytes(database.read_bytes())
+    np.testing.assert_array_equal(read_table(alone).columns["/rig.data[0]"], FORCE)
+
+
+def test_an_empty_bag_folder_is_told_so(tmp_path: Path) -> None:
+    pytest.importorskip("rosbags", reason="the extra rosbag is not installed")
+    (tmp_path / "run").mkdir()
+    (tmp_path / "run" / "metadata.yaml").write_text("nothing: 1\n")
+    with pytest.raises(DataError, match="run"):
+        read_table(tmp_path / "run")
 
 
 def test_lists_in_a_parquet_file_become_columns(tmp_path: Path) -> None:

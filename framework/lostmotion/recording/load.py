@@ -12,11 +12,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from lostmotion.arguments import Rule, anything, checked, choice, describe, mapping, maybe, path, positive, text
 from lostmotion.errors import DataError
-from lostmotion.provenance import digest
 from lostmotion.quantities import si_factor
 from lostmotion.recording.checks import check_finite, check_length, check_sensor, check_values, fill_input, note_stuck
 from lostmotion.recording.clock import checked_clock, note_repeated_rows, read_time
 from lostmotion.recording.counts import centre_position, sum_changes
+from lostmotion.recording.folders import digest_recording
 from lostmotion.recording.formats import read_table
 from lostmotion.recording.spec import Channel, Hold, RecordingSpec
 from lostmotion.recording.table import Table
@@ -253,7 +253,7 @@ def _name_arrays(first: str, more: str, arrays: Sequence[xr.DataArray]) -> dict[
 def load_recording(spec: RecordingSpec, folder: Path, limits: RecordingSettings = DEFAULT.recording) -> Recording:
     """Return the recording that `spec` describes, its file relative to `folder`; `DataError` if it is unusable."""
     path = Path(folder) / spec.file
-    return recording_of(spec, read_table(path), path.name, digest(path), limits)
+    return recording_of(spec, read_table(path), path.name, digest_recording(path), limits)
 
 
 def recording_of(

@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lostmotion.errors import DataError, nearest
-from lostmotion.provenance import digest
 from lostmotion.quantities import names_quantity, quantity_of, si_factor
 from lostmotion.recording.arrays import table_of_arrays
 from lostmotion.recording.clock import find_time
+from lostmotion.recording.folders import digest_recording
 from lostmotion.recording.formats import read_table
 from lostmotion.recording.load import Recording, recording_of
 from lostmotion.recording.spec import Channel, Hold, RecordingSpec
@@ -70,7 +70,7 @@ def read_recording(
     table = read_table(path)
     _check_names((*table.columns, *table.refused), layout, path.name)
     layout = _with_time(table, replace(layout, name=layout.name or path.stem), path.name)
-    return _finish(table, layout, path.name, digest(path), settings)
+    return _finish(table, layout, path.name, digest_recording(path), settings)
 
 
 def time_index(frame: Any) -> Any:

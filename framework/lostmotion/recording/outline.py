@@ -151,6 +151,7 @@ def _find_roles(
     drive = by_name.get(roles.drive or "") or (None if roles.drive == "none" else _find_drive(moving, roles.response))
     motions = [one for one in moving if one is not drive and one.kind in ("position", "velocity", "acceleration")]
     rest = [one for one in moving if one is not drive and one.kind in ("", "force")]
+    rest.sort(key=lambda one: holds_counts(one.name, one.unit, one.values))
     response = by_name.get(roles.response or "") or next(iter(motions or rest), None)
     if response is None:
         listed = ", ".join(f"{one.name} ({one.kind or 'unknown'})" for one in columns) or "none besides time"
