@@ -174,7 +174,7 @@ def _try_header(line: str, below: str, rows: list[Line], whole: bool) -> Header 
         return None
     width, numeric = shape
     first = cells_of(rows[0][1], separator)
-    if len(first) < 1 + (max(numeric) if whole else 0) or not all(is_value(first[j]) for j in numeric if j < len(first)):
+    if len(first) <= (max(numeric) if whole else 0) or not all(is_value(first[j]) for j in numeric if j < len(first)):
         return None
     return _make_header(names, units or [], separator, rows, width)
 
