@@ -120,10 +120,11 @@ def test_the_linear_response_equals_its_plain_twin():
     steps = 0.3 * rng.standard_normal((samples, n, n))
     roots = rng.standard_normal((samples, n, n))
     ahead = roots @ roots.transpose(0, 2, 1)
-    slopes = rng.standard_normal((samples, sensors, n + 1))
+    slopes = rng.standard_normal((samples, sensors, n + 2))
     spread = rng.uniform(2.0, 3.0, (samples, sensors))
     spread[7, 1] = math.inf
-    told = (steps, ahead, slopes, spread, np.array([0.7]), np.array([0.2]), 0.01)
+    turn, noise = np.array([[0.7, -0.2], [0.1, 0.5]]), np.array([[0.2, 0.05], [0.05, 0.1]])
+    told = (steps, ahead, slopes, spread, turn, 0.5 * noise, noise, 0.01)
     forces, seen = rng.standard_normal((3, samples, n)), rng.standard_normal((3, samples, sensors))
     found = respond(*told, forces, seen)
     assert found == pytest.approx(respond_plainly(*told, forces, seen), rel=1e-10, abs=1e-12)
