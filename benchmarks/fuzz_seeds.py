@@ -151,7 +151,7 @@ def _lvm(folder):
 
 def _logger(folder):
     """Comments, units, stamps, decimal commas, rows without their last cell, statistics: all that text tables have."""
-    head = "# rig 3\n;Kraft;Weg\nZeit;u;x\n;[N];[mm]\n"
+    head = "# rig 3\n;Kraft;Weg\ntime;u;x\n;[N];[mm]\n"
     stamps = np.datetime64("2025-03-04T09:58:50.000") + np.arange(N) * np.timedelta64(10, "ms")
     rows = [f"{str(s).replace('T', ' ')};{u:.6f};{x:.6f}".replace(".", ",") for s, u, x in
             zip(stamps, COLUMNS["u"], COLUMNS["x"], strict=True)]  # fmt: skip

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import importlib
 import os
+import subprocess
+import sys
 import zipfile
 from collections.abc import Callable
 from pathlib import Path
@@ -282,6 +284,42 @@ def test_a_format_without_its_library_names_the_extra(
     extra = {"bag": "rosbag"}.get(ending, ending)
     with pytest.raises(DataError, match=rf"\({library}\): pip install 'lostmotion\[{extra}\]'"):
         read_table(tmp_path / f"run.{ending}")
+
+
+CORE = """
+import sys
+from pathlib import Path
+import h5py, numpy as np, scipy.io, xarray as xr
+from lostmotion.recording import read_table
+folder, columns = Path(sys.argv[1]), {"time": np.arange(200) / 100.0, "x": np.cos(np.arange(200) / 9.0)}
+rows = np.column_stack(list(columns.values()))
+for ending, between in (("csv", ","), ("tsv", "\\t"), ("txt", " ")):
+    np.savetxt(folder / f"run.{ending}", rows, delimiter=between, header=between.join(columns), comments="")
+np.savez(folder / "run.npz", **columns)
+scipy.io.savemat(folder / "run.mat", columns)
+xr.Dataset({"x": ("time", columns["x"])}, {"time": columns["time"]}).to_netcdf(folder / "run.nc", engine="h5netcdf")
+with h5py.File(folder / "run.h5", "w") as file:
+    for name, column in columns.items():
+        file[name] = column
+head = "LabVIEW Measurement\\t\\nSeparator\\tTab\\nX_Columns\\tOne\\n***End_of_Header***\\t\\n\\nChannels\\t1\\t\\n"
+head += "Samples\\t200\\t\\nDelta_X\\t0.01\\t\\n***End_of_Header***\\t\\t\\nX_Value\\tx\\tComment\\n"
+(folder / "run.lvm").write_text(head + "".join(f"{t:.2f}\\t{x!r}\\t\\n" for t, x in rows.tolist()))
+for ending in ("csv", "tsv", "txt", "npz", "mat", "nc", "h5", "lvm"):
+    np.testing.assert_allclose(read_table(folder / f"run.{ending}").columns["x"], columns["x"], atol=1e-12)
+print("read")
+"""
+
+
+def test_the_formats_of_the_core_need_no_extra(tmp_path: Path) -> None:
+    """All libraries of the extras are hidden, in this process and in that of the reader."""
+    hidden = tmp_path / "hidden"
+    hidden.mkdir()
+    for library in {*LIBRARIES.values(), "mcap_ros2"}:
+        (hidden / f"{library}.py").write_text(f"raise ModuleNotFoundError('none here', name={library!r})\n")
+    places = os.pathsep.join([str(hidden), os.environ.get("PYTHONPATH", "")])
+    line = [sys.executable, "-c", CORE, str(tmp_path)]
+    done = subprocess.run(line, capture_output=True, text=True, env={**os.environ, "PYTHONPATH": places}, check=False)
+    assert done.stdout == "read\n", done.stderr
 
 
 def test_every_offered_reader_has_an_extra_and_can_be_imported() -> None:
