@@ -120,8 +120,8 @@ def test_the_linear_response_equals_its_plain_twin():
     steps = 0.3 * rng.standard_normal((samples, n, n))
     roots = rng.standard_normal((samples, n, n))
     ahead = roots @ roots.transpose(0, 2, 1)
-    slopes = rng.standard_normal((samples, sensors, n + 2))
-    spread = rng.uniform(2.0, 3.0, (samples, sensors))
+    slopes = 0.5 * rng.standard_normal((samples, sensors, n + 2))
+    spread = rng.uniform(6.0, 9.0, (samples, sensors))
     spread[7, 1] = math.inf
     turn, noise = np.array([[0.7, -0.2], [0.1, 0.5]]), np.array([[0.2, 0.05], [0.05, 0.1]])
     told = (steps, ahead, slopes, spread, turn, 0.5 * noise, noise, 0.01)

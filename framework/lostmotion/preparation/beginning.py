@@ -269,7 +269,7 @@ def _format_channel(key: str, name: str, column: OutlinedColumn, factors: Mappin
     named = f", name = {_quote(column.name)}" if key == "channel" and _can_be_name(column.name) else ""
     factor = f", factor = {factors[column.name]!r}" if column.name in factors else ""
     quoted = _quote(column.name), _quote(column.stated_unit)
-    more = f"{factor}, differences = true" if column.summed else factor
+    more = f'{factor}, differences = true, noise = "quantised"' if column.summed else factor
     return f'{{ {key} = "{name}", column = {quoted[0]}, unit = {quoted[1]}{more}{named} }}'
 
 
