@@ -34,7 +34,7 @@ def explain(path: Path, seconds: float) -> ExplanationSearch:
     pieces = [(piece.observation, piece.begin) for piece in cut_heldout(prepared.observations, held)]
     begun = time.process_time()
     say = lambda text: print(f"{time.process_time() - begun:7.1f} s  {text}", flush=True)  # noqa: E731
-    return ExplanationSearch(nominal, list_fitted_keys(system), pieces, Budget(seconds), say=say).run()
+    return ExplanationSearch(nominal, list_fitted_keys(system), pieces, Budget(seconds=seconds), say=say).run()
 
 
 def describe(hypothesis, best):

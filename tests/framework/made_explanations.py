@@ -42,10 +42,14 @@ def _make_free(key, value):
     return FreeParameter(key, UNITS.get(name, "1"), math.log(value) if log else value, -1e3, 1e3, log=log)
 
 
-def hypothesis(values, score, *, unknown=False, sd=WIDTH, log_evidence=None):
-    """Return a hypothesis with these values of its terms by key; `sd` is the deviation of each coordinate."""
+def hypothesis(values, score, *, unknown=False, sd=WIDTH, log_evidence=None, error=None):
+    """Return a hypothesis with these values of its terms by key; `sd` is the deviation of each coordinate.
+
+    The error of each of its 100 predictions is `error`, usually the score: those with other scores predict otherwise.
+    """
     problem = problem_of(values)
     theta, own = np.array([f.start for f in problem.free]), len(problem.free)
+    wrong = score if error is None else error
     return SimpleNamespace(
         terms=problem.active | ({UNKNOWN} if unknown else frozenset()),
         frame=SimpleNamespace(problem=problem, own=own),
@@ -53,6 +57,7 @@ def hypothesis(values, score, *, unknown=False, sd=WIDTH, log_evidence=None):
         values=dict(zip(problem.keys, theta.tolist(), strict=True)),
         covariance=sd**2 * np.eye(own),
         scatter=1.0,
+        expansion=SimpleNamespace(here=SimpleNamespace(errors=np.full(100, wrong), variances=np.ones(100))),
         unknown=unknown,
         log_evidence=score if log_evidence is None else log_evidence,
         heldout=0.0,
@@ -66,10 +71,17 @@ def fit_of(values, log_evidence=0.0):
     return SimpleNamespace(problem=problem_of(values), values=values, log_evidence=log_evidence)
 
 
-def explanations(*found, fits=()):
-    """Return explanations of these hypotheses, and of that of nothing missing with the score 0 if it is not given."""
+def explanations(*found, fits=(), discrepancy=0.0):
+    """Return explanations of these hypotheses, and of that of nothing missing with the score 0 if it is not given.
+
+    `discrepancy` is the log evidence that it adds to each.
+    """
     every = {one.terms: one for one in (hypothesis({}, 0.0), *found)}
-    by_terms = {fit.problem.active: fit for fit in (fit_of({}), *fits)}
+    bare = [fit_of({}), *(SimpleNamespace(problem=h.frame.problem, log_evidence=h.log_evidence) for h in found), *fits]
+    by_terms = {fit.problem.active: fit for fit in bare}
+    for terms, fit in by_terms.items():
+        if terms in every and discrepancy:
+            fit.log_evidence = every[terms].log_evidence - discrepancy
     return Explanations(by_terms, every)
 
 

@@ -54,10 +54,19 @@ def test_a_change_at_the_very_beginning_may_be_a_wrong_known_value(time, sure):
     assert doubts == [] if sure else ["first 3 % of the recording" in doubt for doubt in doubts] == [True]
 
 
-@pytest.mark.parametrize(("left", "sure"), [(0.6, False), (0.4, True)])
-def test_a_name_that_leaves_most_of_the_force_missing_is_likely(left, sure):
-    doubts = list_warnings(rubbing(left=missing(left)), FRICTION)
-    assert doubts == [] if sure else ["60 % of the missing force is still" in doubt for doubt in doubts] == [True]
+@pytest.mark.parametrize(("more", "sure"), [(6.0, False), (4.0, True)])
+def test_a_name_beside_a_discrepancy_that_explains_more_than_half_as_much_is_likely(more, sure):
+    doubts = list_warnings(diagnosis(explanations(hypothesis(RUB, 10.0), discrepancy=more)), FRICTION)
+    said = ["errors of the model without a name add 6 to the log evidence, the term 10" in d for d in doubts]
+    assert said == ([] if sure else [True])
+
+
+@pytest.mark.parametrize(("error", "shared"), [(10.1, True), (10.4, False)])
+def test_laws_that_predict_the_same_readings_share_their_probability(error, shared):
+    """100 predictions that differ by 0.1 standard deviations are expected to give 0.5, by 0.4 they give 8."""
+    rubbed = hypothesis(RUB, 10.0)
+    told = explanations(rubbed, hypothesis({f"{CHANGE}.change": 1.0}, 4.0, error=error))
+    assert told.inclusion(FRICTION) == pytest.approx(0.5 if shared else 1.0, abs=0.01)
 
 
 @pytest.mark.parametrize(
@@ -80,7 +89,8 @@ def test_a_sure_term_is_named():
 def test_a_term_with_an_alternative_is_not_named_and_says_which():
     d = diagnosis(explanations(hypothesis(RUB, 20.0), hypothesis(LATE, 20.0 - math.log(4.0))))
     assert compute_probability(d, FRICTION) == pytest.approx(0.8)
-    assert list_warnings(d, FRICTION) == ["Its probability is 0.8; the alternative is excitation delay."]
+    (doubt,) = list_warnings(d, FRICTION)
+    assert doubt == "Its probability is 0.8; the alternative is excitation delay. Together they have the probability 1."
 
 
 def test_a_term_that_nothing_missing_rivals_is_not_named():

@@ -175,8 +175,10 @@ def test_a_random_force_beyond_the_usual_is_an_unknown_force_if_nothing_was_foun
 
 
 @pytest.mark.parametrize("random_gain", [0.0, 3.0, 30.0])
-def test_nothing_missing_and_something_unknown_are_not_both_probable(random_gain):
-    d = diagnosis(explanations())
+@pytest.mark.parametrize("smooth", [(), (-20.0,), (20.0,)])
+def test_nothing_missing_and_something_unknown_are_not_both_probable(random_gain, smooth):
+    """Also where an unknown smooth force is improbable, and a random force is not."""
+    d = diagnosis(explanations(*(hypothesis({}, score, unknown=True) for score in smooth)))
     d.unexplained, d.random_gain = random_gain > 0.0, random_gain
     rows = {row.mechanism: row.probability for row in rank_candidates(d, (), failed=False)}
     assert rows["nothing_missing"] + rows["unknown"] <= 1.0 + 1e-9

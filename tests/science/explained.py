@@ -52,7 +52,7 @@ def bend(size):
 
 def explain(nominal, keys, pieces=()):
     """Return the explanations for what a nominal fit leaves out, among terms; `pieces` are held-out data."""
-    return Course(keys, pieces, Budget(SECONDS), lambda _: None).find_explanations(nominal)
+    return Course(keys, pieces, Budget(seconds=SECONDS), lambda _: None).find_explanations(nominal)
 
 
 def explain_machine(folder, extra, **made):

@@ -14,6 +14,7 @@ from lostmotion.inference.curves import add_all_curves
 from lostmotion.inference.fit import maximise, restart
 from lostmotion.inference.penalties import compute_price, compute_unknown_price
 from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
+from lostmotion.likelihood.work import count_work
 
 NOTHING, FRICTION, LEVELS = frozenset(), frozenset({"coulomb_friction"}), frozenset({"directional_friction"})
 KEYS = ("coulomb_friction", "directional_friction", "offset_force", "cubic_stiffness")
@@ -35,7 +36,9 @@ def begin(nominal, *, seconds=600.0, temper=1.0):
     """Return the bare fits of a few terms, with that of no term."""
     errors = list_channel_errors(nominal, list(nominal.problem.observations))
     whole = nominal.problem.observations
-    return BareFits(add_all_curves(nominal), nominal.problem.system, KEYS, errors, Budget(seconds), whole, temper)
+    return BareFits(
+        add_all_curves(nominal), nominal.problem.system, KEYS, errors, Budget(seconds=seconds), whole, temper
+    )
 
 
 @pytest.fixture(scope="module")
@@ -109,19 +112,34 @@ def test_a_climb_without_time_fits_nothing(nominal):
 
 
 def test_a_budget_is_used_up_by_processor_time_and_not_by_waiting():
-    budget = Budget(0.05)
+    budget = Budget(seconds=0.05)
     time.sleep(0.1)
     assert not budget.spent
-    while time.process_time() - budget.begun < 0.06:
+    while time.process_time() - budget.since < 0.06:
         sum(range(1000))
     assert budget.spent
 
 
-def test_a_part_of_a_budget_begins_with_the_whole():
-    budget = Budget(10.0, begun=time.process_time() - 7.0)
+def test_a_budget_of_work_does_not_depend_on_the_load_of_the_machine(nominal):
+    budget = Budget(steps=1.5 * count_steps(nominal))
     assert not budget.spent
-    assert budget.part(0.6).spent
-    assert not budget.part(0.8).spent
+    nominal.problem.log_likelihoods(nominal.theta[None])
+    assert not budget.spent
+    nominal.problem.log_likelihoods(nominal.theta[None])
+    assert budget.spent
+
+
+def count_steps(fit):
+    before = count_work()
+    fit.problem.log_likelihoods(fit.theta[None])
+    return count_work() - before
+
+
+def test_a_part_of_a_budget_begins_with_the_whole():
+    for budget in (Budget(seconds=10.0, since=time.process_time() - 7.0), Budget(steps=10.0, begun=count_work() - 7)):
+        assert not budget.spent
+        assert budget.part(0.6).spent
+        assert not budget.part(0.8).spent
 
 
 def test_terms_are_named_in_order_and_an_unknown_force_costs_as_much_as_one_of_many_laws():

@@ -127,7 +127,7 @@ def test_a_drive_that_is_late_is_corrected_to_when_it_acted(clean):
 
 def test_a_course_finds_friction_and_keeps_the_model_without_it(tmp_path):
     nominal = nominal_of(tmp_path, rub)
-    found = Course(KEYS, (), Budget(600.0), lambda _: None).find_explanations(nominal)
+    found = Course(KEYS, (), Budget(seconds=600.0), lambda _: None).find_explanations(nominal)
     assert found.terms == FRICTION
     assert {NOTHING, FRICTION} <= set(found.found) & set(found.fits)
     assert found.nominal.problem.system is nominal.problem.system
@@ -136,7 +136,7 @@ def test_a_course_finds_friction_and_keeps_the_model_without_it(tmp_path):
 
 def test_a_course_without_time_says_what_it_did_not_extend(tmp_path):
     nominal = nominal_of(tmp_path, rub)
-    found = Course(KEYS, (), Budget(0.0), lambda _: None).find_explanations(nominal)
+    found = Course(KEYS, (), Budget(seconds=0.0), lambda _: None).find_explanations(nominal)
     assert found.terms == NOTHING
     assert found.skipped == ("no term",)
 
@@ -147,7 +147,7 @@ def test_a_long_recording_is_searched_on_stretches_and_weighed_on_all_samples(tm
     parts = (whole.part(0, 150), whole.part(whole.samples - 150, whole.samples))
     monkeypatch.setattr(course_module, "cut_stretches", lambda problem: problem.on(parts))
     steps = []
-    found = Course(KEYS, (), Budget(600.0), steps.append).find_explanations(nominal)
+    found = Course(KEYS, (), Budget(seconds=600.0), steps.append).find_explanations(nominal)
     assert "search on 300 samples in 2 stretches" in steps
     assert found.terms == FRICTION
     assert all(one.frame.problem.samples == whole.samples for one in found.found.values())
@@ -163,7 +163,7 @@ def test_noise_with_a_memory_is_no_force_and_is_part_of_every_explanation(tmp_pa
     for i, step in enumerate(np.sqrt(1.0 - share**2) * rng.standard_normal(len(T))):
         slow[i] = share * slow[i - 1] + step
     nominal = nominal_of(tmp_path, nothing, shown=lambda x: x + 0.02 * x.std() * slow)
-    found = Course(KEYS, (), Budget(600.0), lambda _: None).find_explanations(nominal)
+    found = Course(KEYS, (), Budget(seconds=600.0), lambda _: None).find_explanations(nominal)
     assert found.terms == NOTHING
     for one in found.found.values():
         assert {AR1_LEVEL, AR1_MEMORY} <= set(one.frame.problem.keys)
@@ -182,9 +182,9 @@ def test_a_cancelled_search_gives_the_best_explanation_so_far(tmp_path):
 
         return say
 
-    found = Course(KEYS, (), Budget(600.0), cancel_after("weighing no term")).find_explanations(nominal)
+    found = Course(KEYS, (), Budget(seconds=600.0), cancel_after("weighing no term")).find_explanations(nominal)
     assert found.terms == {"coulomb_friction"}
     assert found.skipped == ("any set",)
     assert told[-1] == "cancelled: the best explanation so far"
     with pytest.raises(KeyboardInterrupt):
-        Course(KEYS, (), Budget(600.0), cancel_after("score tests beside no term")).find_explanations(nominal)
+        Course(KEYS, (), Budget(seconds=600.0), cancel_after("score tests beside no term")).find_explanations(nominal)

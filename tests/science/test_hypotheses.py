@@ -45,7 +45,7 @@ def start_search(folder, extra, *, budget=600.0):
     train, held = split_heldout(prepared.observations)
     nominal = search_maximum(make_problem(system, prepared.case, train, jobs=1), np.random.default_rng(0))
     pieces = [(piece.observation, piece.begin) for piece in cut_heldout(prepared.observations, held)]
-    return ExplanationSearch(nominal, list_fitted_keys(system), pieces, Budget(budget))
+    return ExplanationSearch(nominal, list_fitted_keys(system), pieces, Budget(seconds=budget))
 
 
 def make_expansion(errors, variances=None, precision=None):

@@ -41,8 +41,8 @@ from lostmotion.likelihood.problem import Problem
 from lostmotion.likelihood.system import System
 from lostmotion.settings import DEFAULT, LocateSettings, Settings
 
-BUDGET, PER = 30.0, 5e4
-"""The processor time of a search in s, and the readings times states that double it."""
+STEPS, PER = 6e8, 5e4
+"""The work of a search in steps of filters, 30 s on a usual machine, and the readings times states that double it."""
 LARGEST = 1e100
 """A missing force beyond this means that the filter diverged; its square would overflow."""
 
@@ -182,9 +182,7 @@ def diagnose(
     nominal = search_maximum(make_problem(system, case, train, jobs=jobs, settings=settings), rng)
     scale = describe_wrong_scale(nominal, case, rng.spawn(1)[0])
     pieces = [(piece.observation, piece.begin) for piece in cut_heldout(observations, held)]
-    course = Course(
-        list_fitted_keys(system), pieces, Budget(settings.select.budget or choose_budget(nominal.problem)), say
-    )
+    course = Course(list_fitted_keys(system), pieces, choose_budget(nominal.problem), say)
     explained = course.find_explanations(nominal)
     first = SearchResult(
         nominal, nominal, explained, held[0], _NOT_LOCATED, None, _EMPTY, {}, {}, 0.0, train, held, tuple(observations)
@@ -192,10 +190,12 @@ def diagnose(
     return explain_by(explained, replace(first, scale=scale), rng.spawn(1)[0], say)
 
 
-def choose_budget(problem: Problem) -> float:
-    """Return the processor time of a search, in s: a base and a part in proportion to the readings and the states."""
+def choose_budget(problem: Problem) -> Budget:
+    """Return the budget of a search: `select.budget`, or work in proportion to the readings and the states."""
+    if problem.settings.select.budget:
+        return Budget(seconds=problem.settings.select.budget)
     readings = problem.samples * len(problem.observations[0].sensors)
-    return BUDGET * (1.0 + readings * problem.dynamics.states / PER)
+    return Budget(steps=STEPS * (1.0 + readings * problem.dynamics.states / PER))
 
 
 def explain_by(

@@ -16,7 +16,7 @@ from lostmotion.inference.fit import Fit
 from lostmotion.inference.natural import find_term
 from lostmotion.inference.penalties import is_simpler
 from lostmotion.quantities import TIME
-from lostmotion.report.words import to_words
+from lostmotion.report.words import sentence, to_words
 from lostmotion.results import attach_unit, percent, rounded
 from lostmotion.results.diagnosis import Mechanism, OpenTerm
 from lostmotion.settings import DEFAULT, NameSettings
@@ -86,8 +86,15 @@ def _warn_of_probability(d: SearchResult, key: str) -> Iterator[str]:
     if p > d.settings.name.sure:
         return
     others = _list_alternatives(d, key)
-    verb = "alternatives are" if len(others) > 1 else "alternative is"
-    yield f"Its probability is {rounded(p)}; the {verb} {', '.join(others) or 'a small smooth force without a name'}."
+    if not others:
+        yield f"Its probability is {rounded(p)}; the alternative is a small smooth force without a name."
+        return
+    names = ["an unknown force" if k == UNKNOWN else _name_law(d, k) for k in others]
+    either = sum(share for terms, share in d.explained.probabilities.items() if terms & {key, *others})
+    yield (
+        f"Its probability is {rounded(p)}; the alternative{'s are' if len(names) > 1 else ' is'} {', '.join(names)}."
+        f" Together they have the probability {rounded(min(either, 1.0))}."
+    )
 
 
 def _warn_of_vague_size(d: SearchResult, key: str) -> Iterator[str]:
@@ -104,8 +111,11 @@ def _warn_of_rest(d: SearchResult, key: str) -> Iterator[str]:
             "Beside the term, an unknown force that is larger than the usual errors of a model has the probability"
             f" {rounded(unknown)}: the term may be a part of it."
         )
-    elif (share := measure_remains(d)) > d.settings.name.remains:
-        yield f"With it, {percent(share)} of the missing force is still missing."
+    elif (left := d.explained.leftover) > d.settings.name.remains * (gain := compute_gain(d, key)):
+        yield (
+            f"Beside the term, small errors of the model without a name add {rounded(left)} to the log evidence, the"
+            f" term {rounded(max(gain, 0.0))}: the term may be a part of them."
+        )
 
 
 def compute_gain(d: SearchResult, key: str) -> float:
@@ -114,11 +124,10 @@ def compute_gain(d: SearchResult, key: str) -> float:
 
 
 def _list_alternatives(d: SearchResult, key: str) -> list[str]:
-    """Return the names of the terms of alternative sets without this term that have a share of the posterior."""
+    """Return the keys of the terms of alternative sets without this term that have a share of the posterior."""
     found, shares = d.explained.terms, d.explained.probabilities
     sets = [terms for terms, p in shares.items() if key not in terms and p > d.settings.name.rival]
-    names = dict.fromkeys(k for terms in sets for k in sorted(terms - found))
-    return ["an unknown force" if k == UNKNOWN else to_words(find_term(d.before.problem, k)[0].name) for k in names]
+    return list(dict.fromkeys(k for terms in sets for k in sorted(terms - found)))
 
 
 def warn_of_moved_amplitudes(d: SearchResult, key: str) -> Iterator[str]:
@@ -142,10 +151,9 @@ def warn_of_moved_amplitudes(d: SearchResult, key: str) -> Iterator[str]:
             )
 
 
-def _name_term(d: SearchResult, key: str) -> str:
-    """Return the name of a term in words, capitalised."""
-    name = to_words(find_term(d.before.problem, key)[0].name)
-    return name[:1].upper() + name[1:]
+def _name_law(d: SearchResult, key: str) -> str:
+    """Return the name of a term in words."""
+    return to_words(find_term(d.before.problem, key)[0].name)
 
 
 def _warn_of_long_delay(d: SearchResult, key: str) -> Iterator[str]:
@@ -238,6 +246,6 @@ def list_open_terms(d: SearchResult) -> tuple[OpenTerm, ...]:
                 continue
             term, _ = find_term(d.before.problem, key)
             p = d.explained.inclusion(key) if key not in d.withdrawn else 0.0
-            says = f"{_name_term(d, key)} would raise the likelihood, but {why}."
+            says = f"{sentence(_name_law(d, key))} would raise the likelihood, but {why}."
             rows[key] = OpenTerm(term.name, term.at, p, says)
     return tuple(rows.values())

@@ -228,15 +228,17 @@ def _find_formula(d: SearchResult, band: Band) -> tuple[str, float] | None:
 
 
 def compute_unknown_odds(d: SearchResult) -> tuple[float, float]:
-    """Return the probability of a force that the library does not contain, and its log evidence."""
+    """Return the probability of a force that the library does not contain, and its log evidence.
+
+    It is an unknown smooth force or, where nothing was found, a random force beyond the usual.
+    """
     p, found = d.explained.inclusion(UNKNOWN), d.explained
-    if p > 0.0:
-        known = [one.score() for terms, one in found.found.items() if UNKNOWN not in terms]
-        with_it = [one.score() for terms, one in found.found.items() if UNKNOWN in terms]
-        return p, max(with_it) - max(known)
-    if d.found or not d.unexplained:
-        return 0.0, 0.0
-    return 1.0 - math.exp(-d.random_gain), d.random_gain
+    random = 1.0 - math.exp(-d.random_gain) if d.unexplained and not d.found else 0.0
+    if random >= p:
+        return random, d.random_gain if random else 0.0
+    known = [one.score() for terms, one in found.found.items() if UNKNOWN not in terms]
+    with_it = [one.score() for terms, one in found.found.items() if UNKNOWN in terms]
+    return p, max(with_it) - max(known)
 
 
 def describe_dependence(located: ForceLocation, learned: UnknownForce | None = None) -> ForceDependence:

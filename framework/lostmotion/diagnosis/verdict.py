@@ -21,7 +21,6 @@ from lostmotion.diagnosis.notes import note_large_noise
 from lostmotion.diagnosis.search import SearchResult, list_fitted_keys
 from lostmotion.diagnosis.states import LIKELY, OPEN, is_uncertain
 from lostmotion.diagnosis.unknowns import compute_unknown_odds
-from lostmotion.evidence.hypothesis import UNKNOWN
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.natural import find_term
 from lostmotion.inference.penalties import compute_penalty
@@ -208,7 +207,7 @@ def rank_candidates(d: SearchResult, found: Sequence[Mechanism], *, failed: bool
             )
         )
     nothing = 0.0 if failed and not d.found else explained.probabilities.get(frozenset(), 0.0)
-    nothing *= 1.0 if explained.inclusion(UNKNOWN) else 1.0 - unknown
+    nothing = min(nothing, 1.0 - unknown)
     fitted = any(one.unknown for one in explained.found.values())
     rows += [
         Candidate(mechanism="nothing_missing", at="", log_evidence_gain=0.0, probability=nothing, fitted=True),

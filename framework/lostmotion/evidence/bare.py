@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -23,6 +24,7 @@ from lostmotion.inference.shape_scan import scan_shapes
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
+from lostmotion.likelihood.work import count_work
 
 Say = Callable[[str], None]
 Terms = frozenset[str]
@@ -32,25 +34,30 @@ MOST_FITTED = 5
 MOST_TERMS = 4
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Budget:
-    """The processor time that a search may use, in s."""
+    """The work that a search may do, in steps of filters (`count_work`), and the processor time, in s.
 
-    seconds: float
-    begun: float = field(default_factory=time.process_time)
+    Without a limit of time, the search ends at the same point on every machine.
+    """
+
+    steps: float = math.inf
+    seconds: float = math.inf
+    begun: int = field(default_factory=count_work)
+    since: float = field(default_factory=time.process_time)
 
     @property
     def spent(self) -> bool:
-        """Whether the time is used up."""
-        return time.process_time() - self.begun > self.seconds
+        """Whether the work or the time is used up."""
+        return count_work() - self.begun > self.steps or time.process_time() - self.since > self.seconds
 
     def end(self) -> None:
-        """Declare the time used up."""
-        self.seconds = 0.0
+        """Declare the work used up."""
+        self.steps = -1.0
 
     def part(self, share: float) -> Budget:
         """Return the budget of a first part of the work."""
-        return Budget(share * self.seconds, self.begun)
+        return replace(self, steps=share * self.steps, seconds=share * self.seconds)
 
 
 @dataclass

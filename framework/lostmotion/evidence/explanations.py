@@ -21,10 +21,9 @@ from lostmotion.evidence.search import ExplanationSearch, compute_probabilities,
 from lostmotion.inference.curves import drop_all_curves
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.mixture import compute_root
-from lostmotion.inference.natural import find_term
 
 TIED = math.log(20.0)
-"""Two similar laws are not distinguished by log evidences that differ by less than this."""
+"""Two laws are not distinguished where the expected log likelihood ratio of one to the other is less than this."""
 LEAST = 1e-3
 """Parameters are averaged over the hypotheses with at least this probability."""
 
@@ -94,6 +93,11 @@ class Explanations:
         less = self.found.get(self.best.terms - {key})
         return self.best.score() - less.score() if less else self.gain(key)
 
+    @property
+    def leftover(self) -> float:
+        """The log evidence that the discrepancy adds to the most probable terms; at least 0."""
+        return max(self.best.log_evidence - self.chosen.log_evidence, 0.0)
+
     def refute(self) -> Explanations:
         """Return the explanations without the most probable set of terms."""
         return replace(self, refuted=self.refuted | {self.terms})
@@ -119,8 +123,8 @@ class Explanations:
 def _share_ties(found: Sequence[Hypothesis], shares: dict[Terms, float]) -> dict[Terms, float]:
     """Return probabilities in which laws that the data do not distinguish share theirs by their prior odds.
 
-    They are similar laws with as many parameters, one in place of the other in the same set. Their evidences differ by
-    the widths of their priors alone.
+    They have as many parameters, and one is in place of the other in the same set. Their evidences differ by the widths
+    of their priors, and by chance.
     """
     for best in sorted(found, key=lambda one: -one.score()):
         group = [one for one in found if one is best or _is_tied(best, one)]
@@ -133,13 +137,22 @@ def _share_ties(found: Sequence[Hypothesis], shares: dict[Terms, float]) -> dict
 
 
 def _is_tied(best: Hypothesis, other: Hypothesis) -> bool:
-    """Return whether a hypothesis has a similar law in place of one of another, and about the same evidence."""
+    """Return whether a hypothesis has one other law than the best one, and predicts the same readings."""
     mine, its = best.terms - other.terms, other.terms - best.terms
     if len(mine) != 1 or len(its) != 1 or UNKNOWN in mine | its or best.frame.own != other.frame.own:
         return False
-    one, two = (find_term(best.frame.problem, next(iter(keys)))[0] for keys in (mine, its))
-    alike = {*one.resembles, *one.equals, *two.resembles, *two.equals} & {one.name, two.name}
-    return bool(alike) and abs(best.score() + best.price - other.score() - other.price) < TIED
+    return compute_expected_ratio(best, other) < TIED
+
+
+def compute_expected_ratio(one: Hypothesis, other: Hypothesis) -> float:
+    """Return the log likelihood ratio of the fitted data that is expected if a hypothesis is true and not the other.
+
+    With the difference d of their one-step predictions and the variance S of the errors it is the sum of d^2 / (2 S)
+    (the Kullback-Leibler divergence of normal densities with one variance), over the temper.
+    """
+    here, there = one.expansion.here, other.expansion.here
+    apart = (here.errors - there.errors) ** 2 / here.variances
+    return 0.5 * float(np.nansum(apart)) / one.scatter
 
 
 def _draw(found: Hypothesis, keys: list[str], count: int, rng: np.random.Generator) -> Array:

@@ -16,6 +16,7 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.stats import chi2
 
 from lostmotion.contracts import Array
 from lostmotion.evidence.discrepancy import Choice, JointFrame, Quadratic
@@ -25,8 +26,8 @@ from lostmotion.inference.natural import sort_slots
 
 UNKNOWN = "unknown"
 """The name of a smooth force that is larger than the usual discrepancy, among the terms of a set."""
-BAND = 1.96
-"""The half width of a central interval of 95 %, in standard deviations."""
+WAVE = ("cosine", "sine")
+"""The names of the two amplitudes of a wave."""
 ROUNDS, TOLERANCE = 10, 0.4
 """The largest number of rounds, and the gain in log posterior below which a fit has converged."""
 SHARES = (0.4, 0.1, 0.02)
@@ -108,27 +109,53 @@ class Hypothesis:
 
 
 def list_vague(found: Hypothesis, key: str) -> list[str]:
-    """Return the amplitudes of a term, by the name of the parameter, whose 95 % interval reaches zero."""
-    names = {s.key: s.param for s in sort_slots(found.frame.problem, key)[0]}
-    sds = np.sqrt(np.maximum(np.diag(found.covariance), 0.0))
-    rows = zip(found.frame.problem.free[: found.frame.own], found.theta, sds, strict=True)
-    amplitudes = [(names[f.key], at, sd) for f, at, sd in rows if f.key in names and not f.log]
-    return [param.name for param, at, sd in amplitudes if abs(at - (param.null or 0.0)) < BAND * sd]
+    """Return the amplitudes of a term, by the name of the parameter, whose 95 % region contains zero.
+
+    The cosine and the sine of a wave are one amplitude: which of them is small depends on the phase alone.
+    """
+    free = found.frame.problem.free[: found.frame.own]
+    places = {f.key: i for i, f in enumerate(free) if not f.log}
+    slots = [s for s in sort_slots(found.frame.problem, key)[0] if s.key in places]
+    rows = [[s] for s in slots if s.param.name not in WAVE]
+    waves = [s for s in slots if s.param.name in WAVE]
+    return [
+        " and ".join(s.param.name for s in row)
+        for row in (*rows, waves)
+        if row and _is_vague(found, [places[s.key] for s in row], [s.param.null or 0.0 for s in row])
+    ]
+
+
+def _is_vague(found: Hypothesis, places: Sequence[int], null: Sequence[float]) -> bool:
+    """Return whether the region of 95 % of some own coordinates contains a point: the Wald test."""
+    apart = found.theta[list(places)] - np.array(null)
+    square = float(apart @ solve_scaled(found.covariance[np.ix_(places, places)], apart))
+    return square < float(chi2.ppf(0.95, len(apart)))
 
 
 def fit_hypothesis(frame: JointFrame, begin: Array, price: float, choice: Choice | None = None) -> Hypothesis:
     """Return the hypothesis of a frame, fitted from coordinates `begin` (count,) with the smooth forces of `choice`.
 
     Without a choice, errors of channels and known values are fitted first, and then smooth forces beside them: what
-    both explain is not left to the more flexible one because of the point where the fit began.
+    both explain is not left to the more flexible one because of the point where the fit began. Smooth forces that make
+    the evidence smaller are left out.
     """
     steps = choose_first_steps(replace(frame.problem, free=frame.problem.free[: frame.own]))
     begin = begin.copy()
     begin[frame.own :][frame.widths(choice or frame.none) == 0.0] = 0.0
     expansion = frame.expand(begin, steps, choice or frame.none)
+    made = []
     if choice is None:
-        expansion, choice, _ = _maximise(frame, expansion, frame.none, free=False)
+        expansion, choice, converged = _maximise(frame, expansion, frame.none, free=False)
+        made.append(_make_hypothesis(frame, expansion, choice, price, converged=converged))
     expansion, choice, converged = _maximise(frame, expansion, choice, free=True)
+    made.append(_make_hypothesis(frame, expansion, choice, price, converged=converged))
+    return max(made, key=lambda one: one.log_evidence)
+
+
+def _make_hypothesis(
+    frame: JointFrame, expansion: Expansion, choice: Choice, price: float, *, converged: bool
+) -> Hypothesis:
+    """Return the hypothesis at the point of an expansion, with its log evidence."""
     quadratic = Quadratic.of(frame, expansion)
     smooth = quadratic.evaluate(choice) - quadratic.evaluate(frame.none)
     evidence = _compute_log_evidence(frame, expansion, choice)

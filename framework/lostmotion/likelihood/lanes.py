@@ -25,6 +25,7 @@ from lostmotion.likelihood.motion import (
     spread_points,
 )
 from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.work import add_work
 
 _NONE = (np.zeros((1, 1)), np.zeros((1, 1, 1)), np.zeros((1, 1)), np.zeros((1, 1, 1)), np.zeros((1, 1, 1)))
 
@@ -136,6 +137,7 @@ class Lanes(Engine):
             (made.derive, made.observe), blocks, wires, inputs, which, np.ascontiguousarray(readings),
             numbers, find_input_variance(dynamics, observation), dt, nsub, padded, kept, lanes,
         )  # fmt: skip
+        add_work(len(points) * observation.samples * nsub * n)
         require_no_failure(failed, system, blocks[0], wires)
         for mine, theirs in zip(written, padded, strict=True):
             if mine is not theirs:

@@ -87,7 +87,7 @@ class SelectSettings:
         "A value of an amplitude beyond the reach of a score test is tried when it gains this much in log-likelihood.",
     )
     budget: float = threshold(
-        0.0, "The processor time of the search, in s; 0: a time in proportion to the readings and the states."
+        0.0, "The processor time of the search, in s; 0: work in proportion to the readings and the states."
     )
     onset_first: float = threshold(
         0.04, "An onset before this share of a recording is not considered: the term acts from the beginning.", most=1.0
@@ -243,8 +243,9 @@ class NameSettings:
     remains: float = threshold(
         0.5,
         (
-            "A finding is at most likely where the remaining random force exceeds this share of the missing force, and"
-            " open where the model does not predict held-out data either."
+            "A finding is at most likely where the discrepancy adds more than this share of the log evidence that the"
+            " finding adds. It is open where the model does not predict held-out data and the remaining random"
+            " force exceeds this share of the missing force."
         ),
         most=1.0,
     )
