@@ -26,13 +26,13 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from fuzz_seeds import Seeds
+from fuzz_seeds import READ, Seeds
 from fuzz_targets import KINDS, tried, unguarded
 from lostmotion.errors import LostMotionError
 
 SECONDS, MEMORY, SENTENCE = 10, 2 * 2**30, 20_000
 HANGS, DIED = "hangs outside of Python", "killed its process"
-FOREIGN = ("mat5", "mat73", "nc", "nc3", "h5", "uff", "chain", "map")
+FOREIGN = ("mat5", "mat73", "nc", "nc3", "h5", "uff", "chain", "map", *READ)
 CHUNK = 250
 """Inputs that one process takes before its memory is read."""
 

@@ -8,6 +8,7 @@ diagnosis and the chain of an identification are left out: they begin after ever
 from __future__ import annotations
 
 import contextlib
+import inspect
 import os
 import warnings
 from datetime import datetime
@@ -182,8 +183,9 @@ def numbers(*names):
 
 
 def omit(call):
-    """Return a constructor that is called without the arguments that are None."""
-    return lambda **given: call(**{name: value for name, value in given.items() if value is not None})
+    """Return a constructor that is called without the arguments that are None and may be left out."""
+    needed = {name for name, one in inspect.signature(call).parameters.items() if one.default is one.empty}
+    return lambda **given: call(**{name: v for name, v in given.items() if v is not None or name in needed})
 
 
 def opened(**given):

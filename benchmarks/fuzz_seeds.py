@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import shutil
 import sys
 from dataclasses import dataclass
+from importlib.util import find_spec
 from pathlib import Path
 
 import h5py
@@ -14,7 +16,11 @@ import xarray as xr
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT / "tests" / "framework"), str(ROOT / "tests" / "chaos")]
-TABLES = ("csv", "txt", "npz", "mat5", "mat73", "nc", "nc3", "h5", "uff")
+EXTRAS = {"xlsx": "python_calamine", "tdms": "nptdms", "mcap": "mcap_ros2", "bag": "rosbags", "db3": "rosbags",
+          "parquet": "pyarrow", "mf4": "asammdf"}  # fmt: skip
+"""Formats whose libraries are extras: they are tried where the library is installed."""
+READ = tuple(name for name, library in EXTRAS.items() if find_spec(library))
+TABLES = ("csv", "txt", "lvm", "logger", "npz", "mat5", "mat73", "nc", "nc3", "h5", "uff", *READ)
 N = 240
 TIME = np.arange(N) / 100.0
 COLUMNS = {"time": TIME, "u": np.sin(9.0 * TIME), "x": 1e-3 * np.cos(9.0 * TIME) + 1e-5 * np.sin(31.0 * TIME**2)}
@@ -132,6 +138,42 @@ def _uff(folder):
         pyuff.UFF(str(folder / "run.uff")).write_sets([sets], "add")
 
 
+def _lvm(folder):
+    head = (
+        "LabVIEW Measurement\t\nSeparator\tTab\nDecimal_Separator\t.\nMulti_Headings\tNo\nX_Columns\tOne\n"
+        "Date\t2025/03/04\nTime\t09:58:50.123\n***End_of_Header***\t\n\t\nChannels\t2\t\t\n"
+        f"Samples\t{N}\t{N}\t\nY_Unit_Label\tN\tmm\t\nX0\t0.0\t0.0\t\nDelta_X\t0.01\t0.01\t\n"
+        "***End_of_Header***\t\t\t\nX_Value\tu\tx\tComment\n"
+    )
+    rows = np.column_stack(list(COLUMNS.values()))
+    (folder / "run.lvm").write_text(head + "".join(f"{t:.4f}\t{u:.6g}\t{x:.6g}\t\n" for t, u, x in rows))
+
+
+def _logger(folder):
+    """Comments, units, stamps, decimal commas, rows without their last cell, statistics: all that text tables have."""
+    head = "# rig 3\n;Kraft;Weg\ntime;u;x\n;[N];[mm]\n"
+    stamps = np.datetime64("2025-03-04T09:58:50.000") + np.arange(N) * np.timedelta64(10, "ms")
+    rows = [f"{str(s).replace('T', ' ')};{u:.6f};{x:.6f}".replace(".", ",") for s, u, x in
+            zip(stamps, COLUMNS["u"], COLUMNS["x"], strict=True)]  # fmt: skip
+    rows[7] = rows[7].rpartition(";")[0]
+    (folder / "run.csv").write_text(head + "\n".join(rows) + "\nMittelwert;0,1;0,2\n", encoding="utf-8")
+
+
+def _further(ending):
+    def make(folder):
+        import test_further_formats as formats
+
+        if ending == "db3":
+            formats.to_bag2(folder / "bag")
+            (database,) = (folder / "bag").glob("*.db3")
+            database.rename(folder / "run.db3")
+            shutil.rmtree(folder / "bag")
+        else:
+            getattr(formats, f"to_{ending}")(folder / f"run.{ending}")
+
+    return make
+
+
 def _diagnosis(folder):
     import report_fixture
 
@@ -180,5 +222,6 @@ def _map(folder):
 MAKERS = {
     "csv": _csv, "txt": lambda folder: _csv(folder, "run.txt", " "), "npz": _npz, "mat5": _mat5, "mat73": _mat73,
     "nc": _nc, "nc3": lambda folder: _nc(folder, "scipy"), "h5": _h5, "uff": _uff, "diagnosis": _diagnosis,
-    "analysis": _analysis, "chain": _chain, "map": _map,
+    "analysis": _analysis, "chain": _chain, "map": _map, "lvm": _lvm, "logger": _logger,
+    **{ending: _further(ending) for ending in READ},
 }  # fmt: skip

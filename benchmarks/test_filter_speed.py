@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 
 from lostmotion.likelihood.drive import Drive
-from lostmotion.likelihood.engine import Dynamics, Points
+from lostmotion.likelihood.engine import Dynamics, Points, SensorNoises
 from lostmotion.likelihood.lanes import Lanes
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.reference import Reference
 from lostmotion.likelihood.system import System
+from lostmotion.noises import NoiseBlock
 from lostmotion_plugins.models.lin import LinBacklash
 from lostmotion_plugins.terms.friction import CoulombFriction
 from yardstick import ratio_of
@@ -37,7 +38,8 @@ def asked(samples, count):
     one, number = np.ones((count, 1)), np.zeros(count, dtype=np.int64)
     points = Points(
         full * (1.0 + 1e-3 * rng.standard_normal((count, len(full)))), np.full(count, 1e-2), number.astype(float),
-        noise**2 * one, 0.0 * one, 0.0 * one, one, 0.0 * one, 0.0 * one, np.tile([truth[0], 0.1], (count, 1)),
+        SensorNoises.of([[NoiseBlock(white=noise**2)]] * count),
+        one, 0.0 * one, 0.0 * one, np.tile([truth[0], 0.1], (count, 1)),
         np.tile(np.diag([1e-8, 1e-2]), (count, 1, 1)), (drive,), number, number,
     )  # fmt: skip
     return Dynamics(system, system.everything, SUBSTEPS), observation, points

@@ -1,4 +1,4 @@
-"""The seven kinds of plugin. Subclass one of them directly, as a frozen dataclass, and name the class in a hook.
+"""The eight kinds of plugin. Subclass one of them directly, as a frozen dataclass, and name the class in a hook.
 
 `rhs`, `observe`, `force` and `rate` are scalar Python functions on NumPy arrays. The framework compiles them with numba
 into one kernel, so they may use arithmetic, branches and `math`, but no NumPy functions and no objects. A quantity that
@@ -16,12 +16,13 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic, Literal, Self
 import numpy as np
 
 from lostmotion.errors import ContractError, nearest
+from lostmotion.noises import Noise, NoiseBlock, NoiseParameter, SensorScales
 from lostmotion.parts import PSEUDO_NEEDS, Array, Drive, Group, Input, Interface, Motion, Param, Values
 from lostmotion.quantities import Dimension
 from lostmotion.recording.arrays import table_of_arrays
 from lostmotion.recording.table import Table
 from lostmotion.results import Embedding, Estimate
-from lostmotion.subjects import Attractors, Data, Flow, Motions, Orbit, Series
+from lostmotion.subjects import Attractors, Data, Flow, Orbit, Series
 
 if TYPE_CHECKING:
     from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Smoothed
@@ -29,8 +30,9 @@ if TYPE_CHECKING:
 
 __all__ = [
     "KINDS", "PSEUDO_NEEDS", "Array", "Assembly", "Attractors", "Data", "Denoiser", "Drive", "DriveTerm", "Embedder",
-    "Engine", "Flow", "Group", "Input", "Interface", "Model", "Motion", "Motions", "Orbit", "Param", "Quantifier",
-    "SensorTerm", "Series", "Surrogate", "Table", "Term", "Values", "place_of", "table_of_arrays"]  # fmt: skip
+    "Engine", "Flow", "Group", "Input", "Interface", "Model", "Motion", "Noise", "NoiseBlock", "NoiseParameter",
+    "Orbit", "Param", "Quantifier", "SensorScales", "SensorTerm", "Series", "Surrogate", "Table", "Term", "Values",
+    "place_of", "table_of_arrays"]  # fmt: skip
 
 _NOWHERE = Interface("", -1, "", lambda y, u: (0.0, 0.0))
 
@@ -280,8 +282,8 @@ class Assembly:
 
 def place_of(model: Model, term: Term) -> Interface:
     """Return the interface of `model` at which `term` acts; raise `ContractError` that says what is missing there."""
-    beside = (term.acts, *(model.inputs if term.acts == "drive" else (term.at,)))
-    named = {name: replace(_NOWHERE, name=name) for name in beside}
+    beside = model.inputs if term.acts == "drive" else (term.at,)
+    named = {name: replace(_NOWHERE, name=name) for name in (term.acts, *beside)}
     places = {i.name: i for i in model.interfaces} if term.acts == "motion" else named
     if term.at not in places:
         raise ContractError(
@@ -306,8 +308,8 @@ class Embedder(ABC):
     def choose(self, x: Array, *, dt: float) -> Embedding:
         """Return lag (samples), dimension and Theiler window (samples) for `x` (n,) sampled every `dt` s.
 
-        Example: `Embedding(lag=6, dim=3, theiler=20)` from `lostmotion.results`. For an unsuitable series raise no
-        error: set `status` to one of `results.STATUSES`, and explain it in `says`.
+        Example: `results.Embedding(lag=6, dim=3, theiler=20)`. For an unsuitable series raise no error: set `status` to
+        one of `results.STATUSES`, and explain it in `says`.
         """
 
 
@@ -331,9 +333,8 @@ class Quantifier(ABC, Generic[Data]):
 class Surrogate(ABC):
     """Draws random series that share the properties named in `preserves` with the recording.
 
-    `null` states in words the hypothesis under which the recording is one more such draw. `preserves` names some of
-    "mean", "variance", "amplitudes" (the sorted values), "spectrum", "cycles" (the shape of single periods).
-    Example of a shuffle: `return np.array([rng.permutation(series.x) for _ in range(draws)])`.
+    `null` says under which hypothesis the recording is one more such draw. `preserves` names some of "mean",
+    "variance", "amplitudes" (sorted values), "spectrum", "cycles". A shuffle: `rng.permuted(x, axis=1)`.
     """
 
     name: ClassVar[str]
@@ -365,10 +366,9 @@ class Denoiser(ABC):
 
 
 class Engine(ABC):
-    """Filters, smooths and simulates a model with its terms at many parameter points in one call, thread-safe.
+    """Filters, smooths and simulates a model with its terms at many points, thread-safe, each point independently.
 
-    The result of a point depends neither on the other points nor on their order. A point that diverges raises no
-    error: `Innovations.of(errors, variances, reached)` marks it. `lostmotion.likelihood.reference` is an example.
+    A point that diverges raises no error: `Innovations.of` marks it, as in `likelihood.reference`.
     """
 
     name: ClassVar[str]
@@ -396,5 +396,5 @@ class Engine(ABC):
 
 
 KINDS: Mapping[str, type[Any]] = {
-    kind.__name__.lower(): kind for kind in (Model, Term, Embedder, Quantifier, Surrogate, Denoiser, Engine)
+    kind.__name__.lower(): kind for kind in (Model, Term, Embedder, Quantifier, Surrogate, Denoiser, Engine, Noise)
 }

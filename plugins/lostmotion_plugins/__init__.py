@@ -76,6 +76,21 @@ def lostmotion_terms() -> dict[str, str]:
 
 
 @hookimpl
+def lostmotion_noises() -> dict[str, str]:
+    """Return the built-in noises; the first three are parts of the framework itself."""
+    at = f"{_HERE}.noises"
+    return {
+        "ar1": "lostmotion.noises:AR1",
+        "quantised": "lostmotion.noises:Quantised",
+        "white": "lostmotion.noises:White",
+        "drift": f"{at}.drift:DriftingZero",
+        "hum": f"{at}.hum:Hum",
+        "hum60": f"{at}.hum:Hum60",
+        "jitter": f"{at}.jitter:Jitter",
+    }
+
+
+@hookimpl
 def lostmotion_engines() -> dict[str, str]:
     """Return the built-in engines, which are parts of the framework itself."""
     at = "lostmotion.likelihood"

@@ -63,6 +63,8 @@ def wave(n=400):
         (np.ones((300, 2)), "dimensions"),
         (np.exp(1j * np.arange(300)), "complex"),
         (["a"] * 300, "not a number"),
+        ([10**400] * 300, "not a number"),
+        (np.r_[1e308, -1e308, np.arange(300.0)], r"reaches 1e\+308"),
     ],
 )
 def test_values_that_cannot_be_analysed_are_refused(values, says):

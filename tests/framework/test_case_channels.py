@@ -96,7 +96,6 @@ def test_several_inputs_have_terms_of_the_drive_each(tmp_path: Path) -> None:
         (f"inputs = [ {FORCE} ]\nsensors = [ {MOTOR.replace('motor encoder', 'a:b')} ]", ["name 'a:b'", "':'"]),
         (f"inputs = [ {FORCE} ]\nsensors = [ {MOTOR.replace('channel', 'chanel')} ]", ["did you mean 'channel'"]),
         (f"inputs = [ {FORCE} ]\nsensors = [ {MOTOR.replace('position', 'positon')} ]", ["did you mean 'position'"]),
-        (f"inputs = [ {FORCE} ]\nsensors = [ {LOAD.replace('quantised', 'pink')} ]", ["noise = 'pink'", "ar1"]),
         (f"inputs = [ {FORCE.replace('N', 'mm')} ]\nsensors = [ {MOTOR} ]", ["inputs[0]", "wrong unit"]),
         (f"inputs = [ {FORCE} ]\nsensors = [ {MOTOR.replace('mm', 'N')} ]", ["sensors[0]", "wrong unit"]),
     ],

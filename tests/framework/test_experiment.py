@@ -23,7 +23,6 @@ from lostmotion.diagnosis.experiment import (
 from lostmotion.diagnosis.rehearsal import (
     EvidenceBudget,
     RehearsedModel,
-    _draw_ar1_noise,
     compute_evidence,
     simulate_recording,
 )
@@ -32,7 +31,8 @@ from lostmotion.evidence.explanations import Explanations
 from lostmotion.evidence.hypothesis import UNKNOWN
 from lostmotion.likelihood.drive import DriveHarmonic
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.space import AR1_LEVEL, AR1_MEMORY, FreeParameter
+from lostmotion.likelihood.space import FreeParameter
+from lostmotion.noises import AR1_LEVEL, AR1_MEMORY
 from lostmotion.results.diagnosis import Confusion
 from lostmotion.settings import DEFAULT
 
@@ -137,10 +137,12 @@ def test_simulated_noise_has_the_memory_that_was_found(springs):
     )
     observation = replace(sine(), readings=np.zeros((20000, 1)), inputs=np.zeros((20000, 1)))
     problem = replace(truth.problem, observations=(observation,), free=(*truth.problem.free, *slow))
-    noise = _draw_ar1_noise(problem, problem.start, 0, np.random.default_rng(0))
+    block = replace(problem.noise(problem.start), white=0.0)
+    noise = block.draw(np.zeros(20000), np.random.default_rng(0))
     assert noise.std() == pytest.approx(1.0, abs=0.05)
+    assert math.sqrt(block.variance_after(9999)) == pytest.approx(1.0, abs=1e-9)
     assert np.corrcoef(noise[1:], noise[:-1])[0, 1] == pytest.approx(math.exp(-1 / RATE / 0.02), abs=0.02)
-    assert not _draw_ar1_noise(truth.problem, truth.theta, 0, np.random.default_rng(0)).any()
+    assert not truth.problem.noise(truth.theta).shown.any()
 
 
 @pytest.mark.slow

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import importlib
 import os
+import subprocess
+import sys
 import zipfile
 from collections.abc import Callable
 from pathlib import Path
@@ -15,6 +17,7 @@ import pytest
 from lostmotion.errors import DataError
 from lostmotion.offers import READER
 from lostmotion.recording import read_table
+from lostmotion.recording.folders import digest_recording
 from lostmotion.recording.formats import ENDINGS, is_recording
 from lostmotion.recording.offered import OfferedReader, offered_readers
 from lostmotion.recording.outline import GivenRoles, outline_table
@@ -147,6 +150,21 @@ def to_bag(path: Path) -> None:
             bag.write(topic, 1_700_000_000_000_000_000 + i * 10_000_000, raw)
 
 
+def to_bag2(path: Path) -> None:
+    """Write a bag of ROS 2: a folder with its description and a database."""
+    from rosbags.rosbag2 import Writer
+    from rosbags.typesys import Stores, get_typestore
+
+    types = get_typestore(Stores.ROS2_HUMBLE)
+    pair = types.types["std_msgs/msg/Float64MultiArray"]
+    layout = types.types["std_msgs/msg/MultiArrayLayout"](dim=[], data_offset=0)
+    with Writer(path, version=9) as bag:
+        topic = bag.add_connection("/rig", pair.__msgtype__, typestore=types)
+        for i in range(N):
+            raw = types.serialize_cdr(pair(layout=layout, data=np.array([FORCE[i], PLACE[i]])), pair.__msgtype__)
+            bag.write(topic, 1_700_000_000_000_000_000 + i * 10_000_000, raw)
+
+
 WRITERS: dict[str, Callable[[Path], None]] = {
     "xlsx": to_xlsx, "tdms": to_tdms, "mf4": to_mf4, "parquet": to_parquet,
 }  # fmt: skip
@@ -186,6 +204,41 @@ def test_messages_of_a_robot_become_columns(
     if ending == "mcap":
         np.testing.assert_allclose(table.columns["/rig.header.stamp"], TIME, atol=1e-12)
     assert not any(name.startswith("/say.data") for name in table.columns)
+
+
+@pytest.mark.parametrize("what", ["folder", "database"])
+def test_a_bag_of_ros_2_is_read_as_a_folder_and_as_its_database(tmp_path: Path, what: str) -> None:
+    pytest.importorskip("rosbags", reason="the extra rosbag is not installed")
+    to_bag2(tmp_path / "run")
+    (database,) = (tmp_path / "run").glob("*.db3")
+    path = tmp_path / "run" if what == "folder" else database
+    assert is_recording(path)
+    table = read_table(path)
+    np.testing.assert_array_equal(table.columns["/rig.data[0]"], FORCE)
+    np.testing.assert_array_equal(table.columns["/rig.data[1]"], PLACE)
+    np.testing.assert_allclose(table.columns["/rig.time"], TIME, atol=1e-12)
+    if what == "folder":
+        before = digest_recording(path)
+        (path / "metadata.yaml").write_bytes((path / "metadata.yaml").read_bytes() + b"\n")
+        assert digest_recording(path) != before
+
+
+def test_a_database_without_its_description_is_read(tmp_path: Path) -> None:
+    """A copy of the database alone, as people send it."""
+    pytest.importorskip("rosbags", reason="the extra rosbag is not installed")
+    to_bag2(tmp_path / "run")
+    (database,) = (tmp_path / "run").glob("*.db3")
+    alone = tmp_path / "alone.db3"
+    alone.write_bytes(database.read_bytes())
+    np.testing.assert_array_equal(read_table(alone).columns["/rig.data[0]"], FORCE)
+
+
+def test_an_empty_bag_folder_is_told_so(tmp_path: Path) -> None:
+    pytest.importorskip("rosbags", reason="the extra rosbag is not installed")
+    (tmp_path / "run").mkdir()
+    (tmp_path / "run" / "metadata.yaml").write_text("nothing: 1\n")
+    with pytest.raises(DataError, match="run"):
+        read_table(tmp_path / "run")
 
 
 def test_lists_in_a_parquet_file_become_columns(tmp_path: Path) -> None:
@@ -231,6 +284,42 @@ def test_a_format_without_its_library_names_the_extra(
     extra = {"bag": "rosbag"}.get(ending, ending)
     with pytest.raises(DataError, match=rf"\({library}\): pip install 'lostmotion\[{extra}\]'"):
         read_table(tmp_path / f"run.{ending}")
+
+
+CORE = """
+import sys
+from pathlib import Path
+import h5py, numpy as np, scipy.io, xarray as xr
+from lostmotion.recording import read_table
+folder, columns = Path(sys.argv[1]), {"time": np.arange(200) / 100.0, "x": np.cos(np.arange(200) / 9.0)}
+rows = np.column_stack(list(columns.values()))
+for ending, between in (("csv", ","), ("tsv", "\\t"), ("txt", " ")):
+    np.savetxt(folder / f"run.{ending}", rows, delimiter=between, header=between.join(columns), comments="")
+np.savez(folder / "run.npz", **columns)
+scipy.io.savemat(folder / "run.mat", columns)
+xr.Dataset({"x": ("time", columns["x"])}, {"time": columns["time"]}).to_netcdf(folder / "run.nc", engine="h5netcdf")
+with h5py.File(folder / "run.h5", "w") as file:
+    for name, column in columns.items():
+        file[name] = column
+head = "LabVIEW Measurement\\t\\nSeparator\\tTab\\nX_Columns\\tOne\\n***End_of_Header***\\t\\n\\nChannels\\t1\\t\\n"
+head += "Samples\\t200\\t\\nDelta_X\\t0.01\\t\\n***End_of_Header***\\t\\t\\nX_Value\\tx\\tComment\\n"
+(folder / "run.lvm").write_text(head + "".join(f"{t:.2f}\\t{x!r}\\t\\n" for t, x in rows.tolist()))
+for ending in ("csv", "tsv", "txt", "npz", "mat", "nc", "h5", "lvm"):
+    np.testing.assert_allclose(read_table(folder / f"run.{ending}").columns["x"], columns["x"], atol=1e-12)
+print("read")
+"""
+
+
+def test_the_formats_of_the_core_need_no_extra(tmp_path: Path) -> None:
+    """All libraries of the extras are hidden, in this process and in that of the reader."""
+    hidden = tmp_path / "hidden"
+    hidden.mkdir()
+    for library in {*LIBRARIES.values(), "mcap_ros2"}:
+        (hidden / f"{library}.py").write_text(f"raise ModuleNotFoundError('none here', name={library!r})\n")
+    places = os.pathsep.join([str(hidden), os.environ.get("PYTHONPATH", "")])
+    line = [sys.executable, "-c", CORE, str(tmp_path)]
+    done = subprocess.run(line, capture_output=True, text=True, env={**os.environ, "PYTHONPATH": places}, check=False)
+    assert done.stdout == "read\n", done.stderr
 
 
 def test_every_offered_reader_has_an_extra_and_can_be_imported() -> None:

@@ -78,7 +78,6 @@ def test_a_frame_a_dataset_and_a_file_are_the_same_recording(tmp_path):
         ({"inputs": {"force": U[:-1]}}, "differ in length"),
         ({"inputs": {"push": U}, "units": {"push": "N", "position": "mm"}}, "is no input of a model"),
         ({"sensors": {}}, "has no sensor"),
-        ({"noise": {"position": "pink"}}, "expected one of white, ar1, quantised"),
         ({"sensors": {"position": np.stack([X, X])}}, "one number for each sample"),
         ({"sensors": {"position": ["a"] * N}}, "instead of numbers"),
     ],

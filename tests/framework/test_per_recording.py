@@ -95,7 +95,7 @@ def test_each_recording_is_filtered_with_its_own_values(apart) -> None:
         part = slice(0, observation.samples) if i == 0 else slice(-observation.samples, None)
         assert np.array_equal(joint.errors[part], seen.errors)
         assert np.array_equal(joint.variances[part], seen.variances)
-        assert problem.noise(apart.theta, i) == single.noise(theta)
+        assert problem.noise(apart.theta, i).white == single.noise(theta).white
         assert np.array_equal(problem.full(apart.theta, i), single.full(theta))
 
 

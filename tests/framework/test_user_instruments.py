@@ -181,6 +181,15 @@ INSTRUMENTS: dict[str, tuple[str, str, str, str]] = {
                [""] * N, [""] * (N - 1) + ["Logged"]),
         "Force", "Position", "N",
     ),
+    "Rigol": (
+        "X,CH1,CH2,Start,Increment,\nSequence,VOLT,VOLT,-1.000000e+00,1.000000e-02,\n"
+        + join(",", [str(k) for k in range(N)], point(FORCE), point(PLACE), [""] * N),
+        "CH1", "CH2", "V",
+    ),
+    "Rigol, one channel, start beside the names": (
+        "X,CH1,Start,Increment\nSequence,V,0.5,0.01\n" + join(",", [str(k) for k in range(N)], point(FORCE)),
+        "CH1", "", "V",
+    ),
     "Siglent": (
         "Record Length,Analog:300\nSample Interval,0.01\nVertical Units,Volt\nHorizontal Units,Second\n\n"
         "Source,CH1,CH2\nSecond,Volt,Volt\n" + join(",", point(T), point(FORCE), point(PLACE)),
@@ -201,6 +210,59 @@ def test_files_of_instruments_have_time_readings_and_units(
     check(table, force, place)
     assert table.units.get(force, "") == unit
     assert outline_table(tmp_path / "run.csv", GivenRoles()).dt == pytest.approx(0.01)
+
+
+# -- rows without their last cells, lines below the rows
+
+
+def test_rows_without_their_last_cells_have_no_reading_there(tmp_path: Path) -> None:
+    """A second sensor that is read in every fourth row; a spreadsheet leaves the separators of empty cells out."""
+    rows = [f"{t};{f}" + (f";{x}" if k % 4 == 0 else "") for k, (t, f, x) in enumerate(
+        zip(point(T), point(FORCE), point(PLACE), strict=True))]  # fmt: skip
+    table = write(tmp_path, "time;force;position\n" + "\n".join(rows) + "\n")
+    check(table, "force")
+    seen = table.columns["position"]
+    np.testing.assert_allclose(seen[::4], PLACE[::4], atol=1e-9)
+    assert np.count_nonzero(np.isfinite(seen)) == np.count_nonzero(np.arange(N) % 4 == 0)
+
+
+@pytest.mark.parametrize("end", ["2.99;1", "2.99"])
+def test_a_last_row_that_was_cut_is_refused_with_its_line(tmp_path: Path, end: str) -> None:
+    text = "time;force;position\n" + join(";", point(T), point(FORCE), point(PLACE))
+    with pytest.raises(DataError, match=rf"line 302: {end.count(';') + 1} cells where the header names 3 columns"):
+        write(tmp_path, text + end)
+
+
+def test_a_row_with_more_cells_is_refused_with_its_line(tmp_path: Path) -> None:
+    text = "time;force;position\n" + join(";", point(T), point(FORCE), point(PLACE))
+    lines = text.splitlines()
+    lines[40] += ";7"
+    with pytest.raises(DataError, match="line 41: 4 cells where the header names 3 columns"):
+        write(tmp_path, "\n".join(lines) + "\n")
+
+
+@pytest.mark.parametrize(
+    "footer",
+    [
+        "Mean;0.5;0.1\nMax;40;30\n",
+        "Mittelwert;0.5;0.1\n",
+        "\nStatistics\nchannel;mean;sd\nforce;0.1;28\nposition;0.2;21\n",
+        "Std. Dev.:;28.2;21.1\n",
+        "最大値;40;30\n",
+        "*** End of data ***\n",
+        ";Summe;12.5\n",
+    ],
+)
+def test_statistics_below_the_rows_are_no_rows(tmp_path: Path, footer: str) -> None:
+    body = join(";", point(T), point(FORCE), point(PLACE)) + footer
+    check(write(tmp_path, "time;force;position\n" + body), "force", "position")
+
+
+def test_a_word_in_place_of_a_time_within_the_rows_is_no_footer(tmp_path: Path) -> None:
+    lines = ("time;force;position\n" + join(";", point(T), point(FORCE), point(PLACE))).splitlines()
+    lines[100] = "max;" + lines[100].partition(";")[2]
+    table = write(tmp_path, "\n".join(lines) + "\n")
+    assert "line 101" in table.refused["time"]
 
 
 # -- LabVIEW

@@ -14,6 +14,7 @@ from lostmotion.diagnosis.search import _check_moving
 from lostmotion.errors import DataError
 from lostmotion.inference.setup import count_lasting_samples
 from lostmotion.likelihood.observation import Observation, Sensor
+from lostmotion.noises import AR1
 from lostmotion.results import Interval, attach_unit
 from lostmotion.results.diagnosis import Mechanism
 from lostmotion.results.mismatch import UnexplainedForce
@@ -34,7 +35,7 @@ def diagnosed(slow, *names, white=0.0):
     shown = observed(np.stack([wave] * max(len(names), 1), axis=1), *names)
     problem = SimpleNamespace(
         observations=(shown,),
-        ar1=lambda theta, index, sensor: (slow[sensor] ** 2, 0.7),
+        noise=lambda theta, index, sensor: AR1().covariance((slow[sensor], 0.03), 0.01),
         measurement=lambda theta, index, sensor: slow[sensor] ** 2 + white**2,
     )
     after = SimpleNamespace(problem=problem, theta=np.zeros(0))

@@ -15,7 +15,7 @@ from test_units import CASE
 from lostmotion.cli import main
 from lostmotion.inference.fit import compute_sensitivity
 from lostmotion.likelihood.drive import Drive
-from lostmotion.likelihood.engine import Dynamics, Points
+from lostmotion.likelihood.engine import Dynamics, Points, SensorNoises
 from lostmotion.likelihood.lanes import Lanes
 from lostmotion.likelihood.levels import LEAST
 from lostmotion.likelihood.observation import Observation
@@ -23,6 +23,7 @@ from lostmotion.likelihood.predict import WORST, FreeRuns, predict_freely
 from lostmotion.likelihood.problem import USUAL, Innovations
 from lostmotion.likelihood.space import FreeParameter, ParameterSpace
 from lostmotion.likelihood.system import System
+from lostmotion.noises import NoiseBlock
 from lostmotion.settings import DEFAULT
 from lostmotion_chaos.flows.flow import flow_of, make_stepped_flow
 from lostmotion_chaos.maps.cells import CODES
@@ -160,8 +161,9 @@ class Filter:
         dynamics = Dynamics(self.system, self.system.everything, 1, "latent" if self.pace else "white")
         observation = Observation.of("long", z, drive.inputs, self.dt, "position")
         one, number = np.ones((1, 1)), np.zeros(1, dtype=np.int64)
+        noise = SensorNoises.of([[NoiseBlock(white=self.r)]])
         points = Points(
-            self.full[None], np.array([self.q]), np.array([self.pace]), self.r * one, 0.0 * one, 0.0 * one, one, 0.0 *
+            self.full[None], np.array([self.q]), np.array([self.pace]), noise, one, 0.0 *
             one, 0.0 * one, y[None], cov[None], (drive,), number, number,
         )  # fmt: skip
         kept, seen = Lanes().run_for_smoother(dynamics, observation, points)

@@ -16,7 +16,7 @@ from lostmotion.evidence.discrepancy import make_frame
 from lostmotion.evidence.hypothesis import fit_hypothesis
 from lostmotion.inference.curves import add_all_curves
 from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
-from lostmotion.likelihood.space import AR1_LEVEL, AR1_MEMORY
+from lostmotion.noises import AR1_LEVEL, AR1_MEMORY
 
 KEYS = ("coulomb_friction", "cubic_stiffness")
 NOTHING, FRICTION = frozenset(), frozenset({"coulomb_friction"})

@@ -10,13 +10,14 @@ import pytest
 from independent import Machine, lin_oscillator, recording
 
 from lostmotion.likelihood.drive import Drive
-from lostmotion.likelihood.engine import Dynamics, Points, Smoothed
+from lostmotion.likelihood.engine import Dynamics, Points, SensorNoises, Smoothed
 from lostmotion.likelihood.lanes import Lanes
 from lostmotion.likelihood.motion import compute_derivatives
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.reference import Reference
-from lostmotion.likelihood.sensors import AR1, Sensor
+from lostmotion.likelihood.sensors import Sensor
 from lostmotion.likelihood.system import Clock, System
+from lostmotion.noises import AR1, NoiseBlock, White
 from lostmotion_plugins.models.basic import RigidDrive
 from lostmotion_plugins.models.joint import RobotJoint
 from lostmotion_plugins.models.lin import LinBacklash
@@ -60,28 +61,40 @@ def seen_of(system, full, drive, sensors, random):
     z[7] = np.nan
     z[11, -1] = np.nan
     observation = Observation("seen", z, drive.inputs, drive.dt, sensors)
-    return dynamics, observation, points_of(dynamics, full, drive, z)
+    return dynamics, observation, points_of(dynamics, full, drive, z, sensors)
 
 
-def points_of(dynamics, full, drive, z, count=3):
+SENSORS = {
+    "position": (Sensor("position"),),
+    "acceleration": (Sensor("acceleration"),),
+    "both, with slow noise": tuple(Sensor(name, noises=(White(), AR1())) for name in ("position", "acceleration")),
+}
+
+
+def noise_of(sensors, scale, count):
+    """Return white noise of a thousandth of the readings, and half as large slow noise of a memory of three samples."""
+    sizes = {White: 1e-3, AR1: 5e-4}
+    row = [
+        NoiseBlock.join([n.covariance((sizes[type(n)] * s, 2.8), 1.0) for n in one.noises])
+        for one, s in zip(sensors, scale, strict=True)
+    ]
+    return SensorNoises.of([row] * count)
+
+
+def points_of(dynamics, full, drive, z, sensors=SENSORS["position"], count=3):
     """Return parameter points near `full`, with noise levels of about those of the readings (samples, sensors)."""
     n, m = dynamics.states, z.shape[1]
     shape, scale = (count, m), np.nanstd(z, axis=0)
     tile = np.tile(np.diag(np.array([1e-5, 1e-2, 1.0, 1.0])[:n]), (count, 1, 1))
     near = full * (1.0 + 1e-3 * np.arange(count)[:, None])
     return Points(
-        near, np.full(count, 1e-3), np.full(count, 20.0), (1e-3 * scale) ** 2 + np.zeros(shape),
-        (5e-4 * scale) ** 2 + np.zeros(shape), np.full(shape, 0.7), np.ones(shape) + 0.01 * np.arange(m),
+        near, np.full(count, 1e-3), np.full(count, 20.0), noise_of(sensors, scale, count),
+        np.ones(shape) + 0.01 * np.arange(m),
         1e-4 * scale + np.zeros(shape), np.zeros(shape), np.zeros((count, n)), tile, (drive,),
         np.zeros(count, dtype=np.int64), np.zeros(count, dtype=np.int64),
     )  # fmt: skip
 
 
-SENSORS = {
-    "position": (Sensor("position"),),
-    "acceleration": (Sensor("acceleration"),),
-    "both, with slow noise": (Sensor("position", noise=AR1()), Sensor("acceleration", noise=AR1())),
-}
 RANDOM = ("white", "held", "latent")
 WAYS = [
     pytest.param(name, sensors, random, marks=() if (i + j + k) % 3 == 0 else pytest.mark.slow)
@@ -136,8 +149,8 @@ def test_sliding_friction_with_an_elastic_part_is_smoothed():
     noise = 1e-2 * truth.std()
     z = truth + noise * np.random.default_rng(0).standard_normal(truth.shape)
     points = replace(
-        points_of(Dynamics(system, system.everything), full, drive, z, 1),
-        pace=np.array([77.0]), process=np.array([1e-8]), white=np.array([[noise**2]]),
+        points_of(Dynamics(system, system.everything), full, drive, z, count=1),
+        pace=np.array([77.0]), process=np.array([1e-8]), noise=SensorNoises.of([[NoiseBlock(white=noise**2)]]),
     )  # fmt: skip
     observation = Observation("seen", z, drive.inputs, drive.dt, (Sensor("position"),))
     for engine in (Lanes(), Reference()):

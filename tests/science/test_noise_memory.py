@@ -11,8 +11,9 @@ from lostmotion.inference.memory import fit_noise_memory, is_memory_supported
 from lostmotion.inference.setup import make_noise_levels
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem, Scales
-from lostmotion.likelihood.space import AR1_LEVEL, AR1_MEMORY, NOISE, RANDOM, FreeParameter
+from lostmotion.likelihood.space import RANDOM, FreeParameter
 from lostmotion.likelihood.system import System
+from lostmotion.noises import AR1_LEVEL, AR1_MEMORY, NOISE
 from lostmotion_plugins.models.basic import LinearOscillator
 
 M, C, K, DT, OMEGA = 1.0, 0.4, 25.0, 0.02, 3.0

@@ -5,16 +5,15 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import cast
 
 from lostmotion.case.fields import Fields
 from lostmotion.errors import CaseError, DataError
 from lostmotion.quantities import names_quantity, quantity_of, si_factor
-from lostmotion.recording.spec import EXCITATIONS, KINDS, RESPONSES, Channel, Kind
+from lostmotion.recording.spec import EXCITATIONS, RESPONSES, Channel
 
 CHANNEL = ("column", "quantity", "unit", "factor")
 INPUT = ("input", "column", "unit", "factor")
-SENSOR = ("channel", "column", "unit", "factor", "name", "noise")
+SENSOR = ("channel", "column", "unit", "factor", "name", "noise", "differences", "zero")
 SEPARATORS = "[]:/@."
 """Characters that a name must not contain, because they separate the parts of keys."""
 FREE = "none"
@@ -87,9 +86,13 @@ def _read_sensor(table: Fields) -> Channel:
     channel, name = table.text("channel"), table.maybe_text("name") or ""
     if bad := [char for char in SEPARATORS if char in name]:
         raise table.error(f"has the name {name!r} with {bad[0]!r} in it: expected one without {' '.join(SEPARATORS)}")
-    noise = table.choice("noise", KINDS) if "noise" in table.values else "white"
+    noise = table.maybe_text("noise") or "white"
     made = Channel(table.text("column"), _read_quantity(table, "channel"), table.text("unit"), of=_model_name(channel))
-    return _check_unit(table, replace(made, name=name, noise=cast(Kind, noise)))
+    summed = table.flag("differences")
+    loose = summed or (table.choice("zero", ("known", "unknown")) if "zero" in table.values else "known") == "unknown"
+    if summed and made.quantity != "position":
+        raise table.error(f"has differences of a {made.quantity}: only changes of a position are summed")
+    return _check_unit(table, replace(made, name=name, noise=noise, differences=summed, loose=loose))
 
 
 def _check_unit(table: Fields, channel: Channel) -> Channel:

@@ -88,6 +88,13 @@ class Fields:
             raise self.wrong(key, "true or false, without quotes")
         return value
 
+    def flag(self, key: str) -> bool:
+        """Return true or false; false where the key is absent."""
+        value = self.values.get(key, False)
+        if not isinstance(value, bool):
+            raise self.wrong(key, "true or false, without quotes")
+        return value
+
     def choice(self, key: str, known: Iterable[str]) -> str:
         """Return a text that is among `known`."""
         value, known = self.text(key), list(known)

@@ -30,13 +30,15 @@ from lostmotion.cli._lazy import PluginName, examples, flatten_text, registry_of
 @click.option("--unit", "units", metavar="COLUMN=UNIT", multiple=True, help="Unit of a column; may be repeated.")
 @click.option("--factor", "factors", metavar="COLUMN=NUMBER", multiple=True, help="Factor on a column before its"
               " unit, such as newtons per volt.")  # fmt: skip
+@click.option("--differences", metavar="COLUMN", multiple=True, help="Column of changes since the row before, such as"
+              " counts of an encoder: they are summed.")  # fmt: skip
 @click.option("--model", type=PluginName("model"), default="", help="Model of the machine (`plugins` lists them),"
               " or equations of motion separated by semicolons.")  # fmt: skip
 @click.option("--force", is_flag=True, help="Overwrite an existing case.")
 @click.pass_context
 def command(
     ctx: click.Context, /, recording: Path, out: Path, units: tuple[str, ...], factors: tuple[str, ...], model: str,
-    force: bool, **roles: Any,
+    differences: tuple[str, ...], force: bool, **roles: Any,
 ) -> None:  # fmt: skip
     """Inspect a recording and write a first case for it: columns, units, rate, a model, wide priors.
 
@@ -53,7 +55,12 @@ def command(
     if out.exists() and not force:
         raise click.UsageError(f"{out} exists already: give another --out, or --force")
     wishes = GivenRoles(
-        roles["time"], roles["rate"], roles["drive"], roles["response"], dict(_split_pairs(units, "--unit"))
+        roles["time"],
+        roles["rate"],
+        roles["drive"],
+        roles["response"],
+        dict(_split_pairs(units, "--unit")),
+        differences,
     )
     gains = {name: _parse_number(name, value) for name, value in _split_pairs(factors, "--factor")}
     draft = write_first_case(recording, out, wishes, registry_of(ctx), model, gains)

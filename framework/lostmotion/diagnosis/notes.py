@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-import numpy as np
-
 from lostmotion.diagnosis.decays import note_restarts
 from lostmotion.diagnosis.findings import Outcome
 from lostmotion.diagnosis.repetitions import note_repetitions
@@ -17,7 +15,7 @@ from lostmotion.inference.fit import Fit
 from lostmotion.inference.unseen import smooth_body_position
 from lostmotion.likelihood.initial import shows_place
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.space import LEVELS
+from lostmotion.likelihood.sensor_noise import compute_variance
 from lostmotion.results import percent, rounded
 
 EDGE = 1e-3
@@ -30,7 +28,7 @@ def write_notes(outcome: Outcome, said: Sequence[str]) -> list[str]:
         *list_short_contacts(d.after),
         *_note_bounds(d),
         *_note_large_errors(outcome),
-        *_note_ar1_noise(d),
+        *_note_noise(d),
     ]
     doubts += [text for key in d.named for text in warn_of_moved_amplitudes(d, key)]
     if d.corrections:
@@ -59,20 +57,18 @@ def _note_unrecorded_inputs(d: SearchResult) -> list[str]:
     return [note for observation in _list_recordings(d) for note in note_restarts(observation)]
 
 
-def _note_ar1_noise(d: SearchResult) -> list[str]:
-    """Return a note for each sensor whose noise is autocorrelated (AR(1))."""
+def _note_noise(d: SearchResult) -> list[str]:
+    """Return the sentences of the noises of each sensor."""
     problem, theta, notes = d.after.problem, d.after.theta, []
     for i, sensor in enumerate(d.shown.sensors):
-        ar1, ar1_share = problem.ar1(theta, 0, i)
-        if ar1:
-            lasts = -problem.observations[0].dt / np.log(ar1_share)
-            share = ar1 / problem.measurement(theta, 0, i)
-            whose = f" of {sensor.label}" if len(d.shown.sensors) > 1 else ""
-            notes.append(
-                f"{percent(share)} of the variance of the measurement noise{whose} is autocorrelated,"
-                " with a time constant"
-                f" of {rounded(lasts)} s; the fit includes this."
-            )
+        whole, observation = problem.measurement(theta, 0, i), problem.observations[0]
+        for noise, values in zip(
+            problem.find_sensor(0, i).noises, problem.noise_values(theta[None], 0, i), strict=True
+        ):
+            p = tuple(values[0].tolist())
+            part = compute_variance(noise.covariance(p, observation.dt), observation, i)
+            if said := noise.words(p, part / whole):
+                notes.append(f"{sensor.label}: {said}" if len(d.shown.sensors) > 1 else said)
     return notes
 
 
@@ -81,7 +77,9 @@ def note_large_noise(outcome: Outcome) -> list[str]:
     d, notes = outcome.diagnosis, []
     problem, theta, limits = d.after.problem, d.after.theta, d.settings.note
     for i, (sensor, size) in enumerate(zip(d.shown.sensors, outcome.after.scales, strict=True)):
-        ar1, share = (v**0.5 / size for v in (problem.ar1(theta, 0, i)[0], problem.measurement(theta, 0, i)))
+        middle = problem.observations[0].samples // 2
+        whole, slow = problem.measurement(theta, 0, i), problem.noise(theta, 0, i).variance_after(middle)
+        ar1, share = (v**0.5 / size for v in (slow, whole))
         if ar1 > limits.coloured or share > limits.noise:
             whose = f" of {sensor.label}" if len(d.shown.sensors) > 1 else ""
             kind = " is autocorrelated and" if ar1 > limits.coloured else ""
@@ -98,7 +96,7 @@ def _note_bounds(d: SearchResult) -> list[str]:
     notes = []
     for f, at in zip(d.after.problem.free, d.after.theta, strict=True):
         reach = EDGE * (f.high - f.low)
-        if f.level not in LEVELS and "." not in f.parameter and not f.low + reach < at < f.high - reach:
+        if f.physical and "." not in f.parameter and not f.low + reach < at < f.high - reach:
             bound = f.value(f.low if at <= f.low + reach else f.high)
             notes.append(
                 f"{f.key} is at the bound {rounded(bound, 4)} {f.unit} of its prior: widen the prior,"

@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.signal import lfilter
 
 from lostmotion.contracts import Array
 from lostmotion.diagnosis.excitations import Excitation
@@ -69,7 +68,7 @@ def simulate_recording(model: RehearsedModel, excitation: Excitation, rng: np.ra
     """Return simulated readings (samples, sensors) of a model with its noise levels; None if it diverges."""
     problem, theta = model.pose(excitation), model.get_coordinates(excitation)
     system, place, full = problem.system, problem.system.model.interfaces[0], problem.full(theta)
-    intensity, _ = problem.noise(theta)
+    intensity = problem.random_force(theta)
     drive = problem.drive(0, theta)
     kick = math.sqrt(intensity * PIECE * drive.dt) / full[system.index[place.inertia]]
     kicks = np.zeros((drive.samples, problem.dynamics.states))
@@ -80,18 +79,9 @@ def simulate_recording(model: RehearsedModel, excitation: Excitation, rng: np.ra
         return None
     shown = []
     for sensor in range(len(problem.observations[0].sensors)):
-        white = math.sqrt(problem.noise(theta, 0, sensor)[1]) * rng.standard_normal(drive.samples)
         seen = observe_states(problem, theta, states, sensor=sensor)
-        shown.append(seen + white + _draw_ar1_noise(problem, theta, sensor, rng))
+        shown.append(seen + problem.noise(theta, 0, sensor).draw(np.gradient(seen, drive.dt), rng))
     return np.stack(shown, axis=1)
-
-
-def _draw_ar1_noise(problem: Problem, theta: Array, sensor: int, rng: np.random.Generator) -> Array:
-    """Return autocorrelated measurement noise (samples,) of a sensor; zero if it has none."""
-    variance, ar1_share = problem.ar1(theta, 0, sensor)
-    fresh = math.sqrt(variance * (1.0 - ar1_share**2)) * rng.standard_normal(problem.observations[0].samples)
-    fresh[0] = math.sqrt(variance) * rng.standard_normal()
-    return np.asarray(lfilter([1.0], [1.0, -ar1_share], fresh), dtype=float)
 
 
 @dataclass(frozen=True)

@@ -38,7 +38,6 @@ from lostmotion.likelihood.latent import LatentForce, smooth_latent_force
 from lostmotion.likelihood.motion import compute_derivatives
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem
-from lostmotion.likelihood.space import LEVELS
 from lostmotion.likelihood.system import System
 from lostmotion.settings import DEFAULT, LocateSettings, Settings
 
@@ -260,7 +259,7 @@ def find_quantised(fit: Fit) -> dict[str, tuple[Values, Values]]:
         if not isinstance(term, SensorTerm) or not term.marked:
             continue
         for i, sensor in enumerate(observations[0].sensors):
-            if sensor.place == term.at and sensor.noise.kind != "quantised":
+            if sensor.place == term.at and not sensor.quantised:
                 noise = max(fit.problem.measurement(fit.theta, k, i) for k in range(len(observations)))
                 seen = [term.quantisation(observation.readings[:, i]) for observation in observations]
                 least = fit.problem.settings.locate.quantisation * noise
@@ -367,5 +366,5 @@ def list_physical_keys(fit: Fit) -> list[str]:
     """Return the keys of the physical parameters of a fit, without noise levels and coefficients of curves."""
     system = fit.problem.system
     curves = tuple(f"{k}." for k, t in zip(system.keys, system.terms, strict=True) if isinstance(t, LearnedTerm))
-    physical = [f.key for f in fit.problem.free if f.level not in LEVELS]
+    physical = [f.key for f in fit.problem.free if f.physical]
     return [k for k in physical if not (curves and k.startswith(curves))]

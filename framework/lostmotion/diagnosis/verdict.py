@@ -135,10 +135,9 @@ def list_sensors(d: SearchResult) -> tuple[SensorFacts, ...]:
     for i, (sensor, name, noise) in enumerate(
         zip(d.shown.sensors, list_sensor_names(d), list_noise_levels(d), strict=True)
     ):
-        kind: str = sensor.noise.kind
-        if d.after.problem.ar1(d.after.theta, 0, i)[0]:
-            kind = "ar1"
-        elif any(find_term(d.before.problem, key)[0].at == sensor.place for key in d.quantised):
+        fitted = d.after.problem.find_sensor(0, i).noises
+        kind = " + ".join(noise.name for noise in fitted[1:]) or fitted[0].name
+        if kind == "white" and any(find_term(d.before.problem, key)[0].at == sensor.place for key in d.quantised):
             kind = "quantised"
         rows.append(SensorFacts(name, sensor.channel, unit_of(sensor.channel, motion), noise, kind))
     return tuple(rows)

@@ -21,7 +21,6 @@ from lostmotion.evidence.search import ExplanationSearch, compute_probabilities,
 from lostmotion.inference.curves import drop_all_curves
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.mixture import compute_root
-from lostmotion.likelihood.space import LEVELS
 
 TIED = math.log(20.0)
 """Two laws are not distinguished where the expected log likelihood ratio of one to the other is less than this."""
@@ -159,7 +158,7 @@ def compute_expected_ratio(one: Hypothesis, other: Hypothesis) -> float:
 def _draw(found: Hypothesis, keys: list[str], count: int, rng: np.random.Generator) -> Array:
     """Return draws (count, keys) of parameters from the posterior of one hypothesis; NaN where it lacks one."""
     free = found.frame.problem.free[: found.frame.own]
-    places = {f.key: i for i, f in enumerate(free) if f.level not in LEVELS}
+    places = {f.key: i for i, f in enumerate(free) if f.physical}
     root = compute_root(found.scatter * found.covariance)
     low, high = (np.array([getattr(f, end) for f in free]) for end in ("low", "high"))
     theta = np.clip(found.theta + rng.standard_normal((count, len(free))) @ root.T, low, high)

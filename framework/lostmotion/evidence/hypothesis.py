@@ -23,7 +23,6 @@ from lostmotion.evidence.discrepancy import Choice, JointFrame, Quadratic
 from lostmotion.evidence.expansion import Expansion
 from lostmotion.inference.fit import STRIDE, choose_first_steps, solve_scaled
 from lostmotion.inference.natural import sort_slots
-from lostmotion.likelihood.space import LEVELS
 
 UNKNOWN = "unknown"
 """The name of a smooth force that is larger than the usual discrepancy, among the terms of a set."""
@@ -240,7 +239,7 @@ def compute_step(frame: JointFrame, expansion: Expansion, choice: Choice) -> tup
     step = solve_posterior(frame, expansion, choice, np.flatnonzero(pressed).tolist())
     for i, f in enumerate(free):
         if f.log or f.key.startswith("log_"):
-            most = MOST_LEVEL if f.level in LEVELS else MOST_LOG
+            most = MOST_LOG if f.physical else MOST_LEVEL
             step[i] = min(max(step[i], -most), most)
     step = np.clip(at + step, low, high) - at
     curved = float(step @ expansion.information @ step) + float(np.sum(precision * step**2))

@@ -14,9 +14,10 @@ import numpy as np
 
 from lostmotion.inference.fit import Fit, maximise, use_cores
 from lostmotion.kernels.threads import each
-from lostmotion.likelihood.levels import make_ar1_levels
 from lostmotion.likelihood.problem import Problem
-from lostmotion.likelihood.space import AR1_LEVEL, AR1_MEMORY, NOISE, RANDOM
+from lostmotion.likelihood.sensor_noise import make_levels, make_sensor_scales
+from lostmotion.likelihood.space import RANDOM
+from lostmotion.noises import AR1, AR1_LEVEL, AR1_MEMORY, NOISE
 
 STARTS = (1.5, 5.0)
 
@@ -46,7 +47,8 @@ def fit_noise_memory(fit: Fit, sensors: Sequence[int] | None = None) -> Fit | No
     for sensor in white:
         key = first.level(NOISE, sensor)
         noise = float(np.mean([c for f, c in zip(problem.free, fit.theta, strict=True) if f.parameter == key]))
-        wider = replace(problem, free=(*problem.free, *make_ar1_levels(first, sensor, noise, problem.scales)))
+        levels = make_levels(first, sensor, AR1(), make_sensor_scales(first, sensor, noise, problem.scales))
+        wider = replace(problem, free=(*problem.free, *levels))
         asked += [(replace(wider, jobs=1), _choose_start(wider, fit, samples)) for samples in STARTS]
     if not asked:
         return None

@@ -17,7 +17,6 @@ from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit, hold_free, maximise, use_one_core
 from lostmotion.inference.mixture import MANY
 from lostmotion.kernels.threads import each
-from lostmotion.likelihood.space import LEVELS
 
 FIRST, NARROW, STEEP = 2.0, 1.0, 4.0
 """Standard deviations at which a profile is checked, and the fall of the log posterior there (2 for a normal one) below
@@ -41,7 +40,7 @@ def measure_stretches(fit: Fit) -> Array:
     if len(fit.theta) > MANY:
         return factors
     single = use_one_core(fit)
-    shared = [i for i, f in enumerate(fit.problem.free) if f.level not in LEVELS and f.recording is None]
+    shared = [i for i, f in enumerate(fit.problem.free) if f.physical and f.recording is None]
     asked = [one for one in ((i, side) for i in shared for side in (0, 1)) if _has_room(fit, *one)]
     asked = [one for one, fall in zip(asked, _predict_falls(fit, asked), strict=True) if not NARROW < fall < STEEP]
     found = each(lambda one: _measure_half(single, *one), asked, fit.problem.jobs)

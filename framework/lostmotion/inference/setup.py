@@ -26,8 +26,9 @@ from lostmotion.likelihood.levels import (
 )
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem, Scales
-from lostmotion.likelihood.space import LEVELS, NOISE, OFFSET, RANDOM, FreeParameter, list_keys
+from lostmotion.likelihood.space import OFFSET, RANDOM, FreeParameter, list_keys
 from lostmotion.likelihood.system import Slot, System
+from lostmotion.noises import NOISE
 from lostmotion.quantities import quantity_of, unit_of
 from lostmotion.recording.checks import fill_lost
 from lostmotion.settings import DEFAULT, HeldOutSettings, Settings
@@ -216,14 +217,19 @@ def make_problem(
     jobs: int = 2,
     settings: Settings = DEFAULT,
 ) -> Problem:
-    """Return the problem of a case on the given recordings, with no term active, noise levels shared."""
+    """Return the problem of a case on the given recordings, with no term active, noise levels shared.
+
+    The zero of each loose sensor is free in each recording.
+    """
     known = make_known(system, case)
     scales = compute_scales(system, observations, known)
     names = [observation.name for observation in observations]
     frees = [f for name, prior in case.estimate.items() for f in make_case_parameters(system.slot(name), prior, names)]
     problem = Problem(system, observations, scales, known, tuple(frees), jobs=jobs, settings=settings)
     scales = replace(scales, usual=compute_usual_level(problem, find_fastest_rate(problem, problem.start)))
-    problem = replace(problem, scales=scales, free=(*frees, *make_noise_levels(observations, scales)))
+    problem = replace(
+        problem, scales=scales, free=(*frees, *_make_offsets(problem, None), *make_noise_levels(observations, scales))
+    )
     return choose_steps(problem, problem.start)
 
 
@@ -235,7 +241,7 @@ def find_fastest_rate(problem: Problem, theta: Array) -> float:
     states[:, 0] = np.repeat(grid, 3) * scales.length
     states[:, 1] = np.tile([-1.0, 0.03, 1.0], len(grid)) * scales.velocity
     middle = np.repeat(np.mean(observation.inputs, axis=0)[None], len(states), axis=0)
-    alike = all(f.recording is None or f.level in LEVELS for f in problem.free)
+    alike = all(f.recording is None or not f.physical for f in problem.free)
     fulls = [problem.full(theta, i) for i in range(1 if alike else len(problem.observations))]
     return max(1.0 / scales.time, *(system.find_fastest_rate(full, problem.active, states, middle) for full in fulls))
 
@@ -279,7 +285,7 @@ def _draw_starts(problem: Problem, beginning: Problem, rng: np.random.Generator,
 
     A parameter with a value for each recording starts at the same value in all of them.
     """
-    names = list(dict.fromkeys(f.parameter for f in problem.free if f.level not in LEVELS))
+    names = list(dict.fromkeys(f.parameter for f in problem.free if f.physical))
     starts = np.repeat(problem.start[None], points, axis=0)
     cube = np.full((points, len(names)), 0.5)
     if names:
@@ -362,14 +368,18 @@ def separate_levels(fit: Fit, sensor: SensorSpec) -> Fit:
 
 
 def _make_offsets(problem: Problem, prior: Prior | None) -> tuple[FreeParameter, ...]:
-    """Return the offset of each sensor in each recording; none where it is known."""
-    if prior is None:
-        return ()
+    """Return the offset of each sensor in each recording whose zero is unknown: of all, or of loose ones."""
     motion, first = problem.system.model.motion, problem.observations[0]
     names = [observation.name for observation in problem.observations]
     return tuple(
-        _make_free(key, unit_of(sensor.channel, motion), prior, (-math.inf, math.inf))
+        _make_free(
+            key,
+            unit_of(sensor.channel, motion),
+            prior or Prior(mean=0.0, sd=first.amplitude_of(sensor.label)),
+            (-math.inf, math.inf),
+        )
         for i, sensor in enumerate(first.sensors)
+        if prior or sensor.loose
         for key in list_keys(first.level(OFFSET, i), names)
     )
 

@@ -26,7 +26,7 @@ from lostmotion.inference.setup import separate_levels
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem
-from lostmotion.likelihood.space import LEVELS, FreeParameter, list_keys
+from lostmotion.likelihood.space import FreeParameter, list_keys
 from lostmotion.results import Interval
 from lostmotion.results.sharing import PowerOfLevel
 from lostmotion.settings import DEFAULT
@@ -183,7 +183,7 @@ def _fit_beginnings(fit: Fit) -> Fit:
 def _list_tested(problem: Problem) -> tuple[str, ...]:
     """Return the names of the parameters that are compared: no noise levels, no coefficients of learned curves."""
     curves = list_curves(problem)
-    names = [f.parameter for f in problem.free if f.level not in LEVELS]
+    names = [f.parameter for f in problem.free if f.physical]
     return tuple(dict.fromkeys(name for name in names if name.rpartition(".")[0] not in curves))
 
 

@@ -314,8 +314,8 @@ def propagate_covariance(work, o, taken, sources, h):  # type: ignore[no-untyped
 
 
 @jit
-def carry_step(work, ar1, sources, many, paced, h, wide, place, keep, lanes):  # type: ignore[no-untyped-def]
-    """Carry states, covariances and AR(1) noise over the step that was tried, at those points that accept it."""
+def carry_step(work, noises, sources, many, paced, h, wide, place, keep, lanes):  # type: ignore[no-untyped-def]
+    """Carry states, covariances and noise of sensors over the step that was tried, at those points that accept it."""
     for o in range(0, lanes, WIDTH):
         multiply(work, F, A, A, o)
         taken = accept_step(work, o, place, wide, h, paced)
@@ -328,12 +328,12 @@ def carry_step(work, ar1, sources, many, paced, h, wide, place, keep, lanes):  #
         for j in range(many):
             first = j * (1 + N + many) + 1
             for a in range(N):
-                s = load(work, G + a * N, o) * load(ar1, first, o)
+                s = load(work, G + a * N, o) * load(noises, first, o)
                 for c in range(1, N):
-                    s = s + load(work, G + a * N + c, o) * load(ar1, first + c, o)
+                    s = s + load(work, G + a * N + c, o) * load(noises, first + c, o)
                 store(work, UP + a, o, s)
             for a in range(N):
-                store(ar1, first + a, o, select(taken, load(work, UP + a, o), load(ar1, first + a, o)))
+                store(noises, first + a, o, select(taken, load(work, UP + a, o), load(noises, first + a, o)))
         if keep:
             multiply(work, F, G, T, o)
             for a in range(N * N):
@@ -369,7 +369,7 @@ def find_widest(work, place, lanes):  # type: ignore[no-untyped-def]
 
 
 @jit
-def cross_sample(derive, space, wires, work, ar1, u, which, begin, k, nsub, dt, sources, many, keep, lanes):  # type: ignore[no-untyped-def]
+def cross_sample(derive, space, wires, work, noises, u, which, begin, k, nsub, dt, sources, many, keep, lanes):  # type: ignore[no-untyped-def]
     """Carry all points over sample `k`, with the inputs in `u`; return nonzero if a law raised an error."""
     failed, place, step = 0, 0 * nsub, dt / nsub  # numba compiles a call anew for a literal
     for o in range(0, lanes, WIDTH):
@@ -386,7 +386,7 @@ def cross_sample(derive, space, wires, work, ar1, u, which, begin, k, nsub, dt, 
         done = wide
         while wide > 0:
             failed |= try_step(derive, space, wires, work, u, which, begin, k, place, wide, nsub, dt, lanes)
-            carry_step(work, ar1, sources, many, wires[PACES], wide * step, wide, place, keep, lanes)
+            carry_step(work, noises, sources, many, wires[PACES], wide * step, wide, place, keep, lanes)
             done = wide
             wide = find_widest(work, place, lanes)
         place += done

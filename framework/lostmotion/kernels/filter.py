@@ -43,6 +43,12 @@ from lostmotion.kernels.inputs import (
     interpolate_input,
     set_inputs,
 )  # fmt: skip
+from lostmotion.kernels.noises import (
+    add_clock_noise,
+    initialise_noises,
+    propagate_noises,
+    update_noises,
+)  # fmt: skip
 from lostmotion.kernels.vector import (
     WIDTH,
     absolute,
@@ -59,8 +65,8 @@ from lostmotion.kernels.vector import (
     whole,
 )  # fmt: skip
 
-LEVELS = 6
-"""Rows for each sensor: variances of white and AR(1) noise, AR(1) coefficient, gain, offset and lag (s)."""
+LEVELS = 5
+"""Rows for each sensor: variances of white noise and of stamps (s^2), gain, offset and lag (s)."""
 INNER_POINT, OUTER_POINT = 1.355626179974266, 2.8569700138728056
 INNER_WEIGHT, OUTER_WEIGHT = 0.22207592200561263, 0.011257411327720683
 """Gauss-Hermite points beside the mean, in standard deviations, and their weights (Abramowitz, Stegun, table 25.10)."""
@@ -159,59 +165,39 @@ def linearise_sensor(functions, space, wires, work, channel, step, inputs, lanes
 
 
 @jit
-def update_ar1(work, ar1, gauge, many, own, precision, miss, o):  # type: ignore[no-untyped-def]
-    """Update the AR(1) noise of all sensors by one reading; `UP` holds its covariance with the states."""
-    wide = 1 + N + many
-    for j in range(many):
-        s = 0.0 * gauge
-        for a in range(N):
-            s = s + gauge * load(work, H + a, o) * load(ar1, j * wide + 1 + a, o)
-        if own >= 0:
-            s = s + load(ar1, j * wide + 1 + N + own, o)
-        store(ar1, many * wide + j, o, s)
-    for j in range(many):
-        share = load(ar1, many * wide + j, o) * precision
-        store(ar1, j * wide, o, load(ar1, j * wide, o) + share * miss)
-        for a in range(N):
-            row = j * wide + 1 + a
-            store(ar1, row, o, load(ar1, row, o) - share * load(work, UP + a, o))
-        for i in range(many):
-            row = j * wide + 1 + N + i
-            store(ar1, row, o, load(ar1, row, o) - share * load(ar1, many * wide + i, o))
-
-
-@jit
-def update_states(work, ar1, levels, sensor, many, own, errors, variances, k, lanes):  # type: ignore[no-untyped-def]
+def update_states(work, noises, blocks, levels, sensor, many, own, errors, variances, k, lanes):  # type: ignore[no-untyped-def]
     """Update the states by one reading of a sensor, in `END`; `EXPECTED` and `H` hold its prediction and its slopes.
 
-    `levels` has for each sensor the variances of white and of AR(1) noise, the AR(1) coefficient per sample, gain,
-    offset and lag. `ar1` holds for each of the `many` sensors with AR(1) noise its mean, its covariance with the states
-    (N rows) and with the AR(1) noise of each sensor; `own` is the place of this sensor among them, or -1.
+    `levels` has for each sensor the variances of white noise and of its stamps, gain, offset and lag. `own` are the
+    first of its noise states and the one behind the last; `kernels/noises.py` describes `noises` and `blocks`.
     """
-    first = LEVELS * sensor
-    wide = 1 + N + many
+    first, wide, rows = LEVELS * sensor, 1 + N + many, 1 + 3 * many
+    begin, end = own
     for o in range(0, lanes, WIDTH):
-        gauge = load(levels, first + 3, o)
-        miss = load(work, END, o) - (gauge * load(work, EXPECTED, o) + load(levels, first + 4, o))
+        gauge = load(levels, first + 2, o)
+        miss = load(work, END, o) - (gauge * load(work, EXPECTED, o) + load(levels, first + 3, o))
         var = load(levels, first, o) + gauge * gauge * load(work, LOOSE, o)
         for a in range(N):
             s = load(work, P + a * N, o) * load(work, H, o)
             for b in range(1, N):
                 s = s + load(work, P + a * N + b, o) * load(work, H + b, o)
             s = gauge * s
-            if own >= 0:
-                s = s + load(ar1, own * wide + 1 + a, o)
+            for i in range(begin, end):
+                s = s + load(blocks, i * rows, o) * load(noises, i * wide + 1 + a, o)
             store(work, UP + a, o, s)
         for a in range(N):
             var = var + gauge * load(work, H + a, o) * load(work, UP + a, o)
-        if own >= 0:
-            miss = miss - load(ar1, own * wide, o)
-            pulled = load(ar1, own * wide + 1 + N + own, o)
+        for i in range(begin, end):
+            shown = load(blocks, i * rows, o)
+            miss = miss - shown * load(noises, i * wide, o)
+            pulled = load(blocks, begin * rows, o) * load(noises, i * wide + 1 + N + begin, o)
+            for j in range(begin + 1, end):
+                pulled = pulled + load(blocks, j * rows, o) * load(noises, i * wide + 1 + N + j, o)
             for a in range(N):
-                pulled = pulled + gauge * load(work, H + a, o) * load(ar1, own * wide + 1 + a, o)
-            var = var + pulled
+                pulled = pulled + gauge * load(work, H + a, o) * load(noises, i * wide + 1 + a, o)
+            var = var + shown * pulled
         precision = 1.0 / var
-        update_ar1(work, ar1, gauge, many, own, precision, miss, o)
+        update_noises(work, noises, blocks, gauge, many, begin, end, precision, miss, o)
         for a in range(N):
             store(work, Y + a, o, load(work, Y + a, o) + load(work, UP + a, o) * (precision * miss))
         for a in range(N):
@@ -232,37 +218,13 @@ def update_states(work, ar1, levels, sensor, many, own, errors, variances, k, la
 
 
 @jit
-def propagate_ar1(ar1, levels, sensor, own, many, lanes):  # type: ignore[no-untyped-def]
-    """Propagate the AR(1) noise of a sensor over one sample, and add its driving noise."""
-    wide = 1 + N + many
-    for o in range(0, lanes, WIDTH):
-        ar1_share = load(levels, LEVELS * sensor + 2, o)
-        for j in range(1 + N):
-            store(ar1, own * wide + j, o, ar1_share * load(ar1, own * wide + j, o))
-        for i in range(many):
-            store(ar1, own * wide + 1 + N + i, o, ar1_share * load(ar1, own * wide + 1 + N + i, o))
-        for i in range(many):
-            store(ar1, i * wide + 1 + N + own, o, ar1_share * load(ar1, i * wide + 1 + N + own, o))
-        fresh = (1.0 - ar1_share * ar1_share) * load(levels, LEVELS * sensor + 1, o)
-        row = own * wide + 1 + N + own
-        store(ar1, row, o, load(ar1, row, o) + fresh)
-
-
-@jit
-def initialise(work, ar1, start, noise, levels, sensors, sources, many, nsub, lanes):  # type: ignore[no-untyped-def]
-    """Set everything to its value before the first sample."""
-    wide = 1 + N + many
+def initialise(work, start, noise, sources, nsub, lanes):  # type: ignore[no-untyped-def]
+    """Set everything of the model to its value before the first sample."""
     for o in range(0, lanes, WIDTH):
         for a in range(N + N * N):
             store(work, Y + a, o, load(start, a, o))
         for j in range(2 * sources):
             store(work, NOISE + j, o, load(noise, j, o))
-        for j in range(many * wide + many):
-            store(ar1, j, o, 0.0)
-        for s in range(sensors.shape[0]):
-            own = sensors[s, 2]
-            if own >= 0:
-                store(ar1, own * wide + 1 + N + own, o, load(levels, LEVELS * s + 1, o))
         store(work, ALIVE, o, 1.0)
         store(work, NEXT_STEP, o, float(nsub))
         for a in range(N):
@@ -296,31 +258,31 @@ def run_filter(functions, blocks, wiring, inputs, drives, z, sensors, unsure, dt
     """Filter readings at `lanes` points; write their innovations; return nonzero if a law raised an error.
 
     `z` (sets, samples, sensors) are the readings, one set for all points or one for each (the last serves the rest).
-    `functions` are the addresses of `derive` and `observe`. `blocks` are those of the model, of work and of AR(1)
-    noise, then the data of each point: its time at the first sample (1 row); for each sensor the variances of white and
-    of AR(1) noise, the AR(1) coefficient per sample, gain, offset and lag (6 rows each); for each source of process
-    noise the number of the state that it enters and its intensity, then for each force that is redrawn at each sample
-    its state and variance (2 rows each); initial states and covariances (N + N * N rows). `wiring` holds the wires of
-    the model, with the numbers of sources, of redrawn forces, of inputs and of drives from `SOURCES` on. `inputs`
+    `functions` are the addresses of `derive` and `observe`. `blocks` are those of the model, of work and of noise
+    states, then the data of each point: its time at the first sample (1 row); for each sensor the variances of white
+    noise and of stamps, gain, offset and lag (5 rows each); for each source of process noise the number of the state
+    that it enters and its intensity, then for each force that is redrawn at each sample its state and variance (2 rows
+    each); initial states and covariances (N + N * N rows); noise states (`kernels/noises.py`). `wiring` holds the wires
+    of the model, with the numbers of sources, of redrawn forces, of inputs and of drives from `SOURCES` on. `inputs`
     (rows, 4, inputs) holds a cubic for each sample, and `drives` (lanes,) the first row of each point. `sensors`
-    (sensors, 4) holds the channel of each, the state that it shows directly or -1, its place among those with AR(1)
-    noise or -1, and whether it is late; `unsure` (samples,) is the variance that the measured input adds to a held
-    force up to the next sample. The arrays in `written` are errors and variances (lanes, samples, sensors), and
-    `reached` (lanes,), the number of samples that were computed. `kept` is what a smoother needs of the first point:
-    states and covariances after and before each sample and the transition matrices between, empty if not wanted.
+    (sensors, 6) holds the channel of each, the state that it shows directly or -1, the first of its noise states and
+    the one behind the last, whether it is late, and whether its stamps jitter; `unsure` (samples,) is the variance that
+    the measured input adds to a held force up to the next sample. The arrays in `written` are errors and variances
+    (lanes, samples, sensors), and `reached` (lanes,), the number of samples that were computed. `kept` is what a
+    smoother needs of the first point: states and covariances after and before each sample and the transition matrices
+    between, empty if not wanted.
     """
     derive, observe = functions[0], functions[1]
     errors, variances, reached = written
-    space, work, ar1, begin = pointer(blocks[0]), pointer(blocks[1]), pointer(blocks[2]), pointer(blocks[3])
-    levels, noise, start = pointer(blocks[4]), pointer(blocks[5]), pointer(blocks[6])
+    space, work, noises, begin = pointer(blocks[0]), pointer(blocks[1]), pointer(blocks[2]), pointer(blocks[3])
+    levels, noise, start, kinds = pointer(blocks[4]), pointer(blocks[5]), pointer(blocks[6]), pointer(blocks[7])
     wires, u, which = pointer(wiring), pointer(inputs), pointer(drives)
     samples, keep, failed = z.shape[1], kept[0].shape[0] > 1, 0
     seen_states, seen_cov, ahead_states, ahead_cov, steps = kept
     sources, drawn = wires[SOURCES], wires[DRAWN]
-    many = 0 * z.shape[1]
-    for s in range(z.shape[2]):
-        many = max(many, sensors[s, 2] + 1)
-    initialise(work, ar1, start, noise, levels, sensors, sources, many, nsub, lanes)
+    many = sensors[z.shape[2] - 1, 3]
+    initialise(work, start, noise, sources, nsub, lanes)
+    initialise_noises(noises, kinds, many, lanes)
     for k in range(samples):
         redraw_forces(work, noise, sources, drawn, lanes)
         if keep:
@@ -334,7 +296,7 @@ def run_filter(functions, blocks, wiring, inputs, drives, z, sensors, unsure, dt
                     errors[lane, k, s] = 0.0
                     variances[lane, k, s] = UNREAD_VARIANCE
                 continue
-            direct, lagging = sensors[s, 1], sensors[s, 3] > 0
+            direct, lagging = sensors[s, 1], sensors[s, 4] > 0
             if direct >= 0 and not lagging:
                 for o in range(0, lanes, WIDTH):
                     for a in range(N):
@@ -343,13 +305,17 @@ def run_filter(functions, blocks, wiring, inputs, drives, z, sensors, unsure, dt
                     store(work, LOOSE, o, 0.0)
             else:
                 set_inputs(space, wires, u, which, begin, k, 0.0, dt, lanes)
-                given = (u, which, begin, k, levels, LEVELS * s + 5, dt, lagging)
+                given = (u, which, begin, k, levels, LEVELS * s + 4, dt, lagging)
                 failed |= linearise_sensor(
                     (derive, observe), space, wires, work, sensors[s, 0], dt / nsub, given, lanes
                 )
+            if sensors[s, 5] > 0:
+                moving = (u, which, begin, k, dt)
+                failed |= add_clock_noise(derive, space, wires, work, levels, LEVELS * s + 1, moving, lanes)
             for lane in range(lanes):
                 assign(work, END, lane, z[min(lane, z.shape[0] - 1), k, s])
-            update_states(work, ar1, levels, s, many, sensors[s, 2], errors, variances, k, lanes)
+            own = (sensors[s, 2], sensors[s, 3])
+            update_states(work, noises, kinds, levels, s, many, own, errors, variances, k, lanes)
         living = False
         for lane in range(lanes):
             if value(work, ALIVE, lane) > 0.5:
@@ -368,12 +334,11 @@ def run_filter(functions, blocks, wiring, inputs, drives, z, sensors, unsure, dt
             break
         add_input_uncertainty(work, noise, sources, drawn, unsure[k], lanes)
         failed |= cross_sample(
-            derive, space, wires, work, ar1, u, which, begin, k, nsub, dt, sources, many, keep, lanes
+            derive, space, wires, work, noises, u, which, begin, k, nsub, dt, sources, many, keep, lanes
         )
         for s in range(z.shape[2]):
-            own = sensors[s, 2]
-            if own >= 0:
-                propagate_ar1(ar1, levels, s, own, many, lanes)
+            if sensors[s, 3] > sensors[s, 2]:
+                propagate_noises(noises, kinds, many, sensors[s, 2], sensors[s, 3], lanes)
         if keep:
             for a in range(N):
                 for b in range(N):

@@ -9,23 +9,23 @@ import numpy as np
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
-def respond(steps, ahead, slopes, spread, shares, fresh, dt, rates, seen):  # type: ignore[no-untyped-def]
+def respond(steps, ahead, slopes, spread, transition, driving, first, dt, rates, seen):  # type: ignore[no-untyped-def]
     """Return the derivatives (count, samples, sensors) of one-step errors with respect to some small changes.
 
     `steps` and `ahead` (samples, n, n) are the transition matrices of a filter and its covariances before each sample;
     `slopes` (samples, sensors, n + a) the derivatives of the readings over the states, with one column for each of the
-    `a` states of autocorrelated noise; `spread` (samples, sensors) the variances of the errors, infinite where nothing
-    was read. `shares` and `fresh` (a,) are coefficient per sample and stationary variance of autocorrelated noise.
+    `a` states of noise of the sensors; `spread` (samples, sensors) the variances of the errors, infinite where nothing
+    was read. `transition`, `driving` and `first` (a, a) are the matrices of these states: to the next sample, of the
+    noise added there, and of their covariance at the first sample.
     `rates` (count, samples, n) are the changes of the derivatives of the states, `seen` (count, samples, sensors) those
     of the readings less those of their predictions by a direct effect.
     """
     count, samples, sensors = seen.shape
     n, whole = steps.shape[1], slopes.shape[2]
     out = np.zeros((count, samples, sensors))
-    moved, next_moved = np.zeros((count, whole)), np.zeros(n)
+    moved, next_moved, next_noise = np.zeros((count, whole)), np.zeros(n), np.zeros((whole - n, whole - n))
     cov, cross, pulled = np.zeros((whole, whole)), np.zeros((n, whole - n)), np.zeros(whole)
-    for j in range(whole - n):
-        cov[n + j, n + j] = fresh[j]
+    cov[n:, n:] = first
     for k in range(samples):
         for a in range(n):
             for b in range(n):
@@ -58,19 +58,28 @@ def respond(steps, ahead, slopes, spread, shares, fresh, dt, rates, seen):  # ty
             for a in range(n):
                 moved[i, a] = next_moved[a]
             for j in range(whole - n):
-                moved[i, n + j] *= shares[j]
+                pulled[j] = 0.0
+                for b in range(whole - n):
+                    pulled[j] += transition[j, b] * moved[i, n + b]
+            for j in range(whole - n):
+                moved[i, n + j] = pulled[j]
         for j in range(whole - n):
             for a in range(n):
                 cross[a, j] = 0.0
                 for b in range(n):
-                    cross[a, j] += steps[k, a, b] * cov[b, n + j] * shares[j]
+                    for c in range(whole - n):
+                        cross[a, j] += steps[k, a, b] * cov[b, n + c] * transition[j, c]
+            for i in range(whole - n):
+                next_noise[j, i] = driving[j, i]
+                for b in range(whole - n):
+                    for c in range(whole - n):
+                        next_noise[j, i] += transition[j, b] * cov[n + b, n + c] * transition[i, c]
         for j in range(whole - n):
             for a in range(n):
                 cov[a, n + j] = cross[a, j]
                 cov[n + j, a] = cross[a, j]
             for i in range(whole - n):
-                cov[n + j, n + i] *= shares[j] * shares[i]
-            cov[n + j, n + j] += (1.0 - shares[j] * shares[j]) * fresh[j]
+                cov[n + j, n + i] = next_noise[j, i]
     return out
 
 

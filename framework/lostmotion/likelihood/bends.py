@@ -91,8 +91,9 @@ def correct_twice(
     if not twice:
         return readings, slopes
     found = filter_readings(seen, replace(points.select(twice), readings=readings[twice]))
+    noise = points.noise.variances(seen.sensors)
     for i, errors, variances in zip(twice, found.errors, found.variances, strict=True):
-        predicted, known = readings[i] - errors, variances < 2.0 * (points.white[i] + points.ar1[i])
+        predicted, known = readings[i] - errors, variances < 2.0 * noise[i]
         shown = predicted.copy()
         for sensor, term, p in reversed(corrections[i].bends):
             shown[:, sensor] = term.bent(shown[:, sensor], p)

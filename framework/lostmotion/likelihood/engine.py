@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import Any, Literal
@@ -12,7 +13,9 @@ from numpy.typing import NDArray
 
 from lostmotion.contracts import Array
 from lostmotion.likelihood.drive import Drive
+from lostmotion.likelihood.sensors import Sensor
 from lostmotion.likelihood.system import System
+from lostmotion.noises import NoiseBlock
 
 Random = Literal["white", "held", "latent"]
 """How the random force acts: white; held over each sample, where a sensor sees it at once; or with a memory."""
@@ -46,24 +49,58 @@ class Dynamics:
 
 
 @dataclass(frozen=True)
+class SensorNoises:
+    """Noise of all sensors at some points: variances of white noise and of stamps (s^2), each (points, sensors).
+
+    The m states of all noises follow each other in the order of the sensors: `shown` (points, m) is what each adds to
+    the reading of its sensor; `transition`, `driving` and `first` are (points, m, m), blocks of zeros between sensors.
+    """
+
+    white: Array
+    clock: Array
+    shown: Array
+    transition: Array
+    driving: Array
+    first: Array
+
+    @classmethod
+    def of(cls, blocks: Sequence[Sequence[NoiseBlock]]) -> SensorNoises:
+        """Return the noise from the blocks of each point, one for each sensor."""
+        whole = [NoiseBlock.join(row) for row in blocks]
+        white, clock = (np.array([[getattr(b, name) for b in row] for row in blocks]) for name in ("white", "clock"))
+        more = [np.stack([getattr(b, name) for b in whole]) for name in ("shown", "transition", "driving", "first")]
+        return cls(white, clock, *more)
+
+    def variances(self, sensors: Sequence[Sensor]) -> Array:
+        """Return the variance (points, sensors) at the first sample, without that of the stamps."""
+        found, end = self.white.copy(), 0
+        for s, sensor in enumerate(sensors):
+            own, end = slice(end, end + sensor.noise_states), end + sensor.noise_states
+            found[:, s] += np.einsum("pa,pab,pb->p", self.shown[:, own], self.first[:, own, own], self.shown[:, own])
+        return found
+
+    def select(self, rows: Any) -> SensorNoises:
+        """Return some of the points."""
+        return SensorNoises(*(getattr(self, f.name)[rows] for f in fields(self)))
+
+
+@dataclass(frozen=True)
 class Points:
     """Parameter points for one observation; the first axis of each array runs over them.
 
-    `params` (points, parameters) are in the order of `System.slots`. `process` is the intensity (N^2 s, N^2 m^2 s) of
-    the random force and `pace` (1/s) the decay rate of a latent one. For each sensor, (points, sensors): `white` and
-    `ar1` are the variances of white and of AR(1) noise, `ar1_share` is the AR(1) coefficient per sample, `gain` and
-    `offset` relate the reading to the channel, and `lag` (s) is its delay within half a sample either way. The states
-    of model and terms begin at `mean` (points, n) with `covariance` (points, n, n). `drives` are the inputs, `which`
-    (points,) the one of each point, and `first` (points,) the sample of its drive at which a simulation begins.
-    `readings` (points, samples, sensors) take the place of those of the observation, where each point corrects them.
+    `params` (points, parameters) are in the order of `System.slots`. `process` is the intensity (N^2 s, N^2 m^2 s)
+    of the random force and `pace` (1/s) the decay rate of a latent one. `noise` is that of the sensors. For each
+    sensor, (points, sensors): `gain` and `offset` relate the reading to the channel, and `lag` (s) is its delay
+    within half a sample either way. The states of model and terms begin at `mean` (points, n) with `covariance`
+    (points, n, n). `drives` are the inputs, `which` (points,) the one of each point, and `first` (points,) the
+    sample of its drive at which a simulation begins. `readings` (points, samples, sensors) take the place of those
+    of the observation, where each point corrects them.
     """
 
     params: Array
     process: Array
     pace: Array
-    white: Array
-    ar1: Array
-    ar1_share: Array
+    noise: SensorNoises
     gain: Array
     offset: Array
     lag: Array
@@ -79,8 +116,9 @@ class Points:
 
     def select(self, rows: Any) -> Points:
         """Return some of the points: a slice, or an array of their numbers."""
-        arrays = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "drives"}
-        return replace(self, **{name: array[rows] for name, array in arrays.items() if array is not None})
+        arrays = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in ("drives", "noise")}
+        kept = {name: array[rows] for name, array in arrays.items() if array is not None}
+        return replace(self, noise=self.noise.select(rows), **kept)
 
 
 @dataclass(frozen=True)

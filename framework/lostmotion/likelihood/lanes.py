@@ -113,10 +113,12 @@ class Lanes(Engine):
         wires[DRIVES] = len(used)
         each = np.searchsorted(used, points.which) * observation.samples
         which = each[np.minimum(np.arange(STRIDE), len(points) - 1)].astype(np.int64)
-        levels = np.stack([points.white, points.ar1, points.ar1_share, points.gain, points.offset, points.lag], axis=2)
+        sensing = points.noise
+        levels = np.stack([sensing.white, sensing.clock, points.gain, points.offset, points.lag], axis=2)
+        kinds = np.concatenate([sensing.shown[..., None], sensing.transition, sensing.driving, sensing.first], axis=2)
         mean, covariance = _compute_start(dynamics, points)
         kernels = build_filter(n, self.compiled)
-        many = int(numbers[:, 2].max()) + 1
+        many = sensing.shown.shape[1]
         blocks = (
             make_model_block(system, packed),
             make_block(kernels["NOISE"] + (2 + 2 * n) * wires[SOURCES]),
@@ -125,6 +127,7 @@ class Lanes(Engine):
             spread_points(levels.reshape(len(points), -1)),
             spread_points(noise),
             spread_points(np.concatenate([mean, covariance.reshape(len(points), -1)], axis=1)),
+            spread_points(kinds.reshape(len(points), -1)),
         )
         made = system.functions(self.compiled)
         lanes = count_lanes(len(points))
@@ -178,16 +181,15 @@ def _group_points(points: Points) -> Iterator[slice | NDArray[np.intp]]:
 
 
 def _list_sensor_numbers(observation: Observation, dynamics: Dynamics, points: Points) -> NDArray[np.int64]:
-    """Return for each sensor its channel, directly shown state, place among the AR(1) sensors, and whether it is late.
+    """Return for each sensor its channel, directly shown state, the first of its noise states and that behind the last.
 
-    The shape is (sensors, 4).
+    Then whether the sensor is late, and whether its stamps jitter: the shape is (sensors, 6).
     """
-    ar1 = -1
-    rows = []
+    rows, end = [], 0
     for number, sensor in enumerate(observation.sensors):
-        ar1 += sensor.noise.kind == "ar1"
-        own, late = ar1 if sensor.noise.kind == "ar1" else -1, bool(points.lag[0, number])
-        rows.append((*dynamics.system.shown(sensor, dynamics.active), own, late))
+        begin, end = end, end + sensor.noise_states
+        late, jitters = bool(points.lag[0, number]), bool(np.any(points.noise.clock[:, number]))
+        rows.append((*dynamics.system.shown(sensor, dynamics.active), begin, end, late, jitters))
     return np.array(rows, dtype=np.int64)
 
 

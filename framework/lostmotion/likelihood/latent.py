@@ -81,7 +81,7 @@ def smooth_expected_force(problem: Problem, theta: Array, index: int = 0) -> tup
     """
     single = problem.on((problem.observations[index],))
     pace = problem.scales.time / problem.observations[index].dt
-    intensity, _ = problem.noise(theta, index)
+    intensity = problem.random_force(theta, index)
     share = math.sqrt(0.5 * intensity * pace / problem.scales.time) / problem.scales.force
     forced, thetas = _add_force(single, theta, [(share, pace)])
     states = forced.smooth(thetas[0]).states

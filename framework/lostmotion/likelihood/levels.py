@@ -4,18 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import USUAL, Problem, Scales
-from lostmotion.likelihood.space import AR1_LEVEL, AR1_MEMORY, NOISE, RANDOM, FreeParameter, list_keys
+from lostmotion.likelihood.sensor_noise import make_levels, make_sensor_scales
+from lostmotion.likelihood.space import RANDOM, FreeParameter, list_keys
+from lostmotion.noises import White
 
-SHORTEST, LONGEST = 0.7, 0.5
-"""Bounds on the memory of noise: at least this many samples, and at most this share of the natural time of the motion.
-Slower noise cannot be distinguished from motion of the machine, or from drift."""
-LASTING = 3.0
-"""A memory of this many samples is allowed at any sampling rate."""
 LEVELS_TRIED = (0.3, 0.05, 0.008)
 """Random forces, as shares of the drive, at which starting points are compared: with a large one the filter follows the
 readings at any parameters, a small one separates good parameters from bad ones."""
@@ -68,32 +66,18 @@ def compute_random_level(observations: Sequence[Observation], scales: Scales, sh
 def make_noise_levels(observations: Sequence[Observation], scales: Scales) -> tuple[FreeParameter, ...]:
     """Return the noise levels: the intensity of the random force, and the noise of each sensor, as logarithms.
 
-    The random force has a broad normal prior about the usual noise of a measured excitation. A sensor with AR(1) noise
-    has the size and the correlation time of that in addition to its white noise.
+    The random force has a broad normal prior about the usual noise of a measured excitation. Each noise of a sensor has
+    parameters of its own.
     """
     usual = scales.usual
     start = max(compute_random_level(observations, scales, LEVELS_TRIED[0]), usual + 2.0)
     random = FreeParameter(RANDOM, "1", start, usual + LEAST, start + 6.0, mean=usual, sd=4.0)
     first, frees = observations[0], [random]
     for i, sensor in enumerate(first.sensors):
-        size = float(np.median([t.noises[i] for t in observations]))
-        frees.append(_make_noise_level(first.level(NOISE, i), size))
-        if sensor.noise.kind == "ar1":
-            frees += make_ar1_levels(first, i, math.log(size), scales)
+        size = math.log(float(np.median([t.noises[i] for t in observations])))
+        own = make_sensor_scales(first, i, size, scales)
+        frees += [free for noise in sensor.noises for free in make_levels(first, i, noise, own)]
     return tuple(frees)
-
-
-def make_ar1_levels(
-    observation: Observation, sensor: int, noise: float, scales: Scales
-) -> tuple[FreeParameter, FreeParameter]:
-    """Return log size and log correlation time (s) of AR(1) noise of a sensor; `noise` is log size of the white one."""
-    dt = observation.dt
-    low, high = math.log(SHORTEST * dt), math.log(max(LONGEST * scales.time, LASTING * dt))
-    middle = min(math.log(3.0 * dt), high)
-    return (
-        FreeParameter(observation.level(AR1_LEVEL, sensor), "1", noise - 0.5, noise - 5.0, noise + 3.0),
-        FreeParameter(observation.level(AR1_MEMORY, sensor), "1", middle, low, high, mean=middle, sd=1.0),
-    )
 
 
 def make_own_levels(problem: Problem, random: float) -> tuple[FreeParameter, ...]:
@@ -112,9 +96,7 @@ def make_own_levels(problem: Problem, random: float) -> tuple[FreeParameter, ...
         start = min(max(random + more, usual + LEAST), high)
         frees.append(FreeParameter(forced, "1", start, usual + LEAST, high, mean=usual, sd=4.0))
         for sensor, size in enumerate(observations[i].noises):
-            frees.append(_make_noise_level(list_keys(observations[i].level(NOISE, sensor), names)[i], size))
+            own = make_sensor_scales(observations[i], sensor, math.log(size), scales)
+            levels = make_levels(observations[i], sensor, White(), own)
+            frees += [replace(free, key=list_keys(free.key, names)[i]) for free in levels]
     return tuple(frees)
-
-
-def _make_noise_level(key: str, size: float) -> FreeParameter:
-    return FreeParameter(key, "1", math.log(size), math.log(size) - 7.0, math.log(size) + 3.0)

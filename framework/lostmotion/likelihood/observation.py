@@ -17,9 +17,10 @@ from lostmotion.contracts import Array, Interface, Model
 from lostmotion.errors import CaseError, nearest
 from lostmotion.likelihood.drive import SILENT, Drive, DriveHarmonic
 from lostmotion.likelihood.input_curve import InputCurve
-from lostmotion.likelihood.sensors import NOISES, Sensor
+from lostmotion.likelihood.sensors import Sensor
 from lostmotion.likelihood.space import make_level_name
 from lostmotion.likelihood.splines import fit_smoothing_spline
+from lostmotion.noises import Noise, White, make_basic
 from lostmotion.quantities import quantity_of
 from lostmotion.recording import Recording
 
@@ -280,10 +281,13 @@ def find_static_equilibrium(observation: Observation, model: Model, p: Array) ->
     return 0.5 * (ends[0] + ends[1]), 0.5 * (ends[0] - ends[1])
 
 
-def make_observation(recording: Recording, model: Model, *, held: bool = False) -> Observation:
+def make_observation(
+    recording: Recording, model: Model, *, held: bool = False, make_noise: Callable[[str], Noise] = make_basic
+) -> Observation:
     """Return the observation of a recording for `model`; the velocity of a measured base motion comes from a spline.
 
-    An input of the model that was not recorded is zero. Raises `CaseError` for inputs and channels the model lacks.
+    An input of the model that was not recorded is zero. `make_noise` returns a noise by its name. Raises `CaseError`
+    for inputs and channels the model lacks.
     """
     inputs = np.zeros((recording.n, len(model.inputs)))
     driven = tuple(str(array.attrs["of"]) for array in recording.inputs)
@@ -302,7 +306,7 @@ def make_observation(recording: Recording, model: Model, *, held: bool = False) 
         inputs[:, model.inputs.index("base_velocity")] = spline.derivative()(np.arange(recording.n) * recording.dt)
         inputs[:, model.inputs.index("base_position")] = spline(np.arange(recording.n) * recording.dt)
     readings = np.stack([round_values(np.asarray(array.values, dtype=float)) for array in recording.sensors], axis=1)
-    sensors = tuple(_make_sensor(array, model, recording.name) for array in recording.sensors)
+    sensors = tuple(_make_sensor(array, model, recording.name, make_noise) for array in recording.sensors)
     lead = model.inputs.index(driven[0]) if driven else 0
     bare = Observation(recording.name, readings, inputs, recording.dt, sensors, held=held, driven=driven, lead=lead)
     return replace(bare, slope=find_slope_column(model.inputs, lead), harmonic=find_harmonic(bare))
@@ -314,7 +318,7 @@ def find_slope_column(inputs: Sequence[str], lead: int) -> int | None:
     return list(inputs).index("base_velocity") if moved else None
 
 
-def _make_sensor(array: xr.DataArray, model: Model, recording: str) -> Sensor:
+def _make_sensor(array: xr.DataArray, model: Model, recording: str, make_noise: Callable[[str], Noise]) -> Sensor:
     """Return the sensor of an array of a recording; raise `CaseError` for a channel that the model lacks."""
     channel, name = str(array.attrs["of"]), str(array.attrs["sensor"])
     if channel not in model.channels:
@@ -322,7 +326,9 @@ def _make_sensor(array: xr.DataArray, model: Model, recording: str) -> Sensor:
             f"{model.name} shows {', '.join(model.channels)}, but {name or 'the response'} of {recording} is a"
             f" {channel}{nearest(channel, model.channels)}: choose another model or another column"
         )
-    return Sensor(channel, name, NOISES[str(array.attrs["noise"])]())
+    made = [make_noise(kind.strip()) for kind in str(array.attrs["noise"]).split("+")]
+    noises = tuple(made) if isinstance(made[0], White) else (White(), *made)
+    return Sensor(channel, name, noises, loose=array.attrs.get("zero") == "unknown")
 
 
 def window_force(force: Array) -> Array:

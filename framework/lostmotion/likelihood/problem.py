@@ -16,17 +16,14 @@ from lostmotion.kernels.threads import each
 from lostmotion.likelihood.batches import find_distinct, group_rows, join_innovations, realign
 from lostmotion.likelihood.bends import SensorCorrections, correct_twice, filter_corrected, list_corrections
 from lostmotion.likelihood.drive import Drive, pad_inputs
-from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Random, Smoothed
+from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Random, SensorNoises, Smoothed
 from lostmotion.likelihood.initial import compute_initial
 from lostmotion.likelihood.lanes import Lanes
 from lostmotion.likelihood.motion import count_lanes
 from lostmotion.likelihood.observation import Observation, shift_sensors
-from lostmotion.likelihood.sensors import AR1
+from lostmotion.likelihood.sensor_noise import compute_blocks, compute_variance, read_values
+from lostmotion.likelihood.sensors import Sensor
 from lostmotion.likelihood.space import (
-    AR1_LEVEL,
-    AR1_MEMORY,
-    LEVELS,
-    NOISE,
     OFFSET,
     PACE,
     RANDOM,
@@ -36,9 +33,10 @@ from lostmotion.likelihood.space import (
     Scales,
 )  # fmt: skip
 from lostmotion.likelihood.system import System
+from lostmotion.noises import AR1, AR1_LEVEL, NOISE, NoiseBlock
 from lostmotion.settings import DEFAULT, Settings
 
-__all__ = ["LEVELS", "NOISE", "OFFSET", "PACE", "RANDOM", "USUAL", "FreeParameter", "Innovations", "Problem", "Scales"]
+__all__ = ["NOISE", "OFFSET", "PACE", "RANDOM", "USUAL", "FreeParameter", "Innovations", "Problem", "Scales"]
 
 USUAL = 1e-3
 """The usual noise of a measured excitation as a share of the drive, which is no missing mechanism."""
@@ -113,14 +111,18 @@ class Problem:
         out for any `late`, so that likelihoods can be compared.
         """
         if (index, late) not in self._views:
-            observation, columns = self.observations[index], self.coordinates[index].columns
-            sensors = tuple(
-                replace(s, noise=AR1()) if observation.level(AR1_LEVEL, i) in columns else s
-                for i, s in enumerate(observation.sensors)
-            )
-            view, most = replace(observation, sensors=sensors), self._count_latest(index)
+            sensors = tuple(self.find_sensor(index, i) for i in range(len(self.observations[index].sensors)))
+            view, most = replace(self.observations[index], sensors=sensors), self._count_latest(index)
             self._views[index, late] = shift_sensors(view, late or (0,) * len(sensors), most) if most else view
         return self._views[index, late]
+
+    def find_sensor(self, index: int, sensor: int) -> Sensor:
+        """Return a sensor of a recording with all noises that are fitted: with AR(1) noise where that was added."""
+        observation = self.observations[index]
+        found, added = observation.sensors[sensor], observation.level(AR1_LEVEL, sensor)
+        if added not in self.coordinates[index].columns or AR1() in found.noises:
+            return found
+        return replace(found, noises=(*found.noises, AR1()))
 
     def view(self, index: int = 0) -> Observation:
         """Return a recording as an engine sees it, where no sensor is late."""
@@ -152,7 +154,7 @@ class Problem:
     def _slots(self) -> tuple[tuple[int, FreeParameter], ...]:
         """The index of each free parameter of the system in the full vector."""
         frees = {f.parameter: f for f in self.free}
-        return tuple((self.system.index[name], f) for name, f in frees.items() if f.level not in LEVELS)
+        return tuple((self.system.index[name], f) for name, f in frees.items() if f.physical)
 
     def full(self, theta: Array, index: int = 0) -> Array:
         """Return the full parameter vector of the system in a recording at coordinates (n,), or (points, n)."""
@@ -268,32 +270,32 @@ class Problem:
         observation, fulls = self.observations[index], self.full(thetas, index)
         coordinates, shape = self.coordinates[index], (len(thetas), len(observation.sensors))
         pace = np.exp(coordinates.at(thetas, PACE)) if self.coloured else np.zeros(len(thetas))
-        columns = [self._compute_levels(thetas, index, s) for s in range(shape[1])]
-        white, ar1, ar1_share, offset = (
-            np.stack([np.broadcast_to(c[k], len(thetas)) for c in columns], axis=1) for k in range(4)
-        )
+        columns = [self._list_noise(thetas, index, s) for s in range(shape[1])]
+        noise = SensorNoises.of(list(zip(*columns, strict=True)))
+        offset = np.stack([self._compute_offset(thetas, index, s) for s in range(shape[1])], axis=1)
         gain, more, lag = self._compute_gauges(fulls, index)
         lag = lag - np.rint(lag / observation.dt) * observation.dt
         drives, which = self._make_drives(fulls, index)
         mean, covariance = compute_initial(self, fulls, gain, offset + more, index)
         process = np.exp(coordinates.at(thetas, RANDOM))
         first = np.zeros(len(thetas), dtype=np.int64)
-        sensing = (white, ar1, ar1_share, gain, offset + more, lag)
-        return Points(fulls, process, pace, *sensing, mean, covariance, drives, which, first)  # fmt: skip
+        return Points(fulls, process, pace, noise, gain, offset + more, lag, mean, covariance, drives, which, first)
 
-    def _compute_levels(self, thetas: Array, index: int, sensor: int) -> tuple[Any, Any, Any, Any]:
-        """Return the variances of white and of AR(1) noise, the AR(1) coefficient per sample, and the offset."""
+    def _list_noise(self, thetas: Array, index: int, sensor: int) -> list[NoiseBlock]:
+        """Return the noise of a sensor at each of some coordinates (points, n)."""
+        values = self.noise_values(thetas, index, sensor)
+        return compute_blocks(self.find_sensor(index, sensor), values, self.observations[index].dt, len(thetas))
+
+    def noise_values(self, thetas: Array, index: int = 0, sensor: int = 0) -> list[Array]:
+        """Return for each noise of a sensor the values of its parameters, (points, parameters)."""
         observation, coordinates = self.observations[index], self.coordinates[index]
+        own = self.find_sensor(index, sensor)
+        return read_values(own, lambda name: coordinates.at(thetas, observation.level(name, sensor)))
 
-        def level(name: str) -> Any:
-            key = observation.level(name, sensor)
-            return coordinates.at(thetas, key) if key in coordinates.columns else None
-
-        noise, ar1, ar1_share, offset = (level(name) for name in (NOISE, AR1_LEVEL, AR1_MEMORY, OFFSET))
-        if ar1 is None:
-            return np.exp(2.0 * noise), 0.0, 0.0, 0.0 if offset is None else offset
-        left = np.exp(-observation.dt / np.exp(ar1_share))
-        return np.exp(2.0 * noise), np.exp(2.0 * ar1), left, 0.0 if offset is None else offset
+    def _compute_offset(self, thetas: Array, index: int, sensor: int) -> Array:
+        """Return the reading (points,) of a sensor at zero, without the terms that act on it."""
+        key, coordinates = self.observations[index].level(OFFSET, sensor), self.coordinates[index]
+        return np.zeros(len(thetas)) + (coordinates.at(thetas, key) if key in coordinates.columns else 0.0)
 
     def _compute_gauges(self, fulls: Array, index: int) -> tuple[Array, Array, Array]:
         """Return gain, offset, and delay (s) of each sensor, (points, sensors) each.
@@ -343,30 +345,28 @@ class Problem:
         """Return the input that acts in a recording with the full parameter vector `full` of the system."""
         return self._make_drives(full[None], index)[0][0]
 
-    def noise(self, theta: Array, index: int = 0, sensor: int = 0) -> tuple[float, float]:
-        """Return the intensity of the random force (N^2 s) and the variance of the white noise of a sensor."""
-        return math.exp(self.coordinates[index].at(theta, RANDOM)), float(self._compute_levels(theta, index, sensor)[0])
+    def random_force(self, theta: Array, index: int = 0) -> float:
+        """Return the intensity of the random force (N^2 s)."""
+        return math.exp(self.coordinates[index].at(theta, RANDOM))
 
-    def ar1(self, theta: Array, index: int = 0, sensor: int = 0) -> tuple[float, float]:
-        """Return the variance of the AR(1) noise of a sensor, and its coefficient per sample."""
-        _, variance, left, _ = self._compute_levels(theta, index, sensor)
-        return float(variance), float(left)
+    def noise(self, theta: Array, index: int = 0, sensor: int = 0) -> NoiseBlock:
+        """Return the noise of a sensor."""
+        return self._list_noise(theta[None], index, sensor)[0]
 
     def measurement(self, theta: Array, index: int = 0, sensor: int = 0) -> float:
-        """Return the variance of all noise of a sensor, white and AR(1)."""
-        return self.noise(theta, index, sensor)[1] + self.ar1(theta, index, sensor)[0]
+        """Return the variance of all noise of a sensor, in the middle of the recording."""
+        return compute_variance(self.noise(theta, index, sensor), self.observations[index], sensor)
 
     def compute_gauge(self, theta: Array, index: int = 0, sensor: int = 0) -> tuple[float, float, float]:
         """Return the gain of a sensor, its reading at zero (unit of the channel), and its delay (s)."""
         fulls = self.full(theta, index)[None]
         gain, more, lag = self._compute_gauges(fulls, index)
-        zero = float(self._compute_levels(theta, index, sensor)[3])
+        zero = float(self._compute_offset(theta[None], index, sensor)[0])
         return float(gain[0, sensor]), zero + float(more[0, sensor]), float(lag[0, sensor])
 
     def begun(self, theta: Array, index: int = 0) -> Array:
         """Return the mean state (n,) of model and terms at the first sample of a recording."""
-        mean: Array = self.points(theta[None], index).mean[0]
-        return mean
+        return np.asarray(self.points(theta[None], index).mean[0])
 
     def smooth(self, theta: Array, index: int = 0) -> Smoothed:
         """Return the filtered and the smoothed states of a recording at the coordinates `theta`."""

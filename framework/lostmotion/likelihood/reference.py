@@ -178,7 +178,7 @@ class _Machine:
 
 @dataclass
 class _Run:
-    """The filter over one recording at one point: state and covariance, AR(1) noise of sensors, and the results."""
+    """The filter over one recording at one point: state and covariance, noise states of sensors, and the results."""
 
     machine: _Machine
     observation: Observation
@@ -186,7 +186,7 @@ class _Run:
     nsub: int
     y: Array
     cov: Array
-    ar1: Array
+    noise: Array
     shared: Array
     errors: Array
     variances: Array
@@ -198,7 +198,7 @@ class _Run:
 
     @classmethod
     def of(cls, dynamics: Dynamics, observation: Observation, points: Points) -> _Run:
-        """Return the filter at the first sample; AR(1) noise has the mean `ar1` and the covariances `shared`."""
+        """Return the filter at the first sample; noise states have the mean `noise` and the covariances `shared`."""
         if points.readings is not None:
             observation = replace(observation, readings=points.readings[0])
         nsub, n, m = count_fine_steps(dynamics.nsub), dynamics.states, len(observation.sensors)
@@ -208,11 +208,11 @@ class _Run:
         y[:n], cov[:n, :n] = points.mean[0], points.covariance[0]
         if dynamics.random == "latent":
             cov[n, n] = 0.5 * points.process[0] * points.pace[0]
-        shared = np.zeros((m, total + m))
-        shared[:, total:] = np.diag(points.ar1[0])
+        first = points.noise.first[0]
+        shared = np.concatenate([np.zeros((len(first), total)), first], axis=1)
         shape = (observation.samples, m)
         errors, variances = np.zeros(shape), np.full(shape, UNREAD_VARIANCE)
-        return cls(machine, observation, points, nsub, y, cov, np.zeros(m), shared, errors, variances, nsub)
+        return cls(machine, observation, points, nsub, y, cov, np.zeros(len(first)), shared, errors, variances, nsub)
 
     def filter(self) -> int:
         """Filter all samples; return the number of those that were computed."""
@@ -272,18 +272,22 @@ class _Run:
     def _update(self, k: int, sensor: int) -> None:
         """Update all states by one reading, with the observation vector `look`."""
         p, n = self.points, len(self.y)
-        ar1 = self.observation.sensors[sensor].noise.kind == "ar1"
+        before = sum(s.noise_states for s in self.observation.sensors[:sensor])
+        own = slice(before, before + self.observation.sensors[sensor].noise_states)
         expected, slopes, loose = self._predict_reading(k, sensor)
-        look = np.concatenate([p.gain[0, sensor] * slopes, np.zeros(len(self.ar1))])
-        look[n + sensor] = 1.0 if ar1 else 0.0
+        look = np.concatenate([p.gain[0, sensor] * slopes, np.zeros(len(self.noise))])
+        look[n:][own] = p.noise.shown[0, own]
+        if p.noise.clock[0, sensor]:
+            u, t = self.machine.input(k, 0.0), self.machine.drive.begin + k * self.machine.drive.dt
+            loose += p.noise.clock[0, sensor] * float(slopes @ self.machine.compute_slope(self.y, u, t)) ** 2
         whole = np.block([[self.cov, self.shared[:, :n].T], [self.shared]])
         gain = whole @ look
-        variance = float(look @ gain) + p.white[0, sensor] + p.gain[0, sensor] ** 2 * loose
-        shown = p.gain[0, sensor] * expected + p.offset[0, sensor] + (self.ar1[sensor] if ar1 else 0.0)
+        variance = float(look @ gain) + p.noise.white[0, sensor] + p.gain[0, sensor] ** 2 * loose
+        shown = p.gain[0, sensor] * expected + p.offset[0, sensor] + float(look[n:] @ self.noise)
         error = float(self.observation.readings[k, sensor]) - shown
         whole -= np.outer(gain, gain) / variance
         self.y = self.y + gain[:n] / variance * error
-        self.ar1 = self.ar1 + gain[n:] / variance * error
+        self.noise = self.noise + gain[n:] / variance * error
         self.cov, self.shared = whole[:n, :n], whole[n:]
         self.cov[np.diag_indices(n)] = np.maximum(np.diag(self.cov), 0.0)
         self.errors[k, sensor], self.variances[k, sensor] = error, variance
@@ -303,11 +307,9 @@ class _Run:
         if self.machine.dynamics.random == "held":
             across[self.machine.dynamics.states :] = 0.0
         self.steps.append(across)
-        ar1_share = self.points.ar1_share[0]
-        self.ar1 = self.ar1 * ar1_share
-        self.shared[:, : len(self.y)] *= ar1_share[:, None]
-        self.shared[:, len(self.y) :] *= np.outer(ar1_share, ar1_share)
-        self.shared[:, len(self.y) :] += np.diag((1.0 - ar1_share**2) * self.points.ar1[0])
+        transition = self.points.noise.transition[0]
+        self.noise, self.shared = transition @ self.noise, transition @ self.shared
+        self.shared[:, len(self.y) :] = self.shared[:, len(self.y) :] @ transition.T + self.points.noise.driving[0]
 
     @property
     def _fine_step(self) -> float:

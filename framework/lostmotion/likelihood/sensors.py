@@ -3,54 +3,35 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from lostmotion.contracts import Array
-
-
-@dataclass(frozen=True)
-class White:
-    """Noise that is independent from sample to sample."""
-
-    kind: ClassVar[str] = "white"
-
-
-@dataclass(frozen=True)
-class AR1:
-    """White noise and, in addition, correlated noise: an autoregressive process of first order."""
-
-    kind: ClassVar[str] = "ar1"
-
-
-@dataclass(frozen=True)
-class Quantised:
-    """White noise of a sensor whose values are multiples of a quantisation step, `step` (unit of the channel)."""
-
-    step: float = 0.0
-    kind: ClassVar[str] = "quantised"
-
-    @property
-    def variance(self) -> float:
-        """The variance that quantisation adds: that of a uniform density one step wide."""
-        return self.step**2 / 12.0
-
-
-Noise = White | AR1 | Quantised
-NOISES: dict[str, type[Noise]] = {noise.kind: noise for noise in (White, AR1, Quantised)}
+from lostmotion.noises import Noise, Quantised, White
 
 
 @dataclass(frozen=True)
 class Sensor:
-    """A sensor: a `channel` of the model, under a `name`, with noise of a kind.
+    """A sensor: a `channel` of the model, under a `name`, with noises that add up, white noise first.
 
-    Gain, offset and delay of a sensor are parameters like others, and no fields.
+    Gain, offset and delay of a sensor are parameters like others, and no fields. The zero of a `loose` one is unknown.
     """
 
     channel: str
     name: str = ""
-    noise: Noise = White()
+    noises: tuple[Noise, ...] = (White(),)
+    loose: bool = False
+
+    @property
+    def noise_states(self) -> int:
+        """The number of states of all its noises."""
+        return sum(len(noise.states) for noise in self.noises)
+
+    @property
+    def quantised(self) -> bool:
+        """Whether its readings are known to be whole steps."""
+        return any(isinstance(noise, Quantised) for noise in self.noises)
 
     @property
     def place(self) -> str:

@@ -14,16 +14,14 @@ from numpy.typing import NDArray
 from scipy.special import betaln, stdtr, stdtrit
 
 from lostmotion.contracts import Array
+from lostmotion.noises import AR1_LEVEL, NOISE
 
 RANDOM = "log_random_force"
-NOISE = "log_noise"
 PACE = "log_random_pace"
 OFFSET = "offset"
-AR1_LEVEL = "log_slow_noise"
-AR1_MEMORY = "log_noise_memory"
-LEVELS = (RANDOM, NOISE, PACE, OFFSET, AR1_LEVEL, AR1_MEMORY)
-"""The free parameters that are no physics: intensity and decay rate of a random force, the measurement noise, the
-offset of the response sensor, and AR(1) measurement noise: its size and its correlation time (s)."""
+LEVELS = (RANDOM, PACE, OFFSET, AR1_LEVEL)
+"""Free parameters that are no physics, beside those of noise: intensity and decay rate of a random force, the offset of
+the response sensor."""
 _UNIT = NormalDist()
 
 
@@ -97,6 +95,11 @@ class FreeParameter:
     def recording(self) -> str | None:
         """The name of the recording that has this parameter to itself; None where all share it."""
         return split_key(self.key)[1]
+
+    @property
+    def physical(self) -> bool:
+        """Whether it belongs to the machine: not to noise, to the random force or to the zero of a sensor."""
+        return self.level not in LEVELS and not self.level.startswith(NOISE)
 
     @property
     def level(self) -> str:

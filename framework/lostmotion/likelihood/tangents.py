@@ -33,8 +33,9 @@ UNIT = 1e-4
 class Tangents:
     """The filter of one recording at one point: filtered `states` (samples, n), transitions, gains and variances.
 
-    `problem` has this recording alone; `full` is its parameter vector. `slopes` (samples, sensors, states + AR(1)
-    sensors) are the derivatives of the readings, `spread` (samples, sensors) the variances of the errors.
+    `problem` has this recording alone; `full` is its parameter vector. `slopes` (samples, sensors, states + noise
+    states) are the derivatives of the readings, `spread` (samples, sensors) the variances of the errors. `noise` are
+    transition, driving noise and first covariance of the noise states, (states, states) each.
     """
 
     problem: Problem
@@ -44,8 +45,7 @@ class Tangents:
     ahead: Array
     slopes: Array
     spread: Array
-    shares: Array
-    fresh: Array
+    noise: tuple[Array, Array, Array]
     gain: Array
 
     @property
@@ -71,7 +71,7 @@ class Tangents:
 
     def _run(self, rates: Array, seen: Array) -> Array:
         dt = self.observation.dt
-        told = (self.steps, self.ahead, self.slopes, self.spread, self.shares, self.fresh, dt)
+        told = (self.steps, self.ahead, self.slopes, self.spread, *self.noise, dt)
         found = respond(*told, np.ascontiguousarray(rates), np.ascontiguousarray(seen))
         return np.asarray(found.reshape(len(seen), -1))
 
@@ -126,15 +126,17 @@ def linearise_filter(problem: Problem, thetas: Array, index: int = 0) -> tuple[T
     seen, _, before, ahead, steps = kept
     single, full, gain = single.on((view,)), points.params[0], points.gain[0]
     n = single.dynamics.states
-    own = [i for i, s in enumerate(view.sensors) if s.noise.kind == "ar1"]
-    slopes = np.zeros((*innovations.errors.shape[1:], seen.shape[1] + len(own)))
-    slopes[:, :, : seen.shape[1]] = _compute_slopes(single, full, before, ahead)
+    states, shown = seen.shape[1], points.noise.shown[0]
+    slopes = np.zeros((*innovations.errors.shape[1:], states + len(shown)))
+    slopes[:, :, :states] = _compute_slopes(single, full, before, ahead)
     slopes *= gain[:, None]
-    for j, sensor in enumerate(own):
-        slopes[:, sensor, seen.shape[1] + j] = 1.0
+    ends = np.cumsum([sensor.noise_states for sensor in view.sensors])
+    for s, (sensor, end) in enumerate(zip(view.sensors, ends, strict=True)):
+        own = slice(end - sensor.noise_states, end)
+        slopes[:, s, states:][:, own] = shown[own]
     spread = np.where(np.isfinite(view.readings), innovations.variances[0], math.inf)
-    noise = (points.ar1_share[0][own], points.ar1[0][own])
-    return Tangents(single, full, seen[:, :n], steps, ahead, slopes, spread, *noise, gain), innovations
+    noise = (points.noise.transition[0], points.noise.driving[0], points.noise.first[0])
+    return Tangents(single, full, seen[:, :n], steps, ahead, slopes, spread, noise, gain), innovations
 
 
 def join_recordings(parts: Sequence[Innovations]) -> Innovations:

@@ -317,6 +317,7 @@ def _write_recording(recording: Recording, folder: Path) -> dict[str, Any]:
                 "column": str(a.attrs["sensor"] or a.attrs["of"]),
                 "unit": str(a.attrs["units"]),
                 "noise": str(a.attrs["noise"]),
+                "zero": str(a.attrs["zero"]),
                 **({"name": str(a.attrs["sensor"])} if a.attrs["sensor"] else {}),
             }
             for a in recording.sensors

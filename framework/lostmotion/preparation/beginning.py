@@ -269,7 +269,8 @@ def _format_channel(key: str, name: str, column: OutlinedColumn, factors: Mappin
     named = f", name = {_quote(column.name)}" if key == "channel" and _can_be_name(column.name) else ""
     factor = f", factor = {factors[column.name]!r}" if column.name in factors else ""
     quoted = _quote(column.name), _quote(column.stated_unit)
-    return f'{{ {key} = "{name}", column = {quoted[0]}, unit = {quoted[1]}{factor}{named} }}'
+    more = f'{factor}, differences = true, noise = "quantised"' if column.summed else factor
+    return f'{{ {key} = "{name}", column = {quoted[0]}, unit = {quoted[1]}{more}{named} }}'
 
 
 def _can_be_name(name: str) -> bool:
@@ -341,7 +342,7 @@ def _list_findings(outline: Outline, machine: Model, factors: Mapping[str, float
     yield f"{outline.file}: {outline.samples} rows at {1.0 / outline.dt:.6g} Hz, {outline.clock.says}"
     yield from (f"  {note}" for note in outline.clock.notes)
     for column in outline.columns:
-        yield _describe_column(column, outline)
+        yield _describe_column(column, outline, factors.get(column.name, 1.0))
     if outline.drive is not None:
         period = _period(_to_centred(outline.drive, factors), outline.dt) if outline.drive.moves else None
         yield f"the drive repeats every {period:.4g} s" if period else "the drive does not repeat"
@@ -359,12 +360,12 @@ def _period(pushed: Array, dt: float) -> float | None:
     return period
 
 
-def _describe_column(column: OutlinedColumn, outline: Outline) -> str:
+def _describe_column(column: OutlinedColumn, outline: Outline, factor: float) -> str:
     column = outline.response if column.name == outline.response.name else column
     roles = {outline.drive.name if outline.drive else "": "drive", outline.response.name: "response"}
     role = roles.get(column.name, "not used")
     taken = f", taken for {column.stated_unit}" if column.kind and not column.sure else ""
-    seen = column.values[np.isfinite(column.values)]
+    seen = factor * column.values[np.isfinite(column.values)]
     if not seen.size:
         return f"  {column.name}: no reading at all"
     size = f"{seen.min():.4g} to {seen.max():.4g}"

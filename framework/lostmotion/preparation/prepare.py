@@ -10,6 +10,7 @@ from lostmotion.case import WRITTEN, CaseFile, check_same_sensors, load_case
 from lostmotion.contracts import Model, Term
 from lostmotion.errors import CaseError, ContractError
 from lostmotion.likelihood.observation import Observation, make_observation
+from lostmotion.noises import BASIC, Noise
 from lostmotion.preparation.candidates import candidates_of
 from lostmotion.preparation.vetting import make_plugin, usable_terms
 from lostmotion.quantities import ROTATES
@@ -79,7 +80,12 @@ def prepare_loaded(
     """Return a case with recordings that are loaded already, a given model, and its terms."""
     recordings = tuple(thin_recording(one, settings.recording) for one in loaded)
     model = resolve_motion(model, case, recordings)
-    observations = tuple(make_observation(r, model, held=r.hold == "step") for r in recordings)
+
+    def make_noise(name: str) -> Noise:
+        made: Noise = BASIC[name]() if name in BASIC else make_plugin(registry, "noise", name)
+        return made
+
+    observations = tuple(make_observation(r, model, held=r.hold == "step", make_noise=make_noise) for r in recordings)
     known, aside = usable_terms(registry)
     return Prepared(
         case, recordings, observations, model, candidates_of(model, known, observations), registry.origins(), aside

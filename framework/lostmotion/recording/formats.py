@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.errors import DataError, nearest
+from lostmotion.recording.folders import is_bag_folder, list_parts
 from lostmotion.recording.limits import check_bytes, check_numbers
 from lostmotion.recording.nested import KINDS, table_of_nested
 from lostmotion.recording.offered import find_offered, offered_readers
@@ -21,6 +22,8 @@ from lostmotion.recording.text import read_text
 from lostmotion.recording.unpacked import check_hdf5, check_mat, check_npz
 
 Array = NDArray[np.float64]
+BAG = "db3"
+"""The ending whose reader takes the folder of a bag of ROS 2, too."""
 
 
 def read_columns(path: Path) -> dict[str, Array]:
@@ -69,11 +72,12 @@ def table_of(path: Path) -> Table:
 
 def is_recording(path: str | Path) -> bool:
     """Return whether the ending of a file is that of a recording, and not of a case."""
-    return Path(path).suffix[1:].lower() in ENDINGS or Path(path).suffix[1:].lower() in offered_readers()
+    ending = Path(path).suffix[1:].lower()
+    return is_bag_folder(Path(path)) or ending in ENDINGS or ending in offered_readers()
 
 
 def _find_reader(path: Path) -> Callable[[Path], Table]:
-    ending = path.suffix[1:].lower()
+    ending = BAG if is_bag_folder(path) else path.suffix[1:].lower()
     if ending in ENDINGS:
         return ENDINGS[ending]
     if reader := find_offered(ending):
@@ -90,6 +94,9 @@ def _require_file(path: Path) -> None:
 
 
 def _check_place(path: Path) -> None:
+    if is_bag_folder(path):
+        check_bytes(sum(part.stat().st_size for part in list_parts(path)), path.name)
+        return
     if path.is_dir():
         raise DataError(f"{path.name} is a folder: give the recording inside it")
     if not path.exists():

@@ -34,6 +34,7 @@ class Header:
 
     `trailing` tells that rows end with a separator after the last cell; `stamped` names the columns of time stamps.
     `dated` is the number of the column of dates that belong to the times of day in the column `stamped`, -1 for none.
+    `grid` is a column that numbers the samples, with the time (s) of number zero and the step (s).
     """
 
     names: list[str]
@@ -43,6 +44,7 @@ class Header:
     trailing: bool
     stamped: frozenset[str]
     dated: int = -1
+    grid: tuple[str, float, float] | None = None
 
 
 def is_comment(line: str) -> bool:
@@ -54,7 +56,7 @@ def find_header(file: str, lines: list[str]) -> Header:
     """Return the header of a table from the first lines of its file; `DataError` if there is none."""
     rows = [(i, line) for i, line in enumerate(lines) if line.strip() and not is_comment(line)]
     notes = [(i, line) for i, line in enumerate(lines) if is_comment(line)]
-    if rows and (beside := _read_beside(rows) or _read_waveform(rows)):
+    if rows and (beside := _read_beside(rows) or _read_waveform(rows) or _read_increments(rows)):
         return beside
     if rows and _has_only_values(rows[0][1]):
         return _read_comment(file, [note for note in notes if note[0] < rows[0][0]], rows)
@@ -62,7 +64,8 @@ def find_header(file: str, lines: list[str]) -> Header:
         if not notes:
             raise DataError(f"{file} holds only blank lines: record or export it again")
         raise _no_numbers(file)
-    return next(_find_candidates(rows), None) or _use_first_line(file, rows)
+    found = next(_find_candidates(rows, whole=True), None) or next(_find_candidates(rows, whole=False), None)
+    return found or _use_first_line(file, rows)
 
 
 def _read_beside(rows: list[Line]) -> Header | None:
@@ -97,17 +100,45 @@ def _read_waveform(rows: list[Line]) -> Header | None:
     return Header(names, kept, ",", rows[end + 1][0] + 1, trailing=False, stamped=frozenset())
 
 
+def _read_increments(rows: list[Line]) -> Header | None:
+    """Return the header of a scope of Rigol, whose first row has start and increment of the time beside the names."""
+    if len(rows) < 3:
+        return None
+    names, below = ([cell.strip() for cell in cells_of(line, ",")] for _, line in rows[:2])
+    lower = [name.lower() for name in names]
+    if not {"start", "increment"} <= set(lower) or len(below) < len(lower) or lower[0] not in ("x", "time", "sequence"):
+        return None
+    start, step = (read_number(below[lower.index(name)]) for name in ("start", "increment"))
+    if start is None or step is None or not step > 0.0:
+        return None
+    kept = [
+        "time",
+        *("" if name in ("start", "increment") else given for name, given in zip(lower, names, strict=True)),
+    ]
+    del kept[1]
+    spelt = [unit.title() if unit in ("VOLT", "AMP") else unit for unit in below]
+    units = {name: unit for name, unit in zip(kept[1:], spelt[1:], strict=False) if name and is_unit(unit)}
+    columns = len(kept) - (not kept[-1])
+    return Header(
+        kept[:columns], {"time": "s", **units}, ",", rows[2][0] + 1, trailing=columns < len(kept),
+        stamped=frozenset(), grid=("time", start, step),
+    )  # fmt: skip
+
+
 def _no_numbers(file: str) -> DataError:
     return DataError(f"{file} has a header line and no numbers below it: record or export it again")
 
 
-def _find_candidates(rows: list[Line]) -> Iterator[Header]:
-    """Yield the possible headers with rows of numbers below them, in the order of the file."""
+def _find_candidates(rows: list[Line], *, whole: bool) -> Iterator[Header]:
+    """Yield the possible headers with rows of numbers below them, in the order of the file.
+
+    Where rows are not `whole`, they may lack their last cells.
+    """
     for k, ((_, line), (_, below)) in enumerate(pairwise(rows)):
         filled = [cell for cell in _split_cells(line) if not is_missing(cell)]
-        if any(_is_value(cell) for cell in filled) and not (filled and _is_unit_line(below, len(filled))):
+        if any(is_value(cell) for cell in filled) and not (filled and _is_unit_line(below, len(filled))):
             continue
-        header = _try_header(line, below, rows[k + 1 :])
+        header = _try_header(line, below, rows[k + 1 :], whole)
         if header is not None:
             yield _with_units_above(header, rows[:k])
 
@@ -128,7 +159,7 @@ def _with_units_above(header: Header, above: list[Line]) -> Header:
     return replace(header, units=units)
 
 
-def _try_header(line: str, below: str, rows: list[Line]) -> Header | None:
+def _try_header(line: str, below: str, rows: list[Line], whole: bool) -> Header | None:
     """Return the header in a line of text, or None when no table with these names follows."""
     text = strip_comment(line)
     separator = separator_of(text, below)
@@ -138,12 +169,12 @@ def _try_header(line: str, below: str, rows: list[Line]) -> Header | None:
         rows = rows[1:]
     else:
         units = None
-    shape = _find_shape(rows, separator, names)
+    shape = _find_shape(rows, separator, names) if whole else _find_short_shape(rows, separator, names)
     if shape is None:
         return None
     width, numeric = shape
     first = cells_of(rows[0][1], separator)
-    if len(first) < max(numeric) + 1 or not all(_is_value(first[j]) for j in numeric):
+    if len(first) <= (max(numeric) if whole else 0) or not all(is_value(first[j]) for j in numeric if j < len(first)):
         return None
     return _make_header(names, units or [], separator, rows, width)
 
@@ -162,6 +193,15 @@ def _find_shape(rows: list[Line], separator: str | None, names: list[str]) -> tu
         if 2 * len(fit) > len(split) and numeric:
             return width, numeric
     return None
+
+
+def _find_short_shape(rows: list[Line], separator: str | None, names: list[str]) -> tuple[int, list[int]] | None:
+    """Return the same for rows that lack their last cells, which are empty; some of them are complete."""
+    width, split = len(names), [cells_of(row, separator) for _, row in rows[-LAST:]]
+    fit = [cells + [""] * (width - len(cells)) for cells in split if 1 < len(cells) <= width]
+    numeric = [j for j in range(width) if _is_numeric([cells[j] for cells in fit])]
+    complete = any(len(cells) == width for cells in split)
+    return (width, numeric) if separator and complete and 2 * len(fit) > len(split) and 0 in numeric else None
 
 
 def _is_numeric(cells: list[str]) -> bool:
@@ -270,16 +310,16 @@ def _split_cells(line: str) -> list[str]:
 
 def _has_only_values(line: str) -> bool:
     """Return whether a line holds only numbers and time stamps, with any separator."""
-    if all(_is_value(cell) for cell in _split_cells(line)):
+    if all(is_value(cell) for cell in _split_cells(line)):
         return True
-    return all(_is_value(cell) for cell in line.replace(";", " ").replace(",", " ").split())
+    return all(is_value(cell) for cell in line.replace(";", " ").replace(",", " ").split())
 
 
 def _is_number(cell: str) -> bool:
     return not is_missing(cell) and (read_number(cell) is not None or read_number(cell, "comma") is not None)
 
 
-def _is_value(cell: str) -> bool:
+def is_value(cell: str) -> bool:
     """Return whether a cell is a number, a time stamp, a date or empty."""
     return is_missing(cell) or _is_filled(cell)
 

@@ -12,12 +12,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from lostmotion.arguments import Rule, anything, checked, choice, describe, mapping, maybe, path, positive, text
 from lostmotion.errors import DataError
-from lostmotion.provenance import digest
 from lostmotion.quantities import si_factor
 from lostmotion.recording.checks import check_finite, check_length, check_sensor, check_values, fill_input, note_stuck
 from lostmotion.recording.clock import checked_clock, note_repeated_rows, read_time
+from lostmotion.recording.counts import centre_position, sum_changes
+from lostmotion.recording.folders import digest_recording
 from lostmotion.recording.formats import read_table
-from lostmotion.recording.spec import KINDS, Channel, Hold, RecordingSpec
+from lostmotion.recording.spec import Channel, Hold, RecordingSpec
 from lostmotion.recording.table import Table
 from lostmotion.recording.timing import EvenClock, check_step, resample_channel
 from lostmotion.recording.units import note_unit
@@ -34,7 +35,7 @@ _COMMON: Mapping[str, Rule] = {
     "sensors": mapping(anything, "{'position': ...}"),
     "units": maybe(mapping(text, "{'force': 'N', 'position': 'mm'}")),
     "rate": maybe(positive),
-    "noise": maybe(mapping(choice(*KINDS), "{'position': 'white'}")),
+    "noise": maybe(mapping(text, "{'position': 'white'}")),
     "hold": choice("smooth", "step"),
     "name": text,
 }
@@ -54,9 +55,9 @@ class Recording:
 
     `inputs` (none in a free decay) and `sensors` are arrays (n,) over the dim `time` (s), with the attributes `units`,
     `quantity`, `long_name`, and `of`, the input or channel of a model. A sensor has the attributes `sensor`, its name,
-    and `noise` too. NaN in a sensor marks a missing reading; inputs contain none. `dt` is the sampling step (s),
-    `digest` the SHA-256 of the file, `source` its name. `notes` are warnings in sentences; `start` is the time of the
-    recording, where it is known.
+    `noise`, and `zero`, "known" or "unknown". NaN in a sensor marks a missing reading; inputs contain none. `dt` is the
+    sampling step (s), `digest` the SHA-256 of the file, `source` its name. `notes` are warnings in sentences; `start`
+    is the time of the recording, where it is known.
     """
 
     name: str
@@ -252,7 +253,7 @@ def _name_arrays(first: str, more: str, arrays: Sequence[xr.DataArray]) -> dict[
 def load_recording(spec: RecordingSpec, folder: Path, limits: RecordingSettings = DEFAULT.recording) -> Recording:
     """Return the recording that `spec` describes, its file relative to `folder`; `DataError` if it is unusable."""
     path = Path(folder) / spec.file
-    return recording_of(spec, read_table(path), path.name, digest(path), limits)
+    return recording_of(spec, read_table(path), path.name, digest_recording(path), limits)
 
 
 def recording_of(
@@ -314,6 +315,10 @@ class _ChannelReader:
             even = resample_channel(time, values, clock, hold=self.spec.hold) if clock.uneven else values
             notes = (*notes, *check_values(even, self.what, self.source, may_miss=False))
             return self._to_si(even), notes
+        if self.channel.differences:
+            raw = sum_changes(raw, self.what, self.source)
+        if self.channel.loose:
+            raw = centre_position(raw)
         even = resample_channel(time, raw, clock) if clock.uneven else raw
         notes = check_sensor(even, self.what, self.source, dt=clock.dt)
         return self._to_si(even), (*notes, *note_stuck(even, self.what, self.stuck))
@@ -331,7 +336,11 @@ class _ChannelReader:
         channel, (_, unit) = self.channel, si_factor(self.channel.unit, self.channel.quantity)
         words = channel.name or channel.quantity.replace("_", " ")
         attrs = {"units": unit, "quantity": channel.quantity, "of": channel.target, "sensor": channel.name}
-        more = {"noise": channel.noise, "long_name": f"{words} (column {channel.column!r})"}
+        more = {
+            "noise": channel.noise,
+            "zero": "unknown" if channel.loose else "known",
+            "long_name": f"{words} (column {channel.column!r})",
+        }
         clock = ("time", time, {"units": "s", "long_name": "time"})
         return xr.DataArray(si, dims="time", coords={"time": clock}, attrs=attrs | more)
 

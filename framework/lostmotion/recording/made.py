@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lostmotion.errors import DataError, nearest
-from lostmotion.provenance import digest
 from lostmotion.quantities import names_quantity, quantity_of, si_factor
 from lostmotion.recording.arrays import table_of_arrays
 from lostmotion.recording.clock import find_time
+from lostmotion.recording.folders import digest_recording
 from lostmotion.recording.formats import read_table
 from lostmotion.recording.load import Recording, recording_of
-from lostmotion.recording.spec import KINDS, Channel, Hold, RecordingSpec
+from lostmotion.recording.spec import Channel, Hold, RecordingSpec
 from lostmotion.recording.table import Table
 from lostmotion.recording.words import names_time
 from lostmotion.settings import Settings, read
@@ -70,7 +70,7 @@ def read_recording(
     table = read_table(path)
     _check_names((*table.columns, *table.refused), layout, path.name)
     layout = _with_time(table, replace(layout, name=layout.name or path.stem), path.name)
-    return _finish(table, layout, path.name, digest(path), settings)
+    return _finish(table, layout, path.name, digest_recording(path), settings)
 
 
 def time_index(frame: Any) -> Any:
@@ -147,21 +147,17 @@ def _make_spec(layout: RecordingLayout, time_unit: str | None) -> RecordingSpec:
 def _make_channel(
     role: str, key: str, column: str, units: Mapping[str, str], noise: Mapping[str, str] | None = None
 ) -> Channel:
-    """Return an input or a sensor; raise `DataError` if it has no unit or an unknown kind of noise."""
+    """Return an input or a sensor; raise `DataError` if it has no unit."""
     unit = units.get(column, units.get(key))
     if unit is None:
         raise DataError(f"the {role} {key!r} has no unit: add units = {{{column!r}: 'N'}} or the like")
     if role == "input" and not names_quantity(key):
         raise DataError(f"{key!r} is no input of a model: expected a name such as 'force' or 'base_acceleration'")
-    asked = (noise or {}).get(key, "white")
-    kind = next((known for known in KINDS if known == asked), None)
-    if kind is None:
-        raise DataError(f"the noise of {key!r} is {asked!r}{nearest(asked, KINDS)}: expected one of {', '.join(KINDS)}")
     quantity = "base_position" if key == "base_position" else quantity_of(key)
     si_factor(unit, quantity)
     of = f"{key.removesuffix('torque')}force" if key.endswith("torque") else key
     label = "" if role == "input" else key.replace(".", " ")
-    return Channel(column, quantity, unit, of=of, name=label, noise=kind)
+    return Channel(column, quantity, unit, of=of, name=label, noise=(noise or {}).get(key, "white"))
 
 
 def plot_recording(recording: Recording) -> Figure:

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from lostmotion.errors import DataError, nearest
 from lostmotion.quantities import ROTATES, SI, si_factor
 from lostmotion.recording.clock import FoundTime, find_time
+from lostmotion.recording.counts import centre_position, holds_counts, sum_changes
 from lostmotion.recording.formats import read_table
 from lostmotion.recording.table import Table
 from lostmotion.recording.units import kinds_of
@@ -33,7 +34,8 @@ DRIVES = re.compile(r"drive|input|excit|motor|command|hammer|^u\d*$", re.IGNOREC
 class OutlinedColumn:
     """A column of a table: its values (n,), its unit in the file ("" where it has none), and its quantity.
 
-    `kind` is one of `KINDS`, or "" where it is unknown; `sure` tells that it follows from the unit.
+    `kind` is one of `KINDS`, or "" where it is unknown; `sure` tells that it follows from the unit. `summed` tells that
+    the values are sums of the changes in the file.
     """
 
     name: str
@@ -41,6 +43,7 @@ class OutlinedColumn:
     unit: str
     kind: str
     sure: bool
+    summed: bool = False
 
     @property
     def lost(self) -> int:
@@ -89,20 +92,21 @@ class Outline:
 
 @dataclass(frozen=True)
 class GivenRoles:
-    """The roles that a user gives: columns by role, the rate (Hz), and units by column."""
+    """The roles that a user gives: columns by role, the rate (Hz), units by column, and columns of `differences`."""
 
     time: str | None = None
     rate: float | None = None
     drive: str | None = None
     response: str | None = None
     units: Mapping[str, str] | None = None
+    differences: tuple[str, ...] = ()
 
 
 def outline_table(path: Path, roles: GivenRoles) -> Outline:
     """Return the supposed roles of the columns in the file `path`; `DataError` where a role cannot be found."""
     table, source = read_table(path), Path(path).name
     units = roles.units or {}
-    for name in filter(None, (roles.time, roles.drive, roles.response, *units)):
+    for name in filter(None, (roles.time, roles.drive, roles.response, *units, *roles.differences)):
         if name in table.refused:
             raise DataError(table.refused[name])
         if name not in table.columns and not (name == roles.drive == "none"):
@@ -112,7 +116,11 @@ def outline_table(path: Path, roles: GivenRoles) -> Outline:
     time = found.column
     samples = found.time.size if time else _most_common_size(table)
     others = [name for name in table.full_names if time is None or table.columns[name] is not table.columns[time]]
-    columns = tuple(_outline_column(table, n, units.get(n)) for n in others if table.columns[n].size == samples)
+    columns = tuple(
+        _outline_column(table, n, units.get(n), n in roles.differences)
+        for n in others
+        if table.columns[n].size == samples
+    )
     drive, response = _find_roles(columns, roles, source)
     return Outline(source, time, found.unit, found.clock.dt, samples, columns, drive, response, found)
 
@@ -122,14 +130,16 @@ def _most_common_size(table: Table) -> int:
     return max(set(sizes), key=sizes.count)
 
 
-def _outline_column(table: Table, name: str, stated: str | None) -> OutlinedColumn:
+def _outline_column(table: Table, name: str, stated: str | None, summed: bool) -> OutlinedColumn:
     unit, values = stated or table.units.get(name, ""), table.columns[name]
+    if summed:
+        values = centre_position(sum_changes(values, repr(name), "the recording", table.line))
     kind = next(iter(kinds_of(unit)), "")
     if kind:
-        return OutlinedColumn(name, values, unit, kind, sure=True)
+        return OutlinedColumn(name, values, unit, kind, True, summed)
     if stated:
         raise DataError(f"the unit {stated!r} of {name!r} measures none of {', '.join(KINDS)}: write for instance 'mm'")
-    return OutlinedColumn(name, values, unit, kind_named(name), sure=False)
+    return OutlinedColumn(name, values, unit, kind_named(name), False, summed)
 
 
 def _find_roles(
@@ -141,13 +151,26 @@ def _find_roles(
     drive = by_name.get(roles.drive or "") or (None if roles.drive == "none" else _find_drive(moving, roles.response))
     motions = [one for one in moving if one is not drive and one.kind in ("position", "velocity", "acceleration")]
     rest = [one for one in moving if one is not drive and one.kind in ("", "force")]
+    rest.sort(key=lambda one: holds_counts(one.name, one.unit, one.values))
     response = by_name.get(roles.response or "") or next(iter(motions or rest), None)
     if response is None:
         listed = ", ".join(f"{one.name} ({one.kind or 'unknown'})" for one in columns) or "none besides time"
         raise DataError(f"{source} has no column that may be a response (columns: {listed}): give --response COLUMN")
+    _refuse_counts(response, source)
     if not response.kind:
         response = replace(response, kind="position")
     return (replace(drive, kind="force") if drive and not drive.kind else drive), response
+
+
+def _refuse_counts(column: OutlinedColumn, source: str) -> None:
+    """Raise `DataError` for counts of unknown size."""
+    name = column.name
+    if not column.sure and holds_counts(name, column.unit, column.values):
+        raise DataError(
+            f"{source}: {name!r} holds counts, whose size is unknown: give it, for instance --unit {name!r}=turn"
+            f" --factor {name!r}=0.000244140625 for 4096 counts a turn; and --differences {name!r} if each row has the"
+            " counts since the row before"
+        )
 
 
 def _find_drive(moving: Sequence[OutlinedColumn], response: str | None) -> OutlinedColumn | None:

@@ -8,12 +8,9 @@ from typing import Literal
 
 Hold = Literal["smooth", "step"]
 """The inputs between samples: smooth, or constant as a digital controller holds them."""
-Kind = Literal["white", "ar1", "quantised"]
-"""The noise of a sensor, as `lostmotion.likelihood.sensors` names it."""
 
 EXCITATIONS = ("force", "torque", "base_position", "base_acceleration", "voltage", "current")
 RESPONSES = ("position", "velocity", "acceleration", "force", "torque", "voltage", "current")
-KINDS: tuple[Kind, ...] = ("white", "ar1", "quantised")
 
 
 @dataclass(frozen=True)
@@ -21,7 +18,8 @@ class Channel:
     """A column of a file and its quantity; values are multiplied by `factor` before the unit, as by newtons per volt.
 
     `of` is the input or the channel of the model, `quantity` its quantity. A sensor has a `name`, at which sensor terms
-    act, and a kind of `noise`. A sensor without a name is the only one of its recording.
+    act, and names of `noise` with plus signs between them. A sensor without a name is the only one of its recording.
+    With `differences` each value is the change since the row before; the zero is then `loose`, that is unknown.
     """
 
     column: str
@@ -30,7 +28,9 @@ class Channel:
     factor: float = 1.0
     of: str = ""
     name: str = ""
-    noise: Kind = "white"
+    noise: str = "white"
+    differences: bool = False
+    loose: bool = False
 
     @property
     def target(self) -> str:

@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from lostmotion.errors import DataError
+from lostmotion.recording.folders import list_parts
 from lostmotion.recording.table import Table
 
 try:
@@ -108,7 +109,8 @@ def _limit_resources(path: Path) -> None:
     if resource is None:
         return
     used = resource.getrusage(resource.RUSAGE_SELF)
-    seconds = int(used.ru_utime + used.ru_stime) + SECONDS + path.stat().st_size // SPEED
+    size = sum(part.stat().st_size for part in list_parts(path))
+    seconds = int(used.ru_utime + used.ru_stime) + SECONDS + size // SPEED
     for what, most in ((resource.RLIMIT_CPU, seconds), (resource.RLIMIT_AS, MEMORY), (resource.RLIMIT_CORE, 0)):
         _, hard = resource.getrlimit(what)
         resource.setrlimit(what, (most if hard == resource.RLIM_INFINITY else min(most, hard), hard))

@@ -6,11 +6,12 @@ The file is read line by line, two or three times, so that little more memory is
 from __future__ import annotations
 
 import codecs
+import math
 import re
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import islice
 from pathlib import Path
 
@@ -18,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.errors import DataError
+from lostmotion.recording.footer import drop_footer
 from lostmotion.recording.header import HEAD, Header, cells_of, find_header, is_comment
 from lostmotion.recording.limits import check_columns, check_line, check_numbers
 from lostmotion.recording.lvm import FIRST, read_lvm
@@ -40,7 +42,7 @@ class _Text:
     """A text file with its encoding and header, the number of filled lines below the header, and its decimal mark.
 
     `whole` tells that no blank line lies between the rows. `mark` is the decimal mark where the cells are plain numbers
-    with it; None where each cell has to be looked at.
+    with it; None where each cell has to be looked at. `broken` is that of a last row that is shorter than all others.
     """
 
     path: Path
@@ -49,6 +51,7 @@ class _Text:
     lines: int
     whole: bool
     mark: Mark | None
+    broken: int
 
     @contextmanager
     def rows(self) -> Iterator[Iterator[str]]:
@@ -95,11 +98,17 @@ def read_text(path: Path) -> Table:
             return read_lvm(path.name, _check_lines(path.name, stream))
     text = _open_text(path, encoding)
     found = _read_plain(text)
-    return (
-        _read_cells(text)
-        if found is None
-        else make_table(found, text.header.units, line=text.header.first if text.whole else 0)
-    )
+    if found is None:
+        return _put_on_grid(_read_cells(text), text.header)
+    return make_table(found, text.header.units, line=text.header.first if text.whole else 0)
+
+
+def _put_on_grid(table: Table, header: Header) -> Table:
+    """Return the table with the times of samples that a column only numbers."""
+    if header.grid is None or header.grid[0] not in table.columns:
+        return table
+    name, start, step = header.grid
+    return replace(table, columns={**table.columns, name: start + step * table.columns[name]})
 
 
 def _encoding(path: Path) -> str:
@@ -144,12 +153,12 @@ def _open_text(path: Path, encoding: str) -> _Text:
         header = find_header(path.name, list(_check_lines(path.name, islice(stream, HEAD))))
     with path.open(encoding=encoding) as stream:
         below = _check_lines(path.name, islice(stream, header.first - 1, None))
-        lines, whole, mark = _scan_lines(below, header.separator)
+        lines, whole, mark, broken = _scan_lines(below, header.separator)
     check_columns(len(header.names), path.name)
     check_numbers(lines * len(header.names), path.name)
-    if header.stamped or "" in header.names or _find_twice(header.names):
+    if header.stamped or header.grid or "" in header.names or _find_twice(header.names):
         mark = None
-    return _Text(path, encoding, header, lines, whole, mark)
+    return _Text(path, encoding, header, lines, whole, mark, header.first + broken if broken else 0)
 
 
 def _check_lines(file: str, lines: Iterator[str]) -> Iterator[str]:
@@ -158,25 +167,28 @@ def _check_lines(file: str, lines: Iterator[str]) -> Iterator[str]:
         yield line
 
 
-def _scan_lines(lines: Iterator[str], separator: str | None) -> tuple[int, bool, Mark | None]:
+def _scan_lines(lines: Iterator[str], separator: str | None) -> tuple[int, bool, Mark | None, int]:
     """Return the number of filled lines, whether they follow each other, and the only decimal mark they allow.
 
     The mark is None where each cell has to be looked at. Where commas separate the cells, it is a point; cells with
-    commas in quotes are found later.
+    commas in quotes are found later. The last number is the index of a last line with fewer separators than any other.
     """
     count, last, points, commas, proven = 0, -1, False, False, False
+    fewest, here = math.inf, math.inf
     for number, line in enumerate(lines):
         if line.isspace():
             continue
+        fewest, here = min(fewest, here), line.count(separator or " ")
         count, last = count + 1, number
         points, commas = points or "." in line, commas or "," in line
         proven = proven or bool(RAW["comma" if commas else "point"].search(line))
-    whole = last + 1 == count
+    whole, broken = last + 1 == count, last if here < fewest else 0
     if separator == ",":
-        return count, whole, "point"
+        return count, whole, "point", broken
     if points and commas:
-        return count, whole, None
-    return count, whole, ("comma" if commas else "point") if proven or not (points or commas) else None
+        return count, whole, None, broken
+    mark: Mark | None = ("comma" if commas else "point") if proven or not (points or commas) else None
+    return count, whole, mark, broken
 
 
 def _find_twice(names: list[str]) -> list[str]:
@@ -217,7 +229,10 @@ def _read_cells(text: _Text) -> Table:
         columns.append(kind(name) if given and place != header.dated else None)
     rows_read, last = 0, 0
     with text.rows() as rows:
-        filled = ((header.first + i, row) for i, row in enumerate(rows) if row.strip() and not is_comment(row))
+        filled = drop_footer(
+            ((header.first + i, row) for i, row in enumerate(rows) if row.strip() and not is_comment(row)),
+            header.separator,
+        )
         while block := list(islice(filled, AT_ONCE)):
             _add_rows(text, columns, block)
             rows_read, last = rows_read + len(block), block[-1][0]
@@ -298,6 +313,8 @@ def _split_row(text: _Text, number: int, line: str) -> list[str]:
     wanted, got = len(header.names), len(cells)
     if wanted == got:
         return cells
+    if 1 < got < wanted and header.separator is not None and number != text.broken:
+        return cells + [""] * (wanted - got)
     if header.trailing and got == wanted + 1 and not cells[-1].strip():
         return cells[:-1]
     hint = "complete or remove the line"

@@ -18,11 +18,12 @@ import numpy as np
 
 from lostmotion.contracts import Array, Engine, Interface, Model, Param, Term, Values
 from lostmotion.likelihood.drive import Drive
-from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Random
+from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Random, SensorNoises
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.reference import Reference
-from lostmotion.likelihood.sensors import AR1, Sensor
+from lostmotion.likelihood.sensors import Sensor
 from lostmotion.likelihood.system import System
+from lostmotion.noises import AR1, Noise, NoiseBlock, NoiseParameter, SensorScales, White
 from lostmotion.quantities import DAMPING, FORCE, INERTIA, LENGTH, STIFFNESS
 from lostmotion.testing.rules import rule
 
@@ -115,13 +116,50 @@ class Creep(Term):
         dsdt[0] = v - 3.0 * s[0]
 
 
+@dataclass(frozen=True)
+class Swing(Noise):
+    """A noise of two states that depend on each other."""
+
+    name = "swing"
+    paper = "Harvey, Cambridge (1989)"
+    states = ("sine", "cosine")
+
+    def parameters(self, sensor: SensorScales) -> tuple[NoiseParameter, ...]:
+        """Return its size."""
+        return (NoiseParameter("log_noise_swing", 0.0, -9.0, 9.0),)
+
+    def covariance(self, p: Values, dt: float) -> NoiseBlock:
+        """Return a damped rotation."""
+        turn = np.array([[0.8, -0.5], [0.4, 0.7]])
+        first = p[0] ** 2 * np.array([[1.0, 0.2], [0.2, 0.5]])
+        return NoiseBlock(shown=np.array([1.0, -0.3]), transition=turn, driving=0.2 * first, first=first)
+
+
+@dataclass(frozen=True)
+class Late(Noise):
+    """Stamps that jitter."""
+
+    name = "late"
+    paper = "Da Dalt et al. (2002)"
+
+    def parameters(self, sensor: SensorScales) -> tuple[NoiseParameter, ...]:
+        """Return the deviation of the stamps (s)."""
+        return (NoiseParameter("log_noise_late", 0.0, -9.0, 9.0),)
+
+    def covariance(self, p: Values, dt: float) -> NoiseBlock:
+        """Return a block without states."""
+        return NoiseBlock(clock=p[0] ** 2)
+
+
 SENSORS = {
     "a state": (Sensor("position"),),
     "a nonlinear channel": (Sensor("bent"),),
     "an acceleration": (Sensor("acceleration"),),
-    "several sensors, two of them with AR(1) noise": (
-        Sensor("position", noise=AR1()), Sensor("bent"), Sensor("acceleration", noise=AR1()),
+    "several sensors, two of them with noise of their own": (
+        Sensor("position", noises=(White(), AR1(), Swing())), Sensor("bent"),
+        Sensor("acceleration", noises=(White(), AR1())),
     ),
+    "stamps that jitter": (Sensor("position", noises=(White(), Late())), Sensor("bent", noises=(White(), Late()))),
 }  # fmt: skip
 RANDOM: tuple[Random, ...] = ("white", "held", "latent")
 VALUES = {"m": 1.0, "c": 1.5, "k": 900.0, "x0": 0.05, "stick.size": 0.4, "creep.stiffness": 20.0}
@@ -155,13 +193,26 @@ def make_arguments(
     near = full * (1.0 + 0.05 * rng.standard_normal((count, len(full))))
     zero = np.zeros(count, dtype=np.int64)
     points = Points(
-        near, np.full(count, 1e-2), np.full(count, 15.0), (0.03 * scale) ** 2, (0.05 * scale) ** 2,
-        np.full(scale.shape, 0.7), 1.0 + 0.1 * rng.standard_normal(scale.shape), 0.01 * scale,
+        near, np.full(count, 1e-2), np.full(count, 15.0), _make_noise(sensors, scale),
+        1.0 + 0.1 * rng.standard_normal(scale.shape), 0.01 * scale,
         lag * DT * np.ones(scale.shape),
         np.tile([x[0], 0.5, 0.0], (count, 1)), np.tile(np.diag([1e-4, 1e-2, 1e-5]), (count, 1, 1)),
         (drive,), zero, zero,
     )  # fmt: skip
     return dynamics, Observation("rig", z, drive.inputs, DT, sensors), points
+
+
+def _make_noise(sensors: tuple[Sensor, ...], scale: Array) -> SensorNoises:
+    """Return noise of sensors whose readings have the deviations `scale` (points, sensors)."""
+    sizes = {White: 0.03, AR1: 0.05, Swing: 0.02, Late: 0.1 * DT}
+    blocks = []
+    for row in scale:
+        made = [
+            [n.covariance((sizes[type(n)] * (1.0 if isinstance(n, Late) else size), 2.8 * DT), DT) for n in s.noises]
+            for s, size in zip(sensors, row.tolist(), strict=True)
+        ]
+        blocks.append([NoiseBlock.join(one) for one in made])
+    return SensorNoises.of(blocks)
 
 
 def _list_cases() -> Iterator[tuple[str, Arguments]]:
@@ -246,7 +297,7 @@ def points_do_not_know_each_other(engine: Engine) -> str:
 @rule("engine")
 def missing_readings_add_nothing(engine: Engine) -> str:
     """For a reading that is NaN, return the error 0 and the variance 1 / (2 pi), and continue."""
-    dynamics, observation, points = make_arguments(SENSORS["several sensors, two of them with AR(1) noise"])
+    dynamics, observation, points = make_arguments(SENSORS["several sensors, two of them with noise of their own"])
     found, lost = engine.filter(dynamics, observation, points), np.isnan(observation.readings)
     if np.any(found.errors[:, lost] != 0.0) or not np.allclose(found.variances[:, lost], 0.5 / math.pi, rtol=1e-12):
         return "a missing reading changes the likelihood"

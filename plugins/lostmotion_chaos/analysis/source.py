@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from lostmotion.case import CaseFile
 from lostmotion.errors import CaseError, DataError, nearest
 from lostmotion.preparation.prepare import case_of
-from lostmotion.provenance import digest
 from lostmotion.recording import Recording, Table, load_recording, read_table
 from lostmotion.recording.clock import FoundTime, find_time
+from lostmotion.recording.folders import digest_recording
 from lostmotion.recording.timing import resample_channel
 from lostmotion.registry import Registry
 from lostmotion.settings import DEFAULT, RecordingSettings
@@ -178,7 +178,7 @@ def _load_from_file(path: Path, wanted: WantedChannel) -> Source:
         unit=unit,
         label=names[0] if len(names) == 1 else names[0].partition("[")[0],
         excitation=None,
-        inputs={path.name: digest(path)},
+        inputs={path.name: digest_recording(path)},
         notes=tuple(notes),
     )
 

@@ -10,6 +10,8 @@ from lostmotion.errors import DataError
 Array = NDArray[np.float64]
 LEAST = 200
 """The least number of samples: no method gives a result for fewer."""
+LARGEST = 1e150
+"""The largest value: sums of squares of larger ones are not finite."""
 
 
 def checked(values: ArrayLike, *, least: int = LEAST) -> Array:
@@ -26,7 +28,7 @@ def checked(values: ArrayLike, *, least: int = LEAST) -> Array:
         raise DataError("the series is complex: give its real part, or one channel")
     try:
         x = raw.astype(np.float64)
-    except (TypeError, ValueError) as err:
+    except (TypeError, ValueError, OverflowError) as err:
         raise DataError(f"the series contains something that is not a number ({err}): give a list of numbers") from err
     if x.ndim != 1:
         raise DataError(f"the series has {x.ndim} dimensions {x.shape}: give one channel, with shape (n,)")
@@ -38,6 +40,8 @@ def checked(values: ArrayLike, *, least: int = LEAST) -> Array:
         raise DataError(
             f"{bad} samples are NaN or infinite, the first is number {first}: cut them off, or fill them in"
         )
+    if (largest := float(np.abs(x).max())) > LARGEST:
+        raise DataError(f"the series reaches {largest:.3g}, and squares of such numbers overflow: give another unit")
     centred: Array = x - x[0]
     centred -= centred.mean()
     if np.ptp(centred) == 0.0:

@@ -21,3 +21,9 @@ def lostmotion_terms() -> dict[str, str]:
 def lostmotion_commands() -> dict[str, tuple[str, str]]:
     """Return the commands of this package, each with its line in `lostmotion --help`."""
     return {"crest": (f"{_HERE}.commands:crest", "Tell how far the peaks of a recording reach beyond its rms.")}
+
+
+@hookimpl
+def lostmotion_noises() -> dict[str, str]:
+    """Return the noises of this package, which a case names: `noise = "flicker_noise"`."""
+    return {"flicker_noise": f"{_HERE}.noises:FlickerNoise"}

@@ -1,0 +1,1 @@
+"""Measurement noise of sensors, each a small linear state-space block."""
