@@ -348,3 +348,20 @@ def differentiate_errors(picks, gains, moves, pushes, joints, columns, shifts, f
         for a in range(L):
             for b in range(count):
                 D[a, b] = T[a, b]
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def evaluate_law(address, numbers, t, q, v, found):  # type: ignore[no-untyped-def]
+    """Write the force of a law with all its `numbers` at times, positions and velocities (samples,) into `found`."""
+    own, desk = np.zeros((16, STRIDE)), np.zeros((8, STRIDE))
+    for first in range(0, len(t), STRIDE):
+        lanes = min(STRIDE, len(t) - first)
+        for l in range(lanes):
+            desk[0, l], desk[1, l], desk[2, l] = t[first + l], q[first + l], v[first + l]
+            for a in range(len(numbers)):
+                own[a, l] = numbers[a]
+        if call(address, pointer(own), pointer(desk), lanes) != 0:
+            return False
+        for l in range(lanes):
+            found[first + l] = desk[3, l]
+    return True

@@ -42,10 +42,11 @@ def can_act(term: Term) -> bool:
     known = set(term.needs) <= set(NEEDS)
     if not (term.acts == "motion" and plain and known) or term.states or "rotation" not in term.motions:
         return False
-    return not _make_law(term).reads_inputs
+    return not make_law(term).reads_inputs
 
 
-def _make_law(term: Term) -> Law:
+def make_law(term: Term) -> Law:
+    """Return a term as the kernels of laws know it."""
     return Law(0, len(term.params) + len(term.needs), 0, term.force, term.rate)
 
 
@@ -195,7 +196,7 @@ class Arm:
             rows += [(BASE_FRICTION, j, [float(own[j])]) for j in np.flatnonzero(own)]
             found += [(BASE_FRICTION, int(j)) for j in np.flatnonzero(own)]
         for term, j, given in rows:
-            law = _make_law(term)
+            law = make_law(term)
             joints.append(j)
             addresses.append(compile_law(law, 0)[0])
             firsts.append(len(numbers))
@@ -248,7 +249,7 @@ class Arm:
             )  # fmt: skip
             found[begin : begin + CHUNK] = made[places]
         found[:, np.isnan(self.log.readings[:samples])] = 0.0
-        return found.reshape(len(columns), -1)
+        return found.reshape(len(columns), samples * count)
 
 
 CHUNK = 64
