@@ -1,4 +1,4 @@
-"""The seven kinds of plugin. Subclass one of them directly, as a frozen dataclass, and name the class in a hook.
+"""The eight kinds of plugin. Subclass one of them directly, as a frozen dataclass, and name the class in a hook.
 
 `rhs`, `observe`, `force` and `rate` are scalar Python functions on NumPy arrays. The framework compiles them with numba
 into one kernel, so they may use arithmetic, branches and `math`, but no NumPy functions and no objects. A quantity that
@@ -21,6 +21,7 @@ from lostmotion.quantities import Dimension
 from lostmotion.recording.arrays import table_of_arrays
 from lostmotion.recording.table import Table
 from lostmotion.results import Embedding, Estimate
+from lostmotion.simulators import Simulator
 from lostmotion.subjects import Data, Flow, Orbit, Series
 
 if TYPE_CHECKING:
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
 __all__ = [
     "KINDS", "PSEUDO_NEEDS", "Array", "Assembly", "Data", "Denoiser", "Drive", "DriveTerm", "Embedder", "Engine",
     "Flow", "Group", "Input", "Interface", "Model", "Motion", "Orbit", "Param", "Quantifier", "SensorTerm", "Series",
-    "Surrogate", "Table", "Term", "Values", "place_of", "table_of_arrays"]  # fmt: skip
+    "Simulator", "Surrogate", "Table", "Term", "Values", "place_of", "table_of_arrays"]  # fmt: skip
 
 _NOWHERE = Interface("", -1, "", lambda y, u: (0.0, 0.0))
 
@@ -396,5 +397,5 @@ class Engine(ABC):
 
 
 KINDS: Mapping[str, type[Any]] = {
-    kind.__name__.lower(): kind for kind in (Model, Term, Embedder, Quantifier, Surrogate, Denoiser, Engine)
+    kind.__name__.lower(): kind for kind in (Model, Term, Embedder, Quantifier, Surrogate, Denoiser, Engine, Simulator)
 }

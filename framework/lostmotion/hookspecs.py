@@ -68,6 +68,12 @@ def lostmotion_engines() -> Mapping[str, str]:
 
 
 @hookspec
+def lostmotion_simulators() -> Mapping[str, str]:
+    """Return `{"name": "package.module:Class"}` for each `Simulator`: a machine with joints that somebody else wrote."""
+    raise NotImplementedError
+
+
+@hookspec
 def lostmotion_commands() -> Mapping[str, tuple[str, str]]:
     """Return `{"name": ("package.module:command", "One line of help.")}` for each `click.Command`.
 

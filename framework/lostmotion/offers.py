@@ -11,7 +11,7 @@ import pluggy
 from lostmotion import hookspecs
 from lostmotion.errors import nearest
 
-KINDS = ("model", "term", "embedder", "quantifier", "surrogate", "denoiser", "engine")
+KINDS = ("model", "term", "embedder", "quantifier", "surrogate", "denoiser", "engine", "simulator")
 COMMAND, READER = "command", "reader"
 _SAID = {COMMAND: "One line of help.", READER: "what to install with pip if its library is absent"}
 """The kinds that are functions; a second text belongs to each of their names."""

@@ -98,13 +98,14 @@ def _average_laws(t, q, v, sq, sv, j, mobility, step, joints, addresses, firsts,
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
 def filter_chain(  # type: ignore[no-untyped-def]
-    z, picks, dt, steps, W, Kq, KV, h, q0, v0, tau, S, R, motors, gears, joints, addresses, firsts, widths, needs,
+    z, picks, dt, coarse, fine, inverses, Kq, KV, h, q0, v0, tau, S, R, motors, gears, joints, addresses, firsts, widths, needs,
     numbers, x0, P0, errors, variances, states, accelerations, gains, moves, pushes,
 ):  # fmt: skip
     """Write one-step errors and their variances, (samples, readings); return the number of samples that were filtered.
 
-    `z` (samples, readings) may hold NaN, `picks` are the states that are read. `W` (samples, n, n) is the inverse of
-    M + hs / 2 KV, with the step hs = dt / `steps`; `h` already holds - Kv v0. `tau` (samples, n) acts over the sample
+    `z` (samples, readings) may hold NaN, `picks` are the states that are read. A sample has `coarse` steps, or
+    `fine` ones while a law may change its sign; `inverses` (2, samples, n, n) are those of M + hs / 2 KV for the two
+    lengths hs of a step. `h` already holds - Kv v0. `tau` (samples, n) acts over the sample
     that follows, `S` (n,) is the intensity of the random force (N m)^2 s and `R` (readings,) the variance of readings.
     `motors` (n,) is the position of the motor of a joint in the state, or -1; `gears` (n, 5) holds half of its play,
     stiffness, damping, one over its inertia, and its viscous damping. Laws have a joint, an address, and numbers. Where
@@ -112,9 +113,8 @@ def filter_chain(  # type: ignore[no-untyped-def]
     and `pushes` (samples, L, n) are written too.
     """
     N, m = z.shape
-    n = W.shape[1]
+    n = Kq.shape[1]
     L = len(x0)
-    hs = dt / steps
     keep = len(moves) == N
     x, P = x0.copy(), P0.copy()
     A, T, F, E = np.zeros((L, L)), np.zeros((L, L)), np.zeros((L, L)), np.zeros((L, n))
@@ -123,6 +123,7 @@ def filter_chain(  # type: ignore[no-untyped-def]
     active = np.zeros(n, dtype=np.bool_)
     for a in range(len(joints)):
         active[joints[a]] = True
+    past = np.zeros(n)
     for k in range(N):
         for i in range(m):
             if z[k, i] != z[k, i]:
@@ -155,6 +156,14 @@ def filter_chain(  # type: ignore[no-untyped-def]
                 F[a, a] = 1.0
             for i in range(n):
                 accelerations[k, i] = -x[n + i] / dt
+        steps, W = coarse, inverses[0]
+        if fine > coarse:
+            for i in range(n):
+                c = n + i if motors[i] < 0 else motors[i] + 1
+                if active[i] and abs(x[c]) < 6.0 * math.sqrt(P[c, c]) + 2.0 * abs(x[c] - past[i]):
+                    steps, W = fine, inverses[1]
+                past[i] = x[c]
+        hs = dt / steps
         for s in range(steps):
             off = ((s + 0.5) / steps - 0.5) * dt
             for i in range(n):

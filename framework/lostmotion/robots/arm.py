@@ -93,8 +93,8 @@ class Arm:
         names = [f"{joint}.{kind}" for joint in self.joints]
         return np.array([values.get(name, self.values.get(name, 0.0)) for name in names])
 
-    def _build(self, values: Mapping[str, float], soft: tuple[int, ...], steps: int) -> tuple[Array, ...]:
-        """Return W, Kq, Kv and h of the filter for values, with some joints behind a gear."""
+    def _build(self, values: Mapping[str, float], soft: tuple[int, ...], steps: tuple[int, int]) -> tuple[Array, ...]:
+        """Return the inverses for two numbers of steps, Kq, Kv and h for values, with some joints behind a gear."""
         changed = tuple((name, values[name]) for name in sorted(self.parts) if name in values)
         base = ("damping", "armature", "stiffness", "rest")
         own = tuple(tuple(self.get(values, kind).tolist()) for kind in base)
@@ -111,16 +111,17 @@ class Arm:
             part = self.parts[name]
             mass, bias = mass + more * _average(part.mass), bias + more * _average(part.bias)
         kv, kq = damping + eye * loss, np.ascontiguousarray(stiffness + eye * spring)
-        inverse = np.linalg.inv(mass + 0.5 * self.log.dt / steps * kv)
+        made = {count: np.linalg.inv(mass + 0.5 * self.log.dt / count * kv) for count in dict.fromkeys(steps)}
+        inverse = np.stack([made[count] for count in steps])
         free = bias - np.einsum("kij,kj->ki", damping, v0)
         if len(self._cache) > 40 // n:
             self._cache.clear()
         self._cache[key] = inverse, kq, kv, free
         return self._cache[key]
 
-    def count_steps(self, gears: Mapping[int, Gear], laws: bool) -> int:
-        """Return the number of steps of the filter within a sample."""
-        steps = LAW_STEPS if laws else 1
+    def count_steps(self, gears: Mapping[int, Gear]) -> int:
+        """Return the number of steps of the filter within a sample that gears need."""
+        steps = 1
         for j, gear in gears.items():
             light = float(np.linalg.inv(self.tape.mass[0])[j, j]) + 1.0 / self.values[f"{self.joints[j]}.armature"]
             steps = max(steps, math.ceil(math.sqrt(gear.stiffness * light) * self.log.dt / FASTEST))
@@ -148,8 +149,9 @@ class Arm:
         log, gears = self.log, dict(gears or {})
         laws = [(t, self.joints.index(t.at)) for t in terms if not isinstance(t, DriveTerm)]
         laws, numbers = self._list_laws(laws, values)
-        steps = self.count_steps(gears, bool(laws))
-        W, kq, kv, free = self._build(values, tuple(sorted(gears)), steps)
+        coarse = self.count_steps(gears)
+        fine = max(coarse, LAW_STEPS) if laws else coarse
+        inverses, kq, kv, free = self._build(values, tuple(sorted(gears)), (coarse, fine))
         tau = log.drive([t for t in terms if isinstance(t, DriveTerm)], values)
         tau = tau if force is None else tau + force
         first = 0 if start is None else start[0]
@@ -168,7 +170,7 @@ class Arm:
         made = {name: np.zeros((kept, *shape)) for name, shape in wide.items()}
         *_, q0, v0 = self._middle
         reached = filter_chain(
-            z, picks, log.dt, steps, W[part], kq[part], kv[part], free[part], q0[part], v0[part],
+            z, picks, log.dt, coarse, fine, inverses[:, part], kq[part], kv[part], free[part], q0[part], v0[part],
             np.ascontiguousarray(tau[part]), levels[0], levels[1], motors, plain, *numbers, mean, cov, errors, variances,
             made["states"], made["accelerations"], made["gains"], made["moves"], made["pushes"],
         )  # fmt: skip

@@ -17,9 +17,10 @@ from lostmotion.robots.hypothesis import Frame, Hypothesis, fit_hypothesis, scor
 
 Say = Callable[[str], None]
 Terms = frozenset[str]
-MOST_FITTED, MOST_CLOSE = 6, 3
-"""The numbers of effects that are fitted beside a set: of the best promises, and of gears."""
-REACH = 8.0
+MOST_FITTED, MOST_SMALL, MOST_GEARS = 6, 3, 3
+"""The numbers of effects that are fitted beside a set: by promises at the fitted random force, by those at a small one,
+and of gears."""
+REACH = 3.0
 """Sets within this distance of the best score are extended."""
 SMALL = 0.1
 """The random force of a second start, as a share of the fitted one: a gap is else taken for noise."""
@@ -98,23 +99,21 @@ class ArmSearch:
 
     def extend(self, target: Hypothesis) -> None:
         """Fit the sets with one more effect that promise to be better, from the fitted and from a small random force."""
-        levels = len(self.frame.arm.joints)
-        temper, promises = self.temper, []
-        promises += list_promises(self.screen, target, self.price, temper)[:MOST_FITTED]
-        small = self._make_small(target)
-        if small is not None:
-            known = {p.effect.key for p in promises}
-            more = list_promises(self.screen, small, self.price, temper)[: MOST_FITTED // 2]
-            promises += [p for p in more if p.effect.key not in known]
-        low = target.at[:levels] + math.log(SMALL)
-        gears = list_gear_promises(self.screen, target, low, self.price, temper)[:MOST_CLOSE]
-        wanted = [p for p in promises if p.gain > 0.0] + [p for p in gears if p.gain > -REACH]
-        self.say(f"fits beside {name_set(target.terms)}: {', '.join(p.effect.key for p in wanted) or 'none'}")
-        for promise in wanted:
+        temper, small = self.temper, self._make_small(target)
+        usual = list_promises(self.screen, target, self.price, temper)[:MOST_FITTED]
+        known = {p.effect.key for p in usual}
+        more = list_promises(self.screen, small, self.price, temper)[:MOST_SMALL] if small is not None else []
+        low = target.at[: len(self.frame.arm.joints)] + math.log(SMALL)
+        gears = list_gear_promises(self.screen, target, low, self.price, temper)[:MOST_GEARS]
+        wanted = [(p, (0.0,)) for p in usual if p.gain > 0.0]
+        wanted += [(p, (math.log(SMALL),)) for p in more if p.gain > 0.0 and p.effect.key not in known]
+        wanted += [(p, (0.0, math.log(SMALL))) for p in gears if p.gain > 0.0]
+        self.say(f"fits beside {name_set(target.terms)}: {', '.join(p.effect.key for p, _ in wanted) or 'none'}")
+        for promise, shifts in wanted:
             if self.spent:
                 self.skipped = True
                 return
-            self._weigh_beside(target, promise)
+            self._weigh_beside(target, promise, shifts)
 
     def _make_small(self, target: Hypothesis) -> Hypothesis | None:
         """Return the hypothesis with a small random force, at which slopes of effects that look like noise show."""
@@ -126,7 +125,7 @@ class ArmSearch:
         precision = seen.information[np.ix_(target.used, target.used)] + np.diag(seen.precision[target.used])
         return replace(target, at=at, expansion=seen, kept=kept, precision=precision)
 
-    def _weigh_beside(self, target: Hypothesis, promise: Promise) -> None:
+    def _weigh_beside(self, target: Hypothesis, promise: Promise, shifts: tuple[float, ...]) -> None:
         """Fit a set with one more effect, in place of simpler ones that it contains."""
         kept = [e for e in target.frame.effects if e.key not in promise.effect.extends]
         effects = tuple(sorted((*kept, promise.effect), key=lambda e: e.key))
@@ -135,13 +134,12 @@ class ArmSearch:
         known = self._read(target) | {
             c.key: c.place(promise.start.get(c.key, c.value(c.mean))) for c in promise.effect.coordinates
         }
-        self.weigh(effects, self._vary_levels(self._place(effects, known)), target)
+        self.weigh(effects, self._vary_levels(self._place(effects, known), shifts), target)
 
-    def _vary_levels(self, at: Array) -> list[Array]:
-        """Return starts with the given and with a small random force."""
-        low = at.copy()
-        low[: len(self.frame.arm.joints)] += math.log(SMALL)
-        return [at, low]
+    def _vary_levels(self, at: Array, shifts: tuple[float, ...] = (0.0, math.log(SMALL))) -> list[Array]:
+        """Return starts with other random forces, whose logarithms are shifted."""
+        first = np.arange(len(at)) < len(self.frame.arm.joints)
+        return [np.where(first, at + shift, at) for shift in shifts]
 
     def _read(self, one: Hypothesis) -> dict[str, float]:
         """Return the coordinates of a hypothesis by key, those of the discrepancy by number."""
