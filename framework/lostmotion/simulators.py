@@ -3,10 +3,19 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
-from typing import ClassVar
+from collections.abc import Mapping, Sequence
+from typing import ClassVar, NamedTuple
 
 from lostmotion.parts import Array
+
+
+class Finding(NamedTuple):
+    """A mechanism that a machine lacks: its name, its place, its parameters (SI), and what it is in a sentence."""
+
+    mechanism: str
+    at: str
+    values: Mapping[str, float]
+    says: str
 
 
 class Simulator(ABC):
@@ -29,7 +38,7 @@ class Simulator(ABC):
         """The names of the joints, in the order of the columns of all arrays."""
 
     @property
-    def motions(self) -> tuple[str, ...]:
+    def moves(self) -> tuple[str, ...]:
         """The kind of motion of each joint: "rotation" or "translation"."""
         return ("rotation",) * len(self.joints)
 
@@ -63,3 +72,10 @@ class Simulator(ABC):
     def changed(self, values: Mapping[str, float]) -> Simulator:
         """Return the simulator with other values of some of `linear`, or with a payload (kg) at some of `points`."""
         raise NotImplementedError(f"{self.name} has no values that can be changed")
+
+    def write_found(self, found: Sequence[Finding], known: Mapping[str, float]) -> tuple[str, tuple[str, ...]] | None:
+        """Return the file of the simulator with what was found in it, and what it cannot express; None without a file.
+
+        `known` are values that a case states in place of those in the file.
+        """
+        return None

@@ -30,6 +30,8 @@ LAW_STEPS = 4
 """Steps of the filter within a sample where a law acts: dry friction needs them (study: 1 step costs 10 to 25 nats)."""
 FASTEST, MOST_STEPS = 0.5, 64
 """The largest angle (rad) by which the motion of a gear may turn in one step; the largest number of steps."""
+SETTLING = 0.1
+"""The time (s) at the beginning of a log that does not count."""
 DOUBT_ANGLE, DOUBT_SPEED = 1e-3, 0.1
 """Standard deviations of the first position and velocity (SI)."""
 
@@ -67,7 +69,8 @@ class Arm:
     """A machine with n joints: its log, tape, the parts of linear values, and all values by name.
 
     `values` holds `joint.damping`, `.frictionloss`, `.armature`, `.stiffness`, `.rest`, and values of `parts` relative
-    to which the tape was made. `side` is where the torque was measured: "motor", or "link" of each gear.
+    to which the tape was made. `side` is where the torque was measured: "motor", or "link" of each gear;
+    `motor_inertia` is that of the model (kg m^2), which a sensor behind the gear does not feel.
     """
 
     log: RobotLog
@@ -75,12 +78,18 @@ class Arm:
     parts: Mapping[str, Part]
     values: Mapping[str, float]
     side: str = "motor"
+    motor_inertia: Mapping[str, float] = field(default_factory=dict)
     _cache: dict[tuple[object, ...], tuple[Array, ...]] = field(default_factory=dict)
 
     @property
     def joints(self) -> tuple[str, ...]:
         """The names of the joints."""
         return self.log.joints
+
+    @property
+    def settling(self) -> int:
+        """The number of samples at the beginning that do not count, because the first state is not known."""
+        return round(SETTLING / self.log.dt)
 
     @cached_property
     def _middle(self) -> tuple[Array, ...]:
@@ -174,6 +183,7 @@ class Arm:
             np.ascontiguousarray(tau[part]), levels[0], levels[1], motors, plain, *numbers, mean, cov, errors, variances,
             made["states"], made["accelerations"], made["gains"], made["moves"], made["pushes"],
         )  # fmt: skip
+        errors[: max(self.settling - first, 0)], variances[: max(self.settling - first, 0)] = 0.0, 1.0 / (2.0 * math.pi)
         seen = Innovations.of(errors[None], variances[None], np.array([reached]))[0]
         return Filtered(seen, **made)
 
@@ -251,6 +261,7 @@ class Arm:
             )  # fmt: skip
             found[begin : begin + CHUNK] = made[places]
         found[:, np.isnan(self.log.readings[:samples])] = 0.0
+        found[:, : self.settling] = 0.0
         return found.reshape(len(columns), samples * count)
 
 

@@ -19,6 +19,8 @@ from lostmotion.robots.arm import Arm, Column, Filtered, can_act
 from lostmotion.robots.effects import Effect, GearEffect, LawEffect, MassEffect, Scales, Shape
 from lostmotion.robots.gears import GEARS
 from lostmotion.robots.hypothesis import Hypothesis
+from lostmotion.robots.tape import Path
+from lostmotion.robots.waves import find_pitches
 
 TYPICAL_MASS = 0.1
 """The usual error of a mass or an armature, as a share of it."""
@@ -33,14 +35,17 @@ class Promise:
     gain: float
 
 
-def list_effects(arm: Arm, scales: Sequence[Scales], terms: Iterable[Term], points: Sequence[str]) -> list[Effect]:
-    """Return all effects of an arm: laws at joints and drives, gears, masses."""
+def list_effects(
+    arm: Arm, scales: Sequence[Scales], terms: Iterable[Term], points: Sequence[str], plain: Filtered
+) -> list[Effect]:
+    """Return all effects of an arm: laws at joints and drives, gears, masses; `plain` is the filtered nominal model."""
     found: list[Effect] = []
     terms = [term for term in terms if can_act(term)]
     for j, joint in enumerate(arm.joints):
+        pitches = find_pitches(arm, plain, j)
         for term in terms:
             at = f"{joint}.torque" if isinstance(term, DriveTerm) else joint
-            found.append(LawEffect(replace(term, at=at), arm, j, scales[j]))  # type: ignore[type-var]
+            found.append(LawEffect(replace(term, at=at), arm, j, scales[j], pitches))  # type: ignore[type-var]
         armature = arm.values.get(f"{joint}.armature", 0.0)
         unit = TYPICAL_MASS * max(armature, float(arm.tape.mass[:, j, j].mean()))
         found.append(MassEffect("inertia_change", joint, f"{joint}.armature", arm, unit))
@@ -149,8 +154,8 @@ def list_gear_promises(screen: Screen, beside: Hypothesis, levels: Array, price:
     return sorted(found, key=lambda p: -p.gain)
 
 
-def relinearise(kept: Filtered, joints: int) -> tuple[Array, Array, Array]:
-    """Return positions, velocities and accelerations (samples, n) of a filtered recording."""
+def relinearise(kept: Filtered, joints: int) -> Path:
+    """Return the path of a filtered recording."""
     a = kept.accelerations.copy()
     a[-1] = a[-2]
-    return kept.states[:, :joints], kept.states[:, joints : 2 * joints], a
+    return Path(kept.states[:, :joints], kept.states[:, joints : 2 * joints], a)

@@ -17,17 +17,21 @@ from lostmotion.contracts import DriveTerm, Term
 from lostmotion.kernels.chain import evaluate_law
 from lostmotion.likelihood.compose import compile_law
 from lostmotion.parts import Array, Param
-from lostmotion.quantities import INERTIA, Dimension
+from lostmotion.quantities import INERTIA, LENGTH, NUMBER, STIFFNESS, Dimension
 from lostmotion.robots.arm import Arm, Column, make_law
-from lostmotion.robots.gears import AT, BACKLASH, GearLaw, Gear
+from lostmotion.robots.gears import AT, BACKLASH, USUAL_DAMPING, Gear, GearLaw
 from lostmotion.robots.tape import Path
 
 UNSURE = 1.5
 """Standard deviation of the logarithm of a parameter that is known by its order of magnitude."""
 GRID = 5
 """The number of values of a shape parameter at which an effect is tried."""
+PITCH = "pitch"
+"""The parameter whose values are found by a scan of waves over the position of the joint."""
 NUDGE = 1e-3
 """The amplitude at which the force of a unit amplitude is found, in units of its scale."""
+FURTHER = 0.5
+"""The log prior odds against each parameter of a law beyond the first."""
 USUAL_GAP, USUAL_MESH = 1e-3, 60.0
 """The usual half play (rad or m), and the usual frequency (Hz) of a motor on its gear."""
 
@@ -125,6 +129,7 @@ class LawEffect:
     arm: Arm
     joint: int
     scales: Scales
+    pitches: tuple[float, ...] = ()
     chosen: tuple[float, ...] = ()
 
     @property
@@ -170,6 +175,8 @@ class LawEffect:
         unit = q.typical * self.scales.measure(q.dimension)
         if q.choices:
             return q.choices
+        if q.name == PITCH:
+            return self.pitches
         if q.scan is None:
             return (0.3 * unit, unit, 3.0 * unit)
         return tuple((unit * np.geomspace(*q.scan, GRID)).tolist())
@@ -180,8 +187,6 @@ class LawEffect:
         fixed = [q for q in params if q.null is None]
         free = [q for q in params if q.null is not None]
         grids = [self._list_grid(q) for q in fixed]
-        if any(q.name == "pitch" for q in fixed):
-            grids = [self._find_pitches(path) if q.name == "pitch" else g for q, g in zip(fixed, grids, strict=True)]
         found = []
         for values in itertools.product(*grids):
             shape = {f"{self.key}.{q.name}": v for q, v in zip(fixed, values, strict=True)}
@@ -212,35 +217,6 @@ class LawEffect:
         evaluate_law(compile_law(make_law(self.term), 0)[0], np.array(numbers), time, q, v, found)
         return found
 
-    def _find_pitches(self, path: Path) -> tuple[float, ...]:
-        """Return the pitches of the largest waves over position in the torque that the tape leaves unexplained."""
-        return find_pitches(self.arm, self.joint)
-
-
-FURTHER = 0.5
-"""The log prior odds against each parameter of a law beyond the first."""
-MOST_WAVES = 2
-
-
-def find_pitches(arm: Arm, joint: int) -> tuple[float, ...]:
-    """Return the pitches (rad or m) of the largest waves over the position of a joint, in the torque that is left."""
-    tape, log = arm.tape, arm.log
-    torque = tape.torque + arm.get({}, "damping") * tape.path.v + arm.get({}, "armature") * tape.path.a
-    left = (torque - log.torque)[:, joint]
-    q = tape.path.q[:, joint]
-    travel = float(np.ptp(q))
-    slow = np.polynomial.legendre.legvander(2.0 * (q - q.min()) / travel - 1.0, 4)
-    slow = np.column_stack([slow, tape.path.v[:, joint], np.sign(tape.path.v[:, joint])])
-    left = left - slow @ np.linalg.lstsq(slow, left, rcond=None)[0]
-    waves = np.arange(3.0, min(len(q) / 20.0, 150.0), 0.1) / travel
-    power = np.abs(np.exp(-2j * np.pi * np.outer(waves, q)) @ left)
-    found: list[float] = []
-    for _ in range(MOST_WAVES):
-        best = int(np.argmax(power))
-        found.append(1.0 / float(waves[best]))
-        power[np.abs(waves - waves[best]) < 1.5 / travel] = 0.0
-    return tuple(found)
-
 
 @dataclass(frozen=True, eq=False)
 class GearEffect:
@@ -268,7 +244,7 @@ class GearEffect:
     @property
     def price(self) -> float:
         """The log odds against it."""
-        return FURTHER * (len(self.law.params) - 1)
+        return FURTHER * (len(self.law.params) - 2)
 
     @property
     def inertia(self) -> float:
@@ -279,8 +255,8 @@ class GearEffect:
     def coordinates(self) -> tuple[Coordinate, ...]:
         """Half of the play and the stiffness, by their orders of magnitude."""
         mesh = (2.0 * math.pi * USUAL_MESH) ** 2 * self.inertia
-        usual = {"gap": USUAL_GAP, "stiffness": mesh}
-        kinds = {"gap": Dimension(0, 1, 0), "stiffness": Dimension(1, -1, 0)}
+        usual = {"gap": USUAL_GAP, "stiffness": mesh, "damping_ratio": USUAL_DAMPING}
+        kinds = {"gap": LENGTH, "stiffness": STIFFNESS, "damping_ratio": NUMBER}
         return tuple(
             Coordinate(f"{self.key}.{name}", 1.0, math.log(usual[name]), UNSURE, log=True, dimension=kinds[name])
             for name in self.law.params
@@ -292,7 +268,8 @@ class GearEffect:
 
     def list_starts(self) -> list[dict[str, float]]:
         """Return values at which the gear is tried."""
-        grids = [(-1.5, 0.0, 1.5) if name == "gap" else (-1.0, 1.0) for name in self.law.params]
+        tried = {"gap": (-1.5, 0.0, 1.5), "stiffness": (-1.0, 1.0), "damping_ratio": (0.0,)}
+        grids = [tried[name] for name in self.law.params]
         return [
             {c.key: math.exp(c.mean + step) for c, step in zip(self.coordinates, steps, strict=True)}
             for steps in itertools.product(*grids)

@@ -10,22 +10,23 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
-MESH_DAMPING = 0.05
-"""Damping ratio of the motor on the stiffness of its gear."""
+USUAL_DAMPING = 0.05
+"""Usual damping ratio of the motor on the stiffness of its gear."""
 AT = ".gear"
 """The end of the name of the place between motor and link: `elbow.gear`."""
 
 
 @dataclass(frozen=True)
 class Gear:
-    """A gear: half of its `play` (rad or m) and its `stiffness` (N m/rad or N/m)."""
+    """A gear: half of its `play` (rad or m), its `stiffness` (N m/rad or N/m), and the damping ratio of the motor."""
 
     play: float
     stiffness: float
+    damping: float = USUAL_DAMPING
 
     def damp(self, inertia: float) -> float:
         """Return the damping (N m s/rad) in contact for a motor of this inertia (kg m^2)."""
-        return 2.0 * MESH_DAMPING * math.sqrt(self.stiffness * inertia)
+        return 2.0 * self.damping * math.sqrt(self.stiffness * inertia)
 
 
 class GearLaw(NamedTuple):
@@ -38,18 +39,18 @@ class GearLaw(NamedTuple):
 
     def make(self, values: tuple[float, ...]) -> Gear:
         """Return the gear for values of `params`."""
-        return Gear(values[0] if self.name == "backlash" else 0.0, values[-1])
+        return Gear(values[0] if self.name == "backlash" else 0.0, *values[-2:])
 
 
 BACKLASH = GearLaw(
     "backlash",
-    ("gap", "stiffness"),
+    ("gap", "stiffness", "damping_ratio"),
     "The gear has play: motor and link are free over {gap} to either side, then meet with a stiffness of {stiffness}",
     "Nordin, Gutman, Automatica 38 (2002) 1633-1649, section 2.1",
 )
 ELASTICITY = GearLaw(
     "joint_elasticity",
-    ("stiffness",),
+    ("stiffness", "damping_ratio"),
     "The gear is flexible: motor and link are joined by a stiffness of {stiffness}",
     "Spong, J. Dynamic Systems, Measurement, and Control 109 (1987) 310-319",
 )

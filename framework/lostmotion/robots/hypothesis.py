@@ -244,11 +244,12 @@ def _measure_scatter(seen: Expansion, used: Array, own: int) -> float:
 def score_heldout(found: Hypothesis, first: int, last: int) -> float:
     """Return the log density of the samples from `first` to `last`, averaged over the posterior of the fitted ones.
 
-    The closed form for errors that are linear in the coordinates (as `evidence.heldout` has it).
+    It is the closed form for errors that are linear in the coordinates, as in `evidence.heldout`; where they are not,
+    the gain of its step counts.
     """
-    frame, count = found.frame, len(found.frame.arm.log.picks)
-    seen, _ = frame.expand(found.at, found.choice, last=last)
-    cut = first * count
+    frame = found.frame
+    cut = first * len(frame.arm.log.picks)
+    seen = frame.expand(found.at, found.choice, last=last)[0]
     here = replace(seen.here, errors=seen.here.errors[cut:], variances=seen.here.variances[cut:])
     held = replace(seen, here=here, errors=seen.errors[:, cut:], variances=seen.variances[:, cut:])
     value, used = float(held.here.log_likelihood), found.used
@@ -256,8 +257,12 @@ def score_heldout(found: Hypothesis, first: int, last: int) -> float:
     sign, size = np.linalg.slogdet(both)
     if sign <= 0 or not math.isfinite(value):
         return -math.inf
-    step = np.linalg.solve(both, held.gradient[used])
-    gain = 0.5 * float(held.gradient[used] @ step)
+    step = np.zeros(len(found.at))
+    step[used] = np.linalg.solve(both, held.gradient[used])
+    moved = frame.run(frame.clip(found.at + step), last=last).seen
+    gained = float(replace(moved, errors=moved.errors[first:], variances=moved.variances[first:]).log_likelihood) - value
+    gained -= 0.5 * float(step[used] @ found.precision @ step[used])
+    gain = max(min(0.5 * float(held.gradient[used] @ step[used]), gained), 0.0)
     return value + gain - 0.5 * float(size - np.linalg.slogdet(found.precision)[1])
 
 

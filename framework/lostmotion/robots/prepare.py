@@ -39,20 +39,23 @@ class Options:
     budget: float = SECONDS
 
 
-def make_arm(simulator: Simulator, log: RobotLog, side: str = "motor") -> Arm:
-    """Return an arm along the smoothed recorded path.
+def make_arm(
+    simulator: Simulator, log: RobotLog, side: str = "motor", *, known: Mapping[str, float] | None = None, parts: bool = True
+) -> Arm:
+    """Return an arm along the smoothed recorded path, with other `known` values; without its `parts` for a check.
 
     Where the torque is that of the link, the motor with its armature, damping and friction is on the other side of the
     sensor, and these values are not part of the arm.
     """
     tape = make_tape(simulator, smooth_path(log.positions, log.dt))
-    names = (*simulator.linear, *(f"{point}.payload" for point in simulator.points))
-    parts = {name: make_part(simulator, name, tape) for name in names}
-    taken = dict(simulator.taken)
+    names = (*simulator.linear, *(f"{point}.payload" for point in simulator.points)) if parts else ()
+    made = {name: make_part(simulator, name, tape) for name in names}
+    taken = {**simulator.taken, **(known or {})}
+    inertia = {joint: taken.get(f"{joint}.armature", 0.0) for joint in log.joints}
     if side == "link":
         lost = (".armature", ".damping", ".frictionloss")
         taken = {key: 0.0 if key.endswith(lost) else value for key, value in taken.items()}
-    return Arm(log, tape, parts, {**taken, **simulator.linear}, side)
+    return Arm(log, tape, made, {**simulator.linear, **taken}, side, inertia)
 
 
 def renew_tape(arm: Arm, simulator: Simulator, path: Path) -> Arm:
@@ -79,22 +82,23 @@ def prepare_search(
     scales = measure_scales(arm)
     base = list_base(arm, [FORCE * s.force for s in scales], estimate_noise(arm.log.readings).tolist(), estimated)
     say("nominal model")
-    path = _filter_path(arm, base, last)
-    arm = renew_tape(arm, simulator, Path(*path))
+    path, at = _filter_path(arm, base, last)
+    arm = renew_tape(arm, simulator, path)
+    plain = Frame(arm, (), base, make_none(arm), last).run(at, keep=True)
     known = set(estimated)
     both = [
         make_discrepancy(arm, arm.tape.path, arm.tape.path.a, scales, options.tolerance, known, sizes)
         for sizes in (SIZES, LARGE)
     ]
-    effects = list_effects(arm, scales, terms, simulator.points)
+    effects = list_effects(arm, scales, terms, simulator.points, plain)
     screen = make_screen(arm, effects, arm.tape.path.a)
     frame = Frame(arm, (), base, both[0], last)
     search = ArmSearch(frame, screen, both[1], arm.log.samples, options.most, options.budget, say)
     return search, np.concatenate([[c.mean for c in base], np.zeros(len(both[0].columns))])
 
 
-def _filter_path(arm: Arm, base: Sequence[Coordinate], last: int) -> tuple[Array, Array, Array]:
-    """Return the filtered path of the nominal model with fitted levels."""
+def _filter_path(arm: Arm, base: Sequence[Coordinate], last: int) -> tuple[Path, Array]:
+    """Return the filtered path of the nominal model, and its fitted levels."""
     frame = Frame(arm, (), tuple(base), make_none(arm), last)
     start = np.array([c.mean for c in base])
     found = fit_hypothesis(frame, start, 0.0)
@@ -102,5 +106,5 @@ def _filter_path(arm: Arm, base: Sequence[Coordinate], last: int) -> tuple[Array
         raise DataError(
             f"the nominal model diverges from the log {arm.log.name}: check signs, units and the order of the joints"
         )
-    return relinearise(frame.run(found.at, last=arm.log.samples, keep=True), len(arm.joints))
+    return relinearise(frame.run(found.at, last=arm.log.samples, keep=True), len(arm.joints)), found.at
 

@@ -126,7 +126,7 @@ class MujocoSimulator(Simulator):
         return self.moving or tuple(self._names)
 
     @property
-    def motions(self) -> tuple[str, ...]:
+    def moves(self) -> tuple[str, ...]:
         return tuple(_MOTIONS.get(int(self._source.jnt_type[i]), "rotation") for i in self._moved)
 
     @property
