@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -12,8 +12,9 @@ from typing import Any, ClassVar
 import numpy as np
 
 from lostmotion.errors import CaseError, nearest
-from lostmotion.simulators import Simulator
 from lostmotion.parts import Array
+from lostmotion.simulators import Finding, Simulator
+from lostmotion_plugins.simulators.mjcf import write_findings
 
 EXAMPLE = """
 <mujoco model="arm">
@@ -189,6 +190,12 @@ class MujocoSimulator(Simulator):
             mujoco.mj_inverse(model, data)
             found[k] = data.qfrc_inverse[dof]
         return found
+
+    def write_found(self, found: Sequence[Finding], known: Mapping[str, float]) -> tuple[str, tuple[str, ...]]:
+        """Return the MJCF with what was found, and notes; a URDF becomes an MJCF."""
+        mujoco = _import_mujoco()
+        spec = mujoco.MjSpec.from_file(self.file) if self.file else mujoco.MjSpec.from_string(EXAMPLE)
+        return write_findings(mujoco, spec, found, known)
 
     def changed(self, values: Mapping[str, float]) -> MujocoSimulator:
         """Return the machine with other masses (kg) of bodies, `fore.mass`, or a payload (kg) at a site or a body."""
