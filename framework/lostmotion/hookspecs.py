@@ -69,7 +69,7 @@ def lostmotion_engines() -> Mapping[str, str]:
 
 @hookspec
 def lostmotion_simulators() -> Mapping[str, str]:
-    """Return `{"name": "package.module:Class"}` for each `Simulator`: a machine with joints that somebody else wrote."""
+    """Return `{"name": "package.module:Class"}` for each `Simulator`: a machine with joints, by others."""
     raise NotImplementedError
 
 

@@ -12,11 +12,16 @@ States are the positions (n,), the velocities (n,), then position and velocity o
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numba
 import numpy as np
 
-from lostmotion.kernels.vector import STRIDE, call, pointer
+from lostmotion.kernels import vector
+from lostmotion.kernels.vector import STRIDE
+
+pointer: Any = vector.pointer
+call: Any = vector.call
 
 _FEW = np.polynomial.hermite_e.hermegauss(3)
 _MANY = np.polynomial.hermite_e.hermegauss(14)
@@ -57,16 +62,16 @@ def _average_laws(t, q, v, sq, sv, j, mobility, step, joints, addresses, firsts,
                     near = True
     count = len(MANY) if near else len(FEW)
     lanes = count + 2
-    for l in range(lanes):
+    for o in range(lanes):
         node = 0.0
-        if l < count:
-            node = MANY[l] if near else FEW[l]
-        desk[0, l], desk[2, l], desk[3, l] = t, v + sv * node, 0.0
-        desk[1, l] = q + (sq if l == count else (-sq if l == count + 1 else 0.0))
+        if o < count:
+            node = MANY[o] if near else FEW[o]
+        desk[0, o], desk[2, o], desk[3, o] = t, v + sv * node, 0.0
+        desk[1, o] = q + (sq if o == count else (-sq if o == count + 1 else 0.0))
     mean, square, slope, slant = 0.0, 0.0, 0.0, 0.0
     total = desk[4]
-    for l in range(lanes):
-        total[l] = 0.0
+    for o in range(lanes):
+        total[o] = 0.0
     for a in range(len(joints)):
         if joints[a] != j:
             continue
@@ -79,18 +84,18 @@ def _average_laws(t, q, v, sq, sv, j, mobility, step, joints, addresses, firsts,
                 number = step
             elif kind == 3:
                 number = step / mobility
-            for l in range(lanes):
-                own[b, l] = number
+            for o in range(lanes):
+                own[b, o] = number
         if call(addresses[a], pointer(own), pointer(desk), lanes) != 0:
             return math.nan, 0.0, 0.0, 0.0
-        for l in range(lanes):
-            total[l] += desk[3, l]
-    for l in range(count):
-        share = MANY_SHARES[l] if near else FEW_SHARES[l]
-        node = MANY[l] if near else FEW[l]
-        mean += share * total[l]
-        square += share * total[l] * total[l]
-        slope += share * node * total[l]
+        for o in range(lanes):
+            total[o] += desk[3, o]
+    for o in range(count):
+        share = MANY_SHARES[o] if near else FEW_SHARES[o]
+        node = MANY[o] if near else FEW[o]
+        mean += share * total[o]
+        square += share * total[o] * total[o]
+        slope += share * node * total[o]
     slope /= sv
     slant = (total[count] - total[count + 1]) / (2.0 * sq)
     return mean, slant, slope, max(square - mean * mean - slope * slope * sv * sv, 0.0)
@@ -98,8 +103,8 @@ def _average_laws(t, q, v, sq, sv, j, mobility, step, joints, addresses, firsts,
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
 def filter_chain(  # type: ignore[no-untyped-def]
-    z, picks, dt, coarse, fine, inverses, Kq, KV, h, q0, v0, tau, S, R, motors, gears, joints, addresses, firsts, widths, needs,
-    numbers, x0, P0, errors, variances, states, accelerations, gains, moves, pushes,
+    z, picks, dt, coarse, fine, inverses, Kq, KV, h, q0, v0, tau, S, R, motors, gears, joints, addresses, firsts,
+    widths, needs, numbers, x0, P0, errors, variances, states, accelerations, gains, moves, pushes,
 ):  # fmt: skip
     """Write one-step errors and their variances, (samples, readings); return the number of samples that were filtered.
 
@@ -277,8 +282,8 @@ def filter_chain(  # type: ignore[no-untyped-def]
                 ease = W[k, i, i] if w < 0 else gears[i, 3]
                 sq, sv = math.sqrt(max(P[b, b], 1e-24)), math.sqrt(max(P[c, c], 1e-24))
                 mean, slant, slope, left = _average_laws(
-                    (k + (s + 0.5) / steps) * dt, x[b] - 0.5 * hs * x[c], x[c], sq, sv, i, hs * ease, hs, joints, addresses, firsts,
-                    widths, needs, numbers, own, desk)  # fmt: skip
+                    (k + (s + 0.5) / steps) * dt, x[b] - 0.5 * hs * x[c], x[c], sq, sv, i, hs * ease, hs, joints,
+                    addresses, firsts, widths, needs, numbers, own, desk)  # fmt: skip
                 for a in range(L):
                     g[a] = 0.0
                 if w < 0:
@@ -365,12 +370,12 @@ def evaluate_law(address, numbers, t, q, v, found):  # type: ignore[no-untyped-d
     own, desk = np.zeros((16, STRIDE)), np.zeros((8, STRIDE))
     for first in range(0, len(t), STRIDE):
         lanes = min(STRIDE, len(t) - first)
-        for l in range(lanes):
-            desk[0, l], desk[1, l], desk[2, l] = t[first + l], q[first + l], v[first + l]
+        for o in range(lanes):
+            desk[0, o], desk[1, o], desk[2, o] = t[first + o], q[first + o], v[first + o]
             for a in range(len(numbers)):
-                own[a, l] = numbers[a]
+                own[a, o] = numbers[a]
         if call(address, pointer(own), pointer(desk), lanes) != 0:
             return False
-        for l in range(lanes):
-            found[first + l] = desk[3, l]
+        for o in range(lanes):
+            found[first + o] = desk[3, o]
     return True

@@ -8,22 +8,26 @@ from __future__ import annotations
 
 import inspect
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import ClassVar, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lostmotion.contracts import DriveTerm, Term
 from lostmotion.kernels.chain import differentiate_errors, filter_chain
 from lostmotion.likelihood.compose import compile_law
 from lostmotion.likelihood.engine import Innovations
 from lostmotion.likelihood.plan import Law
-from lostmotion.parts import Array
+from lostmotion.parts import Array, Param, Values
+from lostmotion.quantities import FORCE
 from lostmotion.robots.gears import Gear
 from lostmotion.robots.log import RobotLog
 from lostmotion.robots.tape import Part, Tape
 
+Whole = NDArray[np.int64]
 NEEDS = {"mobility": 1, "step": 2, "finest": 2, "inertia": 3}
 """What the filter knows at a joint, with the number under which its kernel knows it."""
 LAW_STEPS = 4
@@ -50,6 +54,17 @@ def can_act(term: Term) -> bool:
 def make_law(term: Term) -> Law:
     """Return a term as the kernels of laws know it."""
     return Law(0, len(term.params) + len(term.needs), 0, term.force, term.rate)
+
+
+class _LawTable(NamedTuple):
+    """Laws as the kernel knows them: their joints, addresses, first numbers, widths, needs and numbers."""
+
+    joints: Whole
+    addresses: Whole
+    firsts: Whole
+    widths: Whole
+    needs: Whole
+    numbers: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,9 +172,9 @@ class Arm:
         """
         log, gears = self.log, dict(gears or {})
         laws = [(t, self.joints.index(t.at)) for t in terms if not isinstance(t, DriveTerm)]
-        laws, numbers = self._list_laws(laws, values)
+        table = self._list_laws(laws, values)
         coarse = self.count_steps(gears)
-        fine = max(coarse, LAW_STEPS) if laws else coarse
+        fine = max(coarse, LAW_STEPS) if len(table.joints) else coarse
         inverses, kq, kv, free = self._build(values, tuple(sorted(gears)), (coarse, fine))
         tau = log.drive([t for t in terms if isinstance(t, DriveTerm)], values)
         tau = tau if force is None else tau + force
@@ -178,16 +193,16 @@ class Arm:
         }  # fmt: skip
         made = {name: np.zeros((kept, *shape)) for name, shape in wide.items()}
         *_, q0, v0 = self._middle
-        reached = filter_chain(
+        reached = _run_filter(
             z, picks, log.dt, coarse, fine, inverses[:, part], kq[part], kv[part], free[part], q0[part], v0[part],
-            np.ascontiguousarray(tau[part]), levels[0], levels[1], motors, plain, *numbers, mean, cov, errors, variances,
-            made["states"], made["accelerations"], made["gains"], made["moves"], made["pushes"],
+            np.ascontiguousarray(tau[part]), levels[0], levels[1], motors, plain, *table, mean, cov, errors,
+            variances, made["states"], made["accelerations"], made["gains"], made["moves"], made["pushes"],
         )  # fmt: skip
         errors[: max(self.settling - first, 0)], variances[: max(self.settling - first, 0)] = 0.0, 1.0 / (2.0 * math.pi)
         seen = Innovations.of(errors[None], variances[None], np.array([reached]))[0]
         return Filtered(seen, **made)
 
-    def pick(self, gears: Mapping[int, Gear]) -> Array:
+    def pick(self, gears: Mapping[int, Gear]) -> Whole:
         """Return the index of the state that each reading shows: that of the motor, where a joint has a gear."""
         order, n, found = sorted(gears), len(self.joints), []
         for j, order_of in self.log.picks:
@@ -197,38 +212,38 @@ class Arm:
             found.append(state)
         return np.array(found, dtype=np.int64)
 
-    def _list_laws(
-        self, laws: Sequence[tuple[Term, int]], values: Mapping[str, float]
-    ) -> tuple[list[tuple[Term, int]], tuple[Array, ...]]:
-        """Return the laws with the friction of the model itself, and their tables for the kernel."""
-        found, numbers, needs, firsts, widths, addresses, joints = list(laws), [], [], [], [], [], []
-        own = self.get(values, "frictionloss")
-        rows = [(t, j, [values[f"{t.name}@{t.at}.{q.name}"] for q in t.params]) for t, j in found]
-        if own.any():
-            rows += [(BASE_FRICTION, j, [float(own[j])]) for j in np.flatnonzero(own)]
-            found += [(BASE_FRICTION, int(j)) for j in np.flatnonzero(own)]
-        for term, j, given in rows:
-            law = make_law(term)
-            joints.append(j)
-            addresses.append(compile_law(law, 0)[0])
-            firsts.append(len(numbers))
-            widths.append(law.width)
-            numbers += [*given, *[0.0] * len(term.needs)]
-            needs += [0] * len(given) + [NEEDS[name] for name in term.needs]
-        whole = [np.array(x, dtype=np.int64) for x in (joints, addresses, firsts, widths, needs)]
-        return found, (*whole, np.array(numbers, dtype=float))
+    def _list_laws(self, laws: Sequence[tuple[Term, int]], values: Mapping[str, float]) -> _LawTable:
+        """Return the tables of the laws for the kernel, with the friction that the model itself has."""
+        rows = [(t, j, [values[f"{t.name}@{t.at}.{q.name}"] for q in t.params]) for t, j in laws]
+        for j, force in enumerate(self.get(values, "frictionloss").tolist()):
+            if force != 0.0:
+                rows.append((BASE_FRICTION, j, [force]))
+        made = [make_law(term) for term, *_ in rows]
+        widths = [law.width for law in made]
+        numbers = [x for term, _, given in rows for x in (*given, *[0.0] * len(term.needs))]
+        needs = [k for term, _, given in rows for k in (*[0] * len(given), *(NEEDS[name] for name in term.needs))]
+        firsts = np.cumsum([0, *widths])[:-1]
+        return _LawTable(
+            np.array([j for _, j, _ in rows], dtype=np.int64),
+            np.array([compile_law(law, 0)[0] for law in made], dtype=np.int64),
+            firsts.astype(np.int64),
+            np.array(widths, dtype=np.int64),
+            np.array(needs, dtype=np.int64),
+            np.array(numbers, dtype=float),
+        )
 
-    def _place_motors(self, gears: Mapping[int, Gear], values: Mapping[str, float]) -> tuple[Array, Array]:
+    def _place_motors(self, gears: Mapping[int, Gear], values: Mapping[str, float]) -> tuple[Whole, Array]:
         """Return the position of each motor in the state (n,), and the numbers of its gear (n, 5)."""
         n = len(self.joints)
-        motors, plain = np.full(n, -1, dtype=np.int64), np.zeros((n, 5))
+        motors: Whole = np.full(n, -1, dtype=np.int64)
+        plain = np.zeros((n, 5))
         inertia, loss = self.get(values, "armature"), self.get(values, "damping")
         for s, j in enumerate(sorted(gears)):
             motors[j] = 2 * n + 2 * s
             plain[j] = gears[j].play, gears[j].stiffness, gears[j].damp(inertia[j]), 1.0 / inertia[j], loss[j]
         return motors, plain
 
-    def _begin(self, gears: Mapping[int, Gear], motors: Array) -> tuple[Array, Array]:
+    def _begin(self, gears: Mapping[int, Gear], motors: Whole) -> tuple[Array, Array]:
         """Return mean and covariance of the first state: the motors are where the joints are."""
         n, path = len(self.joints), self.tape.path
         mean = np.concatenate([path.q[0], path.v[0], np.zeros(2 * len(gears))])
@@ -248,7 +263,9 @@ class Arm:
         picks = self.pick(gears)
         for begin in range(0, len(columns), CHUNK):
             part = columns[begin : begin + CHUNK]
-            rows, joints, places = [], [], []
+            rows: list[Array] = []
+            joints: list[int] = []
+            places: list[int] = []
             for column in part:
                 places.append(len(joints))
                 wide = np.atleast_2d(column.force[:samples].T) if column.joint < 0 else column.force[None, :samples]
@@ -264,6 +281,8 @@ class Arm:
         found[:, : self.settling] = 0.0
         return found.reshape(len(columns), samples * count)
 
+
+_run_filter: Callable[..., int] = filter_chain
 
 CHUNK = 64
 """The number of columns whose derivatives are computed at once."""
@@ -283,21 +302,22 @@ def _average(x: Array) -> Array:
     return np.concatenate([0.5 * (x[:-1] + x[1:]), x[-1:]])
 
 
+@dataclass(frozen=True)
 class _BaseFriction(Term):
     """The dry friction that the model itself has."""
 
-    at = ""
-    name = "frictionloss"
-    physics = "Dry friction of {force}"
-    formula = "-force * sign(v)"
-    paper = "Coulomb (1785)"
-    params = ()
+    at: str = ""
+    name: ClassVar[str] = "frictionloss"
+    physics: ClassVar[str] = "Dry friction of {force} opposes the motion"
+    formula: ClassVar[str] = "-force * sign(v)"
+    paper: ClassVar[str] = "Coulomb (1785)"
+    params = (Param("force", "friction force", FORCE, low=0.0, null=0.0),)
     needs = ("mobility",)
 
     @staticmethod
-    def force(t, x, v, u, p, s):  # type: ignore[no-untyped-def]
+    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
         """Return dry friction that is a steep line around rest."""
-        width = abs(p[0]) * p[1]
+        width = p[0] * p[1]
         return -p[0] if v >= width else (p[0] if v <= -width else -p[0] * v / width)
 
 

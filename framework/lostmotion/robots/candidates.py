@@ -24,6 +24,8 @@ from lostmotion.robots.waves import find_pitches
 
 TYPICAL_MASS = 0.1
 """The usual error of a mass or an armature, as a share of it."""
+SAME = 0.9999
+"""The cosine of the effects of two laws on this log above which only the more common one is tried."""
 
 
 @dataclass(frozen=True)
@@ -72,7 +74,8 @@ class Screen:
 
 def make_screen(arm: Arm, effects: Sequence[Effect], accelerations: Array) -> Screen:
     """Return the shapes of effects along the path of the tape of an arm."""
-    shapes, columns = [], []
+    shapes: list[tuple[Effect, Shape, slice]] = []
+    columns: list[Column] = []
     for effect in effects:
         for shape in effect.list_shapes(arm.tape.path, accelerations):
             kept = [np.isfinite(c.force).all() and np.any(c.force) for c in shape.columns]
@@ -94,9 +97,17 @@ def list_promises(screen: Screen, beside: Hypothesis, price: float, temper: floa
     own = seen.gradient[used] - seen.precision[used] * (seen.at[used] - seen.middle[used])
     pulled = np.linalg.solve(beside.precision, np.column_stack([cross, own]))
     best: dict[str, Promise] = {}
-    for effect, shape, part in screen.shapes:
+    size = np.sqrt(np.sum(more * more / v, axis=1))
+    singles: list[tuple[int, str]] = []
+    for effect, shape, part in sorted(screen.shapes, key=lambda row: row[0].price):
         if effect.key in frame.terms:
             continue
+        linear = isinstance(effect, LawEffect) and not isinstance(effect.term, DriveTerm)
+        if linear and part.stop - part.start == 1 and size[part.start] > 0.0:
+            row = more[part.start] / (v * size[part.start])
+            if any(key != effect.key and abs(row @ more[i]) > SAME * size[i] for i, key in singles):
+                continue
+            singles.append((part.start, effect.key))
         block = more[part]
         information = (block / v) @ block.T - cross[:, part].T @ pulled[:, part]
         gradient = slopes[part] - cross[:, part].T @ pulled[:, -1]

@@ -13,7 +13,7 @@ import numpy as np
 from lostmotion.case import Prior
 from lostmotion.case.fields import Fields
 from lostmotion.case.load import read_prior
-from lostmotion.errors import CaseError, nearest
+from lostmotion.errors import nearest
 from lostmotion.parts import Array
 from lostmotion.provenance import digest
 from lostmotion.quantities import DAMPING, FORCE, INERTIA, STIFFNESS, Dimension, si_factor
@@ -38,7 +38,7 @@ KINDS: Mapping[str, Dimension] = {
 """The values of a model that may be estimated, with their dimensions."""
 TOLERANCE = 0.02
 WHICH_SIDE = (
-    'lacks \'torque\': on which side of the gear is the torque measured? Write torque = "motor" for motor currents and'
+    "lacks 'torque': on which side of the gear is the torque measured? Write torque = \"motor\" for motor currents and"
     ' commands, or torque = "link" for a sensor behind the gear'
 )
 
@@ -85,7 +85,7 @@ def load_robot_case(path: Path, registry: Registry) -> RobotCase:
         raise model.error(WHICH_SIDE)
     side = model.choice("torque", ("motor", "link"))
     log, sha = _read_log(recordings[0], path.parent, simulator)
-    known = {key: value for key, value in model.maybe_table("known").numbers().items()}
+    known = model.maybe_table("known").numbers()
     allowed = {*simulator.linear, *(f"{j}.{kind}" for j in simulator.joints for kind in KINDS if kind != "mass")}
     _check_names(model, "known", known, allowed)
     fields = model.maybe_table("estimate")
@@ -134,7 +134,9 @@ def _make_simulator(model: Fields, kind: str, folder: Path, registry: Registry) 
         return FunctionSimulator.load(model.text(INVERSE), folder, joints)
     file = folder / model.path(kind)
     if not file.is_file():
-        raise model.error(f"names the file {model.text(kind)!r}, which does not exist beside the case: correct the name")
+        raise model.error(
+            f"names the file {model.text(kind)!r}, which does not exist beside the case: correct the name"
+        )
     made: Simulator = registry.load("simulator", kind)(file=str(file), moving=joints)
     if not made.joints:
         raise model.error(f"names {model.text(kind)!r}, in which no joint moves")
@@ -147,7 +149,9 @@ def _read_log(fields: Fields, folder: Path, simulator: Simulator) -> tuple[Robot
     path = folder / fields.path("file")
     table = read_table(path)
     torque, readings = _list_inputs(fields, simulator), _list_sensors(fields, simulator)
-    columns = np.stack([_read_column(table, entry, path.name) for entry in (*torque, *(r[0] for r in readings))], axis=1)
+    columns = np.stack(
+        [_read_column(table, entry, path.name) for entry in (*torque, *(r[0] for r in readings))], axis=1
+    )
     time, notes = _read_time(fields, table, path.name, len(columns))
     inside = (time >= (fields.maybe_number("t_start") or -np.inf)) & (time <= _or_inf(fields.maybe_number("t_end")))
     clock = measure_clock(time[inside], path.name)
@@ -240,14 +244,12 @@ def _list_sensors(fields: Fields, simulator: Simulator) -> list[tuple[Entry, tup
             found.append((_read_entry(entry, quantity), (simulator.joints.index(joint), ORDERS[quantity])))
         elif quantity != "acceleration":
             raise entry.error(
-                f"has the channel {entry.text('channel')!r}: expected a joint, or a joint with .velocity or .acceleration"
+                f"has the channel {entry.text('channel')!r}: expected a joint, or one with .velocity or .acceleration"
             )
     have = {j for _, (j, order) in found if order == 0}
     if missing := [joint for j, joint in enumerate(simulator.joints) if j not in have]:
         raise fields.error(
-            f"has no position of {missing[0]}: add {{ channel = '{missing[0]}', column = '...', unit = 'rad' }}; a joint"
-            " without an encoder cannot be diagnosed"
+            f"has no position of {missing[0]}: add {{ channel = '{missing[0]}', column = '...', unit = 'rad' }}; a"
+            " joint without an encoder cannot be diagnosed"
         )
     return sorted(found, key=lambda pair: (pair[1][1], pair[1][0]))
-
-

@@ -1,4 +1,4 @@
-"""What is looked at before any fit: do the recorded torques agree with the inverse dynamics of the model at all?
+"""What is looked at before any fit: whether recorded torques agree with the inverse dynamics of the model at all.
 
 All signals are averaged over short windows first, so that noise of the accelerations does not decide.
 """
@@ -58,7 +58,9 @@ def check_log(arm: Arm, simulator: Simulator) -> tuple[Check, ...]:
         found += [*_check_side(arm)]
         found += [*_check_lag(arm, base)]
     found += [
-        Check("torque", joint, True, f"Torque and inverse dynamics of {joint} correlate with {base.correlation[j]:.3f}.")
+        Check(
+            "torque", joint, True, f"Torque and inverse dynamics of {joint} correlate with {base.correlation[j]:.3f}."
+        )
         for j, joint in enumerate(arm.joints)
         if not any(check.joint == joint and not check.passed for check in found)
     ]

@@ -33,7 +33,7 @@ LARGE = (*SIZES, 0.1, 0.3, 1.0)
 WAVES = 10
 """The number of waves of a smooth force."""
 SCALE, ZERO, LATE, ANGLE = 0.01, 0.005, 0.25, 1e-3
-"""Errors of the torque: of its scale, its zero (units of the drive) and its delay (samples); zero of an encoder (rad)."""
+"""Errors of a torque: its scale, its zero (in units of the drive), its delay (samples); zero of an encoder (rad)."""
 SWEEPS = 2
 
 
@@ -113,7 +113,8 @@ class Discrepancy:
         for _ in range(SWEEPS):
             before = list(best)
             for at, force in enumerate(self.forces):
-                best[at] = max(range(-1, len(force.options)), key=lambda option, at=at: weigh(option, at))
+                weights = [weigh(option, at) for option in range(-1, len(force.options))]
+                best[at] = int(np.argmax(weights)) - 1
             if best == before:
                 break
         return tuple(best)
@@ -126,7 +127,7 @@ def make_discrepancy(
     """Return the discrepancy of an arm along a path; values that are `estimated` are not in it."""
     fixed = _list_known(arm, path, accelerations, scales, tolerance, estimated)
     columns, widths, forces = [c for c, _ in fixed], [w for _, w in fixed], []
-    time = np.arange(len(path.q)) * arm.log.dt
+    time = np.asarray(np.arange(len(path.q)) * arm.log.dt, dtype=float)
     for j, scale in enumerate(scales):
         for over, x in (("position", path.q[:, j]), ("velocity", path.v[:, j]), ("time", time)):
             waves = _make_waves(x, linear=over == "time")
@@ -152,7 +153,7 @@ def _make_waves(x: Array, *, linear: bool) -> Array:
 
 
 def _weigh_waves(length: float) -> Array:
-    """Return the relative standard deviations of waves for a correlation length in half widths; their squares sum to 1."""
+    """Return the standard deviations of waves for a length in half widths; their squares sum to 1."""
     power = np.exp(-0.5 * (0.5 * np.pi * length * np.arange(1, WAVES + 1)) ** 2) + 1e-12
     return np.asarray(np.sqrt(power / power.sum()))
 
@@ -163,7 +164,8 @@ def _list_known(
     """Return the columns of known values and of the torque, with their prior standard deviations."""
     found, log = [], arm.log
     drive = log.drive([], {})
-    slope = np.gradient(drive, log.dt, axis=0)
+    # Backward differences: a controller feeds the reading of the next sample, with its noise, into the next torque.
+    slope = np.diff(drive, axis=0, prepend=drive[:1]) / log.dt
 
     def add(name: str, joint: int, force: Array, width: float) -> None:
         if width > 0.0 and name not in estimated:

@@ -17,7 +17,7 @@ from lostmotion.contracts import DriveTerm, Term
 from lostmotion.kernels.chain import evaluate_law
 from lostmotion.likelihood.compose import compile_law
 from lostmotion.parts import Array, Param
-from lostmotion.quantities import INERTIA, LENGTH, NUMBER, STIFFNESS, Dimension
+from lostmotion.quantities import INERTIA, LENGTH, NUMBER, STIFFNESS, TIME, Dimension
 from lostmotion.robots.arm import Arm, Column, make_law
 from lostmotion.robots.gears import AT, BACKLASH, USUAL_DAMPING, Gear, GearLaw
 from lostmotion.robots.tape import Path
@@ -30,6 +30,14 @@ PITCH = "pitch"
 """The parameter whose values are found by a scan of waves over the position of the joint."""
 NUDGE = 1e-3
 """The amplitude at which the force of a unit amplitude is found, in units of its scale."""
+RARE: Mapping[str, float] = {
+    "bilinear_stiffness": 2.0, "cubic_stiffness": 1.0, "quadratic_stiffness": 1.5,  # a joint rarely has any spring
+    "gravity_pendulum": 1.0,  # a wrong mass shows as inertia too
+    "damping_drift": 1.0, "friction_drift": 1.0, "friction_drift_twice": 2.0,  # minutes, where logs take seconds
+    "directional_damping": 1.0, "end_stop": 1.0, "position_dependent_friction": 1.0,  # special mechanisms
+    "drive_saturation": 1.0, "drive_dead_zone": 1.0,  # a recorded torque is limited already
+}  # fmt: skip
+"""The log odds against laws that are rarer in the joints of robots than friction, damping, ripple or a delay."""
 FURTHER = 0.5
 """The log prior odds against each parameter of a law beyond the first."""
 USUAL_GAP, USUAL_MESH = 1e-3, 60.0
@@ -44,10 +52,9 @@ class Scales:
     length: float
     speed: float
 
-    def measure(self, dimension: Dimension) -> float:
+    def size(self, dimension: Dimension) -> float:
         """Return the natural size of a quantity of this dimension."""
-        time = self.length / self.speed
-        return float(self.force ** dimension[0] * self.length ** dimension[1] * time ** dimension[2])
+        return dimension.scale(self.force, self.length, self.length / self.speed)
 
 
 def measure_scales(arm: Arm) -> tuple[Scales, ...]:
@@ -77,7 +84,7 @@ class Coordinate:
 
     def value(self, x: float) -> float:
         """Return the value of a coordinate."""
-        return min(max(math.exp(min(x, 700.0)) if self.log else self.unit * x, self.low), self.high)
+        return min(max(math.exp(min(x, 300.0)) if self.log else self.unit * x, self.low), self.high)
 
     def place(self, value: float) -> float:
         """Return the coordinate of a value."""
@@ -157,7 +164,8 @@ class LawEffect:
     def price(self) -> float:
         """The log odds against it."""
         further = len(self.term.params) - len([q for q in self.term.params if q.choices]) - 1
-        return self.term.unlikely + FURTHER * further + sum(math.log(len(q.choices)) for q in self.term.params if q.choices)
+        tried = sum(math.log(len(q.choices)) for q in self.term.params if q.choices)
+        return self.term.unlikely + RARE.get(self.term.name, 0.0) + FURTHER * further + tried
 
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:
@@ -165,14 +173,16 @@ class LawEffect:
         return tuple(self._make_coordinate(q) for q in self.term.params if not q.choices)
 
     def _make_coordinate(self, q: Param) -> Coordinate:
-        unit = q.typical * self.scales.measure(q.dimension)
-        key, more = f"{self.key}.{q.name}", {"low": q.low, "high": q.high, "dimension": q.dimension}
+        unit = q.typical * self.scales.size(q.dimension)
+        causal = isinstance(self.term, DriveTerm) and q.dimension == TIME
+        low = max(q.low, 0.0) if causal else q.low  # a torque from the future holds the noise of a later reading
+        key = f"{self.key}.{q.name}"
         if q.null is None and q.scale == "log":
-            return Coordinate(key, 1.0, math.log(unit), UNSURE, log=True, **more)
-        return Coordinate(key, unit, 0.0, 1.0, amplitude=q.null is not None, **more)
+            return Coordinate(key, 1.0, math.log(unit), UNSURE, True, low, q.high, dimension=q.dimension)
+        return Coordinate(key, unit, 0.0, 1.0, False, low, q.high, q.null is not None, q.dimension)
 
     def _list_grid(self, q: Param) -> tuple[float, ...]:
-        unit = q.typical * self.scales.measure(q.dimension)
+        unit = q.typical * self.scales.size(q.dimension)
         if q.choices:
             return q.choices
         if q.name == PITCH:
@@ -196,8 +206,10 @@ class LawEffect:
 
     def _make_column(self, amplitude: Param, shape: Mapping[str, float], path: Path) -> Column:
         """Return the force of one unit of an amplitude, in units of its scale."""
-        unit = amplitude.typical * self.scales.measure(amplitude.dimension)
-        size = NUDGE * unit if not isinstance(self.term, DriveTerm) or amplitude.name == "share" else 0.1 * self.arm.log.dt
+        unit = amplitude.typical * self.scales.size(amplitude.dimension)
+        size = (
+            NUDGE * unit if not isinstance(self.term, DriveTerm) or amplitude.name == "share" else 0.1 * self.arm.log.dt
+        )
         values = {f"{self.key}.{q.name}": size if q is amplitude else (q.null or 0.0) for q in self.term.params}
         values |= shape
         if isinstance(self.term, DriveTerm):

@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lostmotion.contracts import Term
 from lostmotion.evidence.expansion import Expansion
@@ -147,7 +148,7 @@ class Hypothesis:
     scatter: float
     expansion: Expansion
     kept: Filtered
-    used: Array
+    used: NDArray[np.intp]
     precision: Array
     unknown: bool = False
 
@@ -225,14 +226,14 @@ def _choose_forces(frame: Frame, seen: Expansion, choice: Choice) -> Choice:
     return frame.discrepancy.choose(gradient, information, choice)
 
 
-def _find_precision(frame: Frame, seen: Expansion, choice: Choice) -> tuple[Array, Array]:
+def _find_precision(frame: Frame, seen: Expansion, choice: Choice) -> tuple[NDArray[np.intp], Array]:
     """Return the indices of the coordinates in use, and the precision of their posterior."""
     weights = frame.weigh(choice)
     used = np.flatnonzero(np.isfinite(weights))
-    return used, seen.information[np.ix_(used, used)] + np.diag(weights[used])
+    return np.asarray(used), seen.information[np.ix_(used, used)] + np.diag(weights[used])
 
 
-def _measure_scatter(seen: Expansion, used: Array, own: int) -> float:
+def _measure_scatter(seen: Expansion, used: NDArray[np.intp], own: int) -> float:
     """Return by how much the scores of the coefficients in use scatter beyond their information; at least 1."""
     rows = used[used >= own]
     sums = np.array([part.sum(axis=1) for part in np.array_split(seen.scores[rows], BLOCKS, axis=1)])
@@ -260,7 +261,9 @@ def score_heldout(found: Hypothesis, first: int, last: int) -> float:
     step = np.zeros(len(found.at))
     step[used] = np.linalg.solve(both, held.gradient[used])
     moved = frame.run(frame.clip(found.at + step), last=last).seen
-    gained = float(replace(moved, errors=moved.errors[first:], variances=moved.variances[first:]).log_likelihood) - value
+    gained = (
+        float(replace(moved, errors=moved.errors[first:], variances=moved.variances[first:]).log_likelihood) - value
+    )
     gained -= 0.5 * float(step[used] @ found.precision @ step[used])
     gain = max(min(0.5 * float(held.gradient[used] @ step[used]), gained), 0.0)
     return value + gain - 0.5 * float(size - np.linalg.slogdet(found.precision)[1])
@@ -269,7 +272,7 @@ def score_heldout(found: Hypothesis, first: int, last: int) -> float:
 def list_base(
     arm: Arm, forces: Sequence[float], noises: Sequence[float], estimated: Mapping[str, Coordinate]
 ) -> tuple[Coordinate, ...]:
-    """Return the coordinates of the levels, about usual random forces (N m) and noises (SI), and of estimated values."""
+    """Return the coordinates of levels, about usual random forces (N m) and noises (SI), and of estimated values."""
     levels = [
         Coordinate(f"{joint}.random_force", 1.0, math.log(size), 3.0, log=True)
         for joint, size in zip(arm.joints, forces, strict=True)

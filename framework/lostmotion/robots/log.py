@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from lostmotion.contracts import DriveTerm
 from lostmotion.errors import DataError
-from lostmotion.parts import Array
+from lostmotion.parts import Array, Input
 
 SHORTEST = 200
 """The smallest number of samples of a log."""
@@ -54,7 +54,7 @@ class RobotLog:
 
     def drive(self, terms: Sequence[DriveTerm], values: Mapping[str, float]) -> Array:
         """Return the torque (samples, n) that acts from each sample to the next, changed by the terms of the drive."""
-        time = self.dt * np.arange(self.samples)
+        time = np.asarray(self.dt * np.arange(self.samples), dtype=float)
         found = np.array(self.torque) if self.hold == "step" else _halfway(self.torque)
         for j, joint in enumerate(self.joints):
             own = [term for term in terms if term.at == f"{joint}.torque"]
@@ -64,7 +64,7 @@ class RobotLog:
             def read(t: Array, order: int, column: Array = self.torque[:, j]) -> Array:
                 return np.asarray(np.interp(t, time, column))
 
-            source = read
+            source: Input = read
             for term in own:
                 p = tuple(values[f"{term.name}@{term.at}.{q.name}"] for q in term.params)
                 source = _chain(term, source, p)
@@ -72,9 +72,9 @@ class RobotLog:
         return found
 
 
-def _chain(term: DriveTerm, source: object, p: tuple[float, ...]) -> object:
+def _chain(term: DriveTerm, source: Input, p: tuple[float, ...]) -> Input:
     """Return an input after one more term of the drive."""
-    return lambda t, order: term.true(source, t, p, order)  # type: ignore[arg-type]
+    return lambda t, order: term.true(source, t, p, order)
 
 
 def _halfway(x: Array) -> Array:

@@ -40,7 +40,12 @@ class Options:
 
 
 def make_arm(
-    simulator: Simulator, log: RobotLog, side: str = "motor", *, known: Mapping[str, float] | None = None, parts: bool = True
+    simulator: Simulator,
+    log: RobotLog,
+    side: str = "motor",
+    *,
+    known: Mapping[str, float] | None = None,
+    parts: bool = True,
 ) -> Arm:
     """Return an arm along the smoothed recorded path, with other `known` values; without its `parts` for a check.
 
@@ -74,7 +79,11 @@ def estimate_noise(readings: Array) -> Array:
 
 
 def prepare_search(
-    arm: Arm, simulator: Simulator, terms: Iterable[Term], estimated: Mapping[str, Coordinate], options: Options,
+    arm: Arm,
+    simulator: Simulator,
+    terms: Iterable[Term],
+    estimated: Mapping[str, Coordinate],
+    options: Options,
     say: Say = lambda _: None,
 ) -> tuple[ArmSearch, Array]:
     """Return a search, and the coordinates of the nominal fit to start it from."""
@@ -107,4 +116,3 @@ def _filter_path(arm: Arm, base: Sequence[Coordinate], last: int) -> tuple[Path,
             f"the nominal model diverges from the log {arm.log.name}: check signs, units and the order of the joints"
         )
     return relinearise(frame.run(found.at, last=arm.log.samples, keep=True), len(arm.joints)), found.at
-

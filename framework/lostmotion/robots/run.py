@@ -28,8 +28,15 @@ from lostmotion.robots.page import write_robot_report
 from lostmotion.robots.predict import HORIZON, Prediction, predict_heldout
 from lostmotion.robots.prepare import SECONDS, Options, make_arm, prepare_search
 from lostmotion.robots.search import ArmSearch
-from lostmotion.robots.words import describe_dependence, list_confusions, list_findings, list_joints, make_interval, rank_sets
 from lostmotion.robots.tape import Path as RobotPath
+from lostmotion.robots.words import (
+    describe_dependence,
+    list_confusions,
+    list_findings,
+    list_joints,
+    make_interval,
+    rank_sets,
+)
 from lostmotion.simulators import Finding
 from lostmotion.storage import StoredArray, dataset_of, folder_for, save_datasets, save_json, save_text
 
@@ -165,7 +172,11 @@ def _score(told: Prediction, joints: Sequence[str]) -> HeldOutScore:
 def _list_values(one: Hypothesis, motions: dict[str, str]) -> dict[str, Interval]:
     """Return the estimated values of the model, and the random force of each joint."""
     own = [c for c in one.frame.base if not c.key.endswith("_noise")]
-    found = {c.key: make_interval(one, c, motions[c.key.partition(".")[0]]) for c in own if c.key.partition(".")[0] in motions}
+    found = {
+        c.key: make_interval(one, c, motions[c.key.partition(".")[0]])
+        for c in own
+        if c.key.partition(".")[0] in motions
+    }
     found |= {c.key: make_interval(one, c, "rotation") for c in own if c.key not in found}
     return {k: replace(v, unit=_name_unit(k, motions, v.unit)) for k, v in found.items()}
 
@@ -194,8 +205,8 @@ def _write_notes(case: RobotCase, search: ArmSearch, terms: Sequence[Term]) -> t
     notes = list(case.log.notes)
     if case.simulator.step is not None and case.simulator.step > 5e-4:
         notes.append(
-            f"The model integrates with steps of {1e3 * case.simulator.step:g} ms. The diagnosis does not depend on them,"
-            " because it uses the exact equations of motion; a simulation with these steps has errors of its own."
+            f"The model integrates with steps of {1e3 * case.simulator.step:g} ms. The diagnosis does not depend on"
+            " them, because it uses the exact equations of motion; a simulation with these steps has errors of its own."
         )
     if search.skipped:
         notes.append("The processor time was used up before the search had ended: give --budget SECONDS for more.")
@@ -249,4 +260,3 @@ def list_changes(output: RobotOutput) -> tuple[Finding, ...]:
         for m in output.result.found
         if m.mechanism != "unknown"
     )
-

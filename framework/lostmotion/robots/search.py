@@ -98,14 +98,14 @@ class ArmSearch:
         return max(near, key=lambda one: one.score(self.temper), default=None)
 
     def extend(self, target: Hypothesis) -> None:
-        """Fit the sets with one more effect that promise to be better, from the fitted and from a small random force."""
+        """Fit the sets with one more effect that promise to be better."""
         temper, small = self.temper, self._make_small(target)
         usual = list_promises(self.screen, target, self.price, temper)[:MOST_FITTED]
         known = {p.effect.key for p in usual}
         more = list_promises(self.screen, small, self.price, temper)[:MOST_SMALL] if small is not None else []
         low = target.at[: len(self.frame.arm.joints)] + math.log(SMALL)
         gears = list_gear_promises(self.screen, target, low, self.price, temper)[:MOST_GEARS]
-        wanted = [(p, (0.0,)) for p in usual if p.gain > 0.0]
+        wanted: list[tuple[Promise, tuple[float, ...]]] = [(p, (0.0,)) for p in usual if p.gain > 0.0]
         wanted += [(p, (math.log(SMALL),)) for p in more if p.gain > 0.0 and p.effect.key not in known]
         wanted += [(p, (0.0, math.log(SMALL))) for p in gears if p.gain > 0.0]
         self.say(f"fits beside {name_set(target.terms)}: {', '.join(p.effect.key for p, _ in wanted) or 'none'}")

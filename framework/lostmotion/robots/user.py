@@ -44,7 +44,9 @@ class FunctionSimulator(Simulator):
         file, _, word = text.partition(":")
         path = folder / file
         if not path.is_file():
-            raise CaseError(f"inverse = {text!r}: there is no file {file!r} beside the case; write 'my_model.py:inverse'")
+            raise CaseError(
+                f"inverse = {text!r}: there is no file {file!r} beside the case; write 'my_model.py:inverse'"
+            )
         spec = importlib.util.spec_from_file_location(path.stem, path)
         if spec is None or spec.loader is None:
             raise CaseError(f"inverse = {text!r}: {file!r} is no Python file; write 'my_model.py:inverse'")

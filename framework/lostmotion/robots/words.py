@@ -103,7 +103,9 @@ def _measure_share(found: Hypothesis, effect: Effect, arm: Arm) -> float | None:
     """Return the amplitude of a force over the torque of its joint; None for an effect that is no force."""
     if not isinstance(effect, LawEffect):
         return None
-    forces = [c for c in effect.coordinates if c.amplitude and c.dimension is not None and tuple(c.dimension[:3]) == (1, 0, 0)]
+    forces = [
+        c for c in effect.coordinates if c.amplitude and c.dimension is not None and tuple(c.dimension[:3]) == (1, 0, 0)
+    ]
     if not forces:
         return None
     size = math.sqrt(sum(found.values[c.key] ** 2 for c in forces))
@@ -148,7 +150,12 @@ def rank_sets(search: ArmSearch) -> tuple[Candidate, ...]:
         at = " + ".join(dict.fromkeys(name.partition("@")[2] for name in names))
         rows.append(
             Candidate(
-                mechanism=mechanism, at=at, log_evidence_gain=gain, probability=shares[terms], price=one.price, fitted=True
+                mechanism=mechanism,
+                at=at,
+                log_evidence_gain=gain,
+                probability=shares[terms],
+                price=one.price,
+                fitted=True,
             )
         )
     return tuple(rows)
@@ -168,7 +175,9 @@ def list_confusions(search: ArmSearch) -> tuple[Confusion, ...]:
     for effect in best.frame.effects:
         if isinstance(effect, LawEffect):
             found += [
-                Confusion(mechanism=name, at=effect.key.partition("@")[2], says=f"No log can tell {name} from {effect.key}.")
+                Confusion(
+                    mechanism=name, at=effect.key.partition("@")[2], says=f"No log can tell {name} from {effect.key}."
+                )
                 for name in effect.term.equals
             ]
     return tuple(found)
@@ -208,8 +217,8 @@ def describe_dependence(torque: Array, arm: Arm) -> Dependence:
     told = {name: max(0.0, _explain(torque[:, j], x)) for name, x in over.items()}
     best = max(told, key=lambda name: told[name])
     says = (
-        f"The missing torque is largest at {arm.joints[j]} ({percent(float(shares[j]))} of its torque) and depends most on"
-        f" {best} (which explains {percent(told[best])} of it)."
+        f"The missing torque is largest at {arm.joints[j]} ({percent(float(shares[j]))} of its torque) and depends most"
+        f" on {best} (which explains {percent(told[best])} of it)."
     )
     return Dependence(says, {**told, "phase": 0.0})
 

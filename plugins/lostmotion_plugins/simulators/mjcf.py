@@ -18,7 +18,9 @@ STIFF = (0.002, 1.0)
 MARK = "found by lostmotion"
 
 
-def write_findings(mujoco: Any, spec: Any, found: Sequence[Finding], known: Mapping[str, float]) -> tuple[str, tuple[str, ...]]:
+def write_findings(
+    mujoco: Any, spec: Any, found: Sequence[Finding], known: Mapping[str, float]
+) -> tuple[str, tuple[str, ...]]:
     """Return the changed MJCF, and notes on what was changed and on what MJCF cannot express.
 
     `spec` is an `MjSpec` of the file; `known` are values of joints and bodies that a case states in place of its own.

@@ -132,7 +132,8 @@ class MujocoSimulator(Simulator):
 
     @property
     def taken(self) -> Mapping[str, float]:
-        source, found = self._source, {}
+        source = self._source
+        found: dict[str, float] = {}
         for name, i in zip(self.joints, self._moved, strict=True):
             dof, at = int(source.jnt_dofadr[i]), int(source.jnt_qposadr[i])
             own = {

@@ -19,10 +19,10 @@ _MJCF = """<mujoco model="arm">
   <worldbody>
     <body name="upper">
       <joint name="shoulder" axis="0 -1 0" armature="{armature[0]!r}" damping="{damping[0]!r}"/>
-      <inertial pos="{centre[0]!r} 0 0" mass="{mass[0]!r}" diaginertia="{inertia[0]!r} {inertia[0]!r} {inertia[0]!r}"/>
+      <inertial pos="{centre[0]!r} 0 0" mass="{mass[0]!r}" diaginertia="{spin[0]}"/>
       <body name="fore" pos="{length!r} 0 0">
         <joint name="elbow" axis="0 -1 0" armature="{armature[1]!r}" damping="{damping[1]!r}"/>
-        <inertial pos="{centre[1]!r} 0 0" mass="{mass[1]!r}" diaginertia="{inertia[1]!r} {inertia[1]!r} {inertia[1]!r}"/>
+        <inertial pos="{centre[1]!r} 0 0" mass="{mass[1]!r}" diaginertia="{spin[1]}"/>
         <site name="tip" pos="{reach!r} 0 0"/>
       </body>
     </body>
@@ -159,9 +159,12 @@ def draw_arm(number: int, seed: int, effect: str, wrong: float = 0.0) -> tuple[A
 def write_case(folder: Path, number: int, model: Arm, log: Log) -> Path:
     """Return the path of the case file, after writing it with its log and model."""
     folder.mkdir(parents=True, exist_ok=True)
-    names = ("armature", "damping", "centre", "mass", "inertia")
+    names = ("armature", "damping", "centre", "mass")
+    spin = [f"{float(x)!r} {float(x)!r} {float(x)!r}" for x in model.inertia]
     numbers = {name: [float(x) for x in getattr(model, name)] for name in names}
-    (folder / "arm.xml").write_text(_MJCF.format(length=model.length, reach=model.reach, **numbers), encoding="utf-8")
+    (folder / "arm.xml").write_text(
+        _MJCF.format(length=model.length, reach=model.reach, spin=spin, **numbers), encoding="utf-8"
+    )
     columns = np.column_stack([log.time, log.torque, log.encoder])
     head = "t,tau_shoulder,tau_elbow,q_shoulder,q_elbow"
     np.savetxt(folder / "log.csv", columns, delimiter=",", header=head, comments="", fmt="%.9g")

@@ -135,7 +135,7 @@ def record_motion(
     seen, told = _integrate(
         q, v, feed, noise, kicks, gains, arm.length, arm.body_table(), arm.joint_table(), late, arm.gain, steps, dt
     )
-    return Log(dt * np.arange(samples), told + errors, seen)
+    return Log(np.asarray(dt * np.arange(samples), dtype=float), told + errors, seen)
 
 
 @numba.njit(cache=True, error_model="numpy")
