@@ -30,11 +30,15 @@ SAME = 0.9999
 
 @dataclass(frozen=True)
 class Promise:
-    """An effect, the values of its parameters to start from, and the score that it promises."""
+    """An effect, the values of its parameters to start from, and the score that it promises.
+
+    `shift` is the step of the coordinates of the hypothesis that comes with it, where it is predicted.
+    """
 
     effect: Effect
     start: Mapping[str, float]
     gain: float
+    shift: Array | None = None
 
 
 def list_effects(
@@ -108,12 +112,16 @@ def list_promises(screen: Screen, beside: Hypothesis, price: float, temper: floa
             if any(key != effect.key and abs(row @ more[i]) > SAME * size[i] for i, key in singles):
                 continue
             singles.append((part.start, effect.key))
+        units = {c.key: c.unit for c in effect.coordinates}
         block = more[part]
         information = (block / v) @ block.T - cross[:, part].T @ pulled[:, part]
         gradient = slopes[part] - cross[:, part].T @ pulled[:, -1]
         found = _weigh_shape(effect, shape, gradient, information, price, temper)
         if found is not None and (effect.key not in best or found.gain > best[effect.key].gain):
-            best[effect.key] = found
+            step = np.array([found.start[c] / units[c] for c in shape.amplitudes])
+            shift = np.zeros(len(seen.at))
+            shift[used] = -pulled[:, part] @ step
+            best[effect.key] = replace(found, shift=shift)
     return sorted(best.values(), key=lambda p: -p.gain)
 
 

@@ -22,7 +22,7 @@ from lostmotion.recording.formats import read_table
 from lostmotion.recording.table import Table
 from lostmotion.registry import Registry
 from lostmotion.robots.effects import Coordinate
-from lostmotion.robots.log import RobotLog, measure_clock, resample
+from lostmotion.robots.log import RobotLog, find_stale, measure_clock, resample
 from lostmotion.robots.user import FunctionSimulator
 from lostmotion.simulators import Simulator
 
@@ -154,15 +154,19 @@ def _read_log(fields: Fields, folder: Path, simulator: Simulator) -> tuple[Robot
     )
     time, notes = _read_time(fields, table, path.name, len(columns))
     inside = (time >= (fields.maybe_number("t_start") or -np.inf)) & (time <= _or_inf(fields.maybe_number("t_end")))
-    clock = measure_clock(time[inside], path.name)
+    time, columns, n = time[inside], columns[inside], len(simulator.joints)
+    stale = find_stale(columns[:, n : 2 * n])
+    if stale.any():
+        notes = (*notes, f"{stale.sum()} samples repeat all readings of the one before and are left out.")
+        time, columns = time[~stale], columns[~stale]
+    clock = measure_clock(time, path.name)
     hold = fields.choice("hold", ("step", "smooth")) if "hold" in fields.values else "step"
-    n = len(simulator.joints)
-    u, _ = resample(time[inside], columns[inside, :n], clock, step=hold == "step")
-    z, gaps = resample(time[inside], columns[inside, n:], clock, step=False)
+    u, _ = resample(time, columns[:, :n], clock, step=hold == "step")
+    z, gaps = resample(time, columns[:, n:], clock, step=False)
     z[gaps] = np.nan
     name = fields.maybe_text("name") or Path(path).stem
     picks = tuple(pick for _, pick in readings)
-    log = RobotLog(name, simulator.joints, clock.dt, u, z, picks, hold, (*notes, *clock.write_notes()), time[inside])
+    log = RobotLog(name, simulator.joints, clock.step, u, z, picks, hold, (*notes, *clock.write_notes()))
     return log, digest(path)
 
 

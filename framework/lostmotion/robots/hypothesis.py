@@ -28,7 +28,7 @@ from lostmotion.robots.gears import Gear
 NUDGE = 1e-3
 """The step of differences over a coordinate, in units of it; of a small value, this part of its size at least."""
 SHARE = 0.02
-ROUNDS, CLOSE = 12, 0.05
+ROUNDS, CLOSE = 25, 0.05
 """The largest number of rounds of a fit, and the gain of a round after which it ends."""
 BLOCKS = 40
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +13,10 @@ from lostmotion.contracts import DriveTerm
 from lostmotion.errors import DataError
 from lostmotion.parts import Array, Input
 
+FINEST = 0.0019
+"""The shortest step (s) of a filter: faster logs are read at every second sample, or at fewer."""
+STALE = 0.3
+"""The largest share of samples in which all joints repeat the reading before; with more, the arm rests."""
 SHORTEST = 200
 """The smallest number of samples of a log."""
 GAP = 20.0
@@ -36,7 +41,6 @@ class RobotLog:
     picks: tuple[tuple[int, int], ...]
     hold: str = "step"
     notes: tuple[str, ...] = ()
-    stamps: Array = field(default_factory=lambda: np.zeros(0))
 
     @property
     def samples(self) -> int:
@@ -95,7 +99,12 @@ class Clock:
     jitter: float
     repeated: int
     gap: float
-    backwards: int
+    every: int = 1
+
+    @property
+    def step(self) -> float:
+        """The step (s) at which the log is read: `every` steps of the log."""
+        return self.every * self.dt
 
     def write_notes(self) -> tuple[str, ...]:
         """Return what is unusual about the clock, in sentences."""
@@ -105,8 +114,10 @@ class Clock:
         if self.jitter > JITTER:
             notes.append(
                 f"The time stamps jitter by {1e3 * self.jitter * self.dt:.3g} ms (sd); all columns are read at the"
-                f" stamps and resampled every {1e3 * self.dt:.4g} ms."
+                f" stamps and resampled every {1e3 * self.step:.4g} ms."
             )
+        elif self.every > 1:
+            notes.append(f"The log is read every {1e3 * self.step:.4g} ms.")
         if self.gap > GAP * self.dt:
             notes.append(f"The log pauses for up to {self.gap:.3g} s: readings there are taken as missing.")
         return tuple(notes)
@@ -127,20 +138,27 @@ def measure_clock(time: Array, source: str) -> Clock:
         raise DataError(f"{source}: all time stamps are equal: give the column of the time of each sample")
     dt = float(np.median(moving))
     even = moving[moving < GAP * dt]
-    return Clock(dt, float(np.std(even) / dt), len(steps) - len(moving), float(moving.max()), backwards)
+    return Clock(dt, float(np.std(even) / dt), len(steps) - len(moving), float(moving.max()), max(1, math.ceil(FINEST / dt)))
 
 
 def resample(time: Array, columns: Array, clock: Clock, *, step: bool) -> tuple[Array, NDArray[np.bool_]]:
     """Return columns (samples, k) on the even grid of a clock, and which of its points lie in a gap of the log.
 
-    Torques that a controller holds (`step`) are not interpolated over a jump but read at the last stamp.
+    Torques that a controller holds (`step`) are not interpolated over a jump, but averaged over the step that follows.
     """
     kept = np.concatenate([[True], np.diff(time) > 0.0])
     time, columns = time[kept], columns[kept]
-    grid = np.arange(time[0], time[-1] + 0.25 * clock.dt, clock.dt)
+    grid = np.arange(time[0], time[-1] + 0.25 * clock.step, clock.step)
     after = np.clip(np.searchsorted(time, grid), 1, len(time) - 1)
     gaps = (time[after] - time[after - 1]) > GAP * clock.dt
     if step:
-        nearest = np.clip(np.searchsorted(time, grid + 0.25 * clock.dt, side="right") - 1, 0, len(time) - 1)
-        return columns[nearest], gaps
+        inner = np.add.outer(grid, clock.dt * np.arange(clock.every))
+        nearest = np.clip(np.searchsorted(time, inner + 0.25 * clock.dt, side="right") - 1, 0, len(time) - 1)
+        return columns[nearest].mean(axis=1), gaps
     return np.stack([np.interp(grid, time, column) for column in columns.T], axis=1), gaps
+
+
+def find_stale(positions: Array) -> NDArray[np.bool_]:
+    """Return the samples (samples,) in which all positions repeat those before: no new reading has arrived."""
+    same = np.concatenate([[False], np.all(np.diff(positions, axis=0) == 0.0, axis=1)])
+    return same if same.mean() < STALE else np.zeros(len(same), dtype=bool)

@@ -46,7 +46,7 @@ class ArmSearch:
     say: Say = lambda _: None
     found: dict[Terms, Hypothesis] = field(default_factory=dict)
     extended: set[Terms] = field(default_factory=set)
-    dropped: set[Terms] = field(default_factory=set)
+    dropped: set[tuple[Terms, Terms]] = field(default_factory=set)
     skipped: bool = False
     begun: float = field(default_factory=time.process_time)
 
@@ -131,10 +131,16 @@ class ArmSearch:
         effects = tuple(sorted((*kept, promise.effect), key=lambda e: e.key))
         if frozenset(e.key for e in effects) in self.found:
             return
-        known = self._read(target) | {
+        moved = target if promise.shift is None else self._move(target, promise.shift)
+        known = self._read(moved) | {
             c.key: c.place(promise.start.get(c.key, c.value(c.mean))) for c in promise.effect.coordinates
         }
         self.weigh(effects, self._vary_levels(self._place(effects, known), shifts), target)
+
+    def _move(self, one: Hypothesis, shift: Array) -> Hypothesis:
+        """Return a hypothesis with the coefficients of its discrepancy where a promise expects them."""
+        of_discrepancy = np.arange(len(one.at)) >= len(one.frame.own)
+        return replace(one, at=one.at + np.where(of_discrepancy, shift, 0.0))
 
     def _vary_levels(self, at: Array, shifts: tuple[float, ...] = (0.0, math.log(SMALL))) -> list[Array]:
         """Return starts with other random forces, whose logarithms are shifted."""
@@ -171,15 +177,13 @@ class ArmSearch:
             self.found[made.terms] = made
 
     def drop_each(self, target: Hypothesis) -> None:
-        """Weigh a set without each of its effects in turn."""
+        """Weigh a set without each of its effects in turn, starting from the set."""
         known = self._read(target)
         for effect in target.frame.effects:
             rest = tuple(e for e in target.frame.effects if e is not effect)
             terms = frozenset(e.key for e in rest)
-            if terms in self.dropped or (target.unknown and not rest):
-                continue
-            self.dropped.add(terms)
-            if terms not in self.found:
+            if (target.terms, terms) not in self.dropped:
+                self.dropped.add((target.terms, terms))
                 self.weigh(rest, self._vary_levels(self._place(rest, known)), target)
 
     def weigh_unknown(self, target: Hypothesis) -> None:

@@ -110,7 +110,7 @@ def _hide_play(arm: Arm, j: int, rng: np.random.Generator) -> Truth:
 
 
 def _hide_flexible(arm: Arm, j: int, rng: np.random.Generator) -> Truth:
-    arm.play[j], arm.stiffness[j], arm.loss[j] = 0.0, _size(rng, (1.5e4, 5e3)[j]), (10.0, 3.0)[j]
+    arm.play[j], arm.stiffness[j], arm.loss[j] = 0.0, _size(rng, (3e3, 1e3)[j]), (6.0, 2.0)[j]
     return Truth("joint_elasticity", f"{JOINTS[j]}.gear", {"stiffness": float(arm.stiffness[j])})
 
 
