@@ -2,8 +2,7 @@
 
 `rhs`, `observe`, `force` and `rate` are scalar Python functions on NumPy arrays. The framework compiles them with numba
 into one kernel, so they may use arithmetic, branches and `math`, but no NumPy functions and no objects. A quantity that
-is *estimated* is an entry of `p`, never a field of the class. `lostmotion plugins check NAME` tests a plugin against
-all rules of its kind. All values are in SI units.
+is *estimated* is an entry of `p`, not a field. `lostmotion plugins check NAME` tests all rules. Values are in SI units.
 """
 
 from __future__ import annotations

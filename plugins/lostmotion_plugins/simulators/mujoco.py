@@ -46,7 +46,7 @@ def _import_mujoco() -> Any:
     return mujoco
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class MujocoSimulator(Simulator):
     """A machine in an MJCF or URDF `file`, or the example arm; `moving` are the joints that move, all if empty.
 
@@ -207,7 +207,7 @@ class MujocoSimulator(Simulator):
         return replace(self, values=tuple((dict(self.values) | dict(values)).items()))
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class UrdfSimulator(MujocoSimulator):
     """A machine in a URDF `file`, read by MuJoCo's loader; without a file it is the example arm."""
 

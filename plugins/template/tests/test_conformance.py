@@ -1,12 +1,13 @@
 """Every rule of lostmotion, for everything that this package offers."""
 
 from lostmotion_template.models import DrivenPendulum
+from lostmotion_template.simulators import TwoLink
 from lostmotion_template.terms import MaxwellElement
 
 from lostmotion import testing
 
 
-@testing.parametrize([DrivenPendulum, MaxwellElement])
+@testing.parametrize([DrivenPendulum, MaxwellElement, TwoLink])
 def test_conforms(component, rule):
     """Each rule is a test of its own; one that fails says what to do."""
     testing.assert_conforms(component, rule)
