@@ -9,7 +9,7 @@ from typing import ClassVar, NamedTuple
 from lostmotion.parts import Array
 
 
-class Finding(NamedTuple):
+class FoundMechanism(NamedTuple):
     """A mechanism that a machine lacks: its name, its place, its parameters (SI), and what it is in a sentence."""
 
     mechanism: str
@@ -73,7 +73,9 @@ class Simulator(ABC):
         """Return the simulator with other values of some of `linear`, or with a payload (kg) at some of `points`."""
         raise NotImplementedError(f"{self.name} has no values that can be changed")
 
-    def write_found(self, found: Sequence[Finding], known: Mapping[str, float]) -> tuple[str, tuple[str, ...]] | None:
+    def write_found(
+        self, found: Sequence[FoundMechanism], known: Mapping[str, float]
+    ) -> tuple[str, tuple[str, ...]] | None:
         """Return the file of the simulator with what was found in it, and what it cannot express; None without a file.
 
         `known` are values that a case states in place of those in the file.

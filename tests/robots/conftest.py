@@ -8,7 +8,7 @@ import pytest
 
 from lostmotion.registry import Registry
 from lostmotion.robots.log import RobotLog
-from lostmotion.robots.prepare import Options, make_arm, prepare_search
+from lostmotion.robots.prepare import SearchOptions, make_arm, prepare_search
 from lostmotion.robots.user import FunctionSimulator
 from lostmotion_trials.integrators.arm import Arm, record_motion
 
@@ -54,7 +54,7 @@ def search_of(terms):
     def search(log, names=None, most=2):
         simulator = make_simulator()
         kept = [t for t in terms if names is None or t.name in names]
-        found, start = prepare_search(make_arm(simulator, log), simulator, kept, {}, Options(most=most))
+        found, start = prepare_search(make_arm(simulator, log), simulator, kept, {}, SearchOptions(most=most))
         return found.run(start)
 
     return search

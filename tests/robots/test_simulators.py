@@ -7,18 +7,18 @@ import pytest
 from lostmotion_template.simulators import TwoLink
 
 from lostmotion import testing
-from lostmotion.simulators import Finding
+from lostmotion.simulators import FoundMechanism
 
 mujoco = pytest.importorskip("mujoco", reason="MJCF and URDF need the extra mujoco")
 from lostmotion_plugins.simulators.mujoco import EXAMPLE, MujocoSimulator, UrdfSimulator  # noqa: E402
 
 HINGE = '<joint name="shoulder" axis="0 -1 0" armature="0.3" damping="0.5"/>'
 FOUND = (
-    Finding("coulomb_friction", "elbow", {"force": 0.3}, "Dry friction."),
-    Finding("viscous_damping", "shoulder", {"coefficient": 0.2}, "Damping."),
-    Finding("payload", "tip", {"mass": 0.15}, "A mass."),
-    Finding("inertia_change", "elbow", {"change": 0.02}, "An armature."),
-    Finding("cogging", "elbow", {"cosine": 0.1}, "A ripple."),
+    FoundMechanism("coulomb_friction", "elbow", {"force": 0.3}, "Dry friction."),
+    FoundMechanism("viscous_damping", "shoulder", {"coefficient": 0.2}, "Damping."),
+    FoundMechanism("payload", "tip", {"mass": 0.15}, "A mass."),
+    FoundMechanism("inertia_change", "elbow", {"change": 0.02}, "An armature."),
+    FoundMechanism("cogging", "elbow", {"cosine": 0.1}, "A ripple."),
 )
 
 
@@ -72,7 +72,7 @@ def test_findings_are_written_into_the_file():
 
 
 def test_a_gear_becomes_two_hinges():
-    found = (Finding("joint_elasticity", "elbow.gear", {"stiffness": 2e4, "damping_ratio": 0.05}, "A gear."),)
+    found = (FoundMechanism("joint_elasticity", "elbow.gear", {"stiffness": 2e4, "damping_ratio": 0.05}, "A gear."),)
     model = mujoco.MjModel.from_xml_string(MujocoSimulator().write_found(found, {})[0])
     assert model.nv == 3
     assert model.jnt_stiffness.max() == pytest.approx(2e4)

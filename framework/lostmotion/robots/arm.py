@@ -1,7 +1,7 @@
 """An arm: a tape with the values that were taken out of it, a log, and the filter that joins them.
 
-`Arm.filter` returns the one-step errors of the log under a state of knowledge: values by name, terms of the library at
-joints, and forces that are added to the recorded torques.
+`TapedArm.filter` returns the one-step errors of the log under a state of knowledge: values by name, terms of the library
+at joints, and forces that are added to the recorded torques.
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ class _LawTable(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Filtered:
+class FilteredLog:
     """One-step errors of a log, and what their derivatives need; `states` are the filtered ones (samples, L)."""
 
     seen: Innovations
@@ -80,7 +80,7 @@ class Filtered:
 
 
 @dataclass(frozen=True, eq=False)
-class Arm:
+class TapedArm:
     """A machine with n joints: its log, tape, the parts of linear values, and all values by name.
 
     `values` holds `joint.damping`, `.frictionloss`, `.armature`, `.stiffness`, `.rest`, and values of `parts` relative
@@ -163,7 +163,7 @@ class Arm:
         keep: bool = False,
         readings: Array | None = None,
         start: tuple[int, Array, Array] | None = None,
-    ) -> Filtered:
+    ) -> FilteredLog:
         """Return the one-step errors of the log up to sample `last` under values, terms and levels.
 
         `levels` are the intensities of the random forces (n,) in (N m)^2 s, and the variances of the readings. `force`
@@ -200,7 +200,7 @@ class Arm:
         )  # fmt: skip
         errors[: max(self.settling - first, 0)], variances[: max(self.settling - first, 0)] = 0.0, 1.0 / (2.0 * math.pi)
         seen = Innovations.of(errors[None], variances[None], np.array([reached]))[0]
-        return Filtered(seen, **made)
+        return FilteredLog(seen, **made)
 
     def pick(self, gears: Mapping[int, Gear]) -> Whole:
         """Return the index of the state that each reading shows: that of the motor, where a joint has a gear."""
@@ -256,7 +256,7 @@ class Arm:
             spread[j] = max(2.0 * gear.play, DOUBT_ANGLE)
         return mean, np.diag(spread**2)
 
-    def differentiate(self, kept: Filtered, columns: Sequence[Column], gears: Mapping[int, Gear]) -> Array:
+    def differentiate(self, kept: FilteredLog, columns: Sequence[Column], gears: Mapping[int, Gear]) -> Array:
         """Return the derivatives (columns, samples * readings) of one-step errors over coefficients of forces."""
         samples, count, _ = kept.gains.shape
         found = np.zeros((len(columns), samples, count))

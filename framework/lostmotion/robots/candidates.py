@@ -15,10 +15,10 @@ import numpy as np
 from lostmotion.contracts import DriveTerm, Term
 from lostmotion.evidence.expansion import compute_log_evidence
 from lostmotion.parts import Array
-from lostmotion.robots.arm import Arm, Column, Filtered, can_act
-from lostmotion.robots.effects import Effect, GearEffect, LawEffect, MassEffect, Scales, Shape
+from lostmotion.robots.arm import Column, FilteredLog, TapedArm, can_act
+from lostmotion.robots.effects import ArmEffect, GearEffect, JointScales, LawEffect, MassEffect, Shape
 from lostmotion.robots.gears import GEARS
-from lostmotion.robots.hypothesis import Hypothesis
+from lostmotion.robots.hypothesis import ArmHypothesis
 from lostmotion.robots.tape import Path
 from lostmotion.robots.waves import find_pitches
 
@@ -29,23 +29,23 @@ SAME = 0.9999
 
 
 @dataclass(frozen=True)
-class Promise:
+class ArmPromise:
     """An effect, the values of its parameters to start from, and the score that it promises.
 
     `shift` is the step of the coordinates of the hypothesis that comes with it, where it is predicted.
     """
 
-    effect: Effect
+    effect: ArmEffect
     start: Mapping[str, float]
     gain: float
     shift: Array | None = None
 
 
 def list_effects(
-    arm: Arm, scales: Sequence[Scales], terms: Iterable[Term], points: Sequence[str], plain: Filtered
-) -> list[Effect]:
+    arm: TapedArm, scales: Sequence[JointScales], terms: Iterable[Term], points: Sequence[str], plain: FilteredLog
+) -> list[ArmEffect]:
     """Return all effects of an arm: laws at joints and drives, gears, masses; `plain` is the filtered nominal model."""
-    found: list[Effect] = []
+    found: list[ArmEffect] = []
     terms = [term for term in terms if can_act(term)]
     for j, joint in enumerate(arm.joints):
         pitches = find_pitches(arm, plain, j)
@@ -71,14 +71,14 @@ def list_effects(
 class Screen:
     """The shapes of all effects along a path, with their columns, computed once."""
 
-    effects: tuple[Effect, ...]
-    shapes: tuple[tuple[Effect, Shape, slice], ...]
+    effects: tuple[ArmEffect, ...]
+    shapes: tuple[tuple[ArmEffect, Shape, slice], ...]
     columns: tuple[Column, ...]
 
 
-def make_screen(arm: Arm, effects: Sequence[Effect], accelerations: Array) -> Screen:
+def make_screen(arm: TapedArm, effects: Sequence[ArmEffect], accelerations: Array) -> Screen:
     """Return the shapes of effects along the path of the tape of an arm."""
-    shapes: list[tuple[Effect, Shape, slice]] = []
+    shapes: list[tuple[ArmEffect, Shape, slice]] = []
     columns: list[Column] = []
     for effect in effects:
         for shape in effect.list_shapes(arm.tape.path, accelerations):
@@ -89,7 +89,7 @@ def make_screen(arm: Arm, effects: Sequence[Effect], accelerations: Array) -> Sc
     return Screen(tuple(effects), tuple(shapes), tuple(columns))
 
 
-def list_promises(screen: Screen, beside: Hypothesis, price: float, temper: float) -> list[Promise]:
+def list_promises(screen: Screen, beside: ArmHypothesis, price: float, temper: float) -> list[ArmPromise]:
     """Return what the effects of a screen promise beside a hypothesis, the best shape of each, best first."""
     frame = beside.frame
     gears = {e.joint: e.make(beside.values) for e in frame.gears}
@@ -100,7 +100,7 @@ def list_promises(screen: Screen, beside: Hypothesis, price: float, temper: floa
     cross = (seen.errors[used] / v) @ more.T
     own = seen.gradient[used] - seen.precision[used] * (seen.at[used] - seen.middle[used])
     pulled = np.linalg.solve(beside.precision, np.column_stack([cross, own]))
-    best: dict[str, Promise] = {}
+    best: dict[str, ArmPromise] = {}
     size = np.sqrt(np.sum(more * more / v, axis=1))
     singles: list[tuple[int, str]] = []
     for effect, shape, part in sorted(screen.shapes, key=lambda row: row[0].price):
@@ -126,8 +126,8 @@ def list_promises(screen: Screen, beside: Hypothesis, price: float, temper: floa
 
 
 def _weigh_shape(
-    effect: Effect, shape: Shape, gradient: Array, information: Array, price: float, temper: float
-) -> Promise | None:
+    effect: ArmEffect, shape: Shape, gradient: Array, information: Array, price: float, temper: float
+) -> ArmPromise | None:
     """Return what one shape promises; None where an amplitude would have the wrong sign."""
     gradient, information = gradient.copy(), information.copy()
     coordinates = {c.key: c for c in effect.coordinates}
@@ -147,10 +147,12 @@ def _weigh_shape(
         c = coordinates[shape.amplitudes[i]]
         values[c.key] = min(max(c.unit * float(s), c.low), c.high)
     effect = effect.choose(shape.values) if isinstance(effect, LawEffect) else effect
-    return Promise(effect, {**shape.values, **values}, evidence / temper - price - effect.price)
+    return ArmPromise(effect, {**shape.values, **values}, evidence / temper - price - effect.price)
 
 
-def list_gear_promises(screen: Screen, beside: Hypothesis, levels: Array, price: float, temper: float) -> list[Promise]:
+def list_gear_promises(
+    screen: Screen, beside: ArmHypothesis, levels: Array, price: float, temper: float
+) -> list[ArmPromise]:
     """Return what gears promise, from filters at a few values; `levels` are coordinates of the levels to use."""
     frame, found = beside.frame, []
     at = beside.at.copy()
@@ -169,11 +171,11 @@ def list_gear_promises(screen: Screen, beside: Hypothesis, levels: Array, price:
             if told > best:
                 best, start = told, values
         if math.isfinite(best):
-            found.append(Promise(effect, start, (best - plain) / temper - price - effect.price))
+            found.append(ArmPromise(effect, start, (best - plain) / temper - price - effect.price))
     return sorted(found, key=lambda p: -p.gain)
 
 
-def relinearise(kept: Filtered, joints: int) -> Path:
+def relinearise(kept: FilteredLog, joints: int) -> Path:
     """Return the path of a filtered recording."""
     a = kept.accelerations.copy()
     a[-1] = a[-2]

@@ -21,7 +21,7 @@ from lostmotion.recording.clock import read_time
 from lostmotion.recording.formats import read_table
 from lostmotion.recording.table import Table
 from lostmotion.registry import Registry
-from lostmotion.robots.effects import Coordinate
+from lostmotion.robots.effects import ArmCoordinate
 from lostmotion.robots.log import RobotLog, find_stale, measure_clock, resample
 from lostmotion.robots.user import FunctionSimulator
 from lostmotion.simulators import Simulator
@@ -53,7 +53,7 @@ class RobotCase:
     side: str
     tolerance: float
     known: Mapping[str, float]
-    estimate: Mapping[str, Coordinate]
+    estimate: Mapping[str, ArmCoordinate]
     inputs: Mapping[str, str]
     kind: str
     file: str
@@ -109,20 +109,20 @@ def _check_names(model: Fields, table: str, names: Iterable[str], allowed: Itera
             )
 
 
-def make_coordinate(key: str, prior: Prior) -> Coordinate:
+def make_coordinate(key: str, prior: Prior) -> ArmCoordinate:
     """Return the coordinate of an estimated value; a uniform prior becomes a normal one with bounds."""
     kind = KINDS[key.rsplit(".", 1)[1]]
     low, high = prior.support
     if prior.kind == "log-uniform":
         spread = math.log(prior.high / prior.low) / 3.0
-        return Coordinate(key, 1.0, math.log(prior.start()), spread, True, prior.low, prior.high, False, kind)
+        return ArmCoordinate(key, 1.0, math.log(prior.start()), spread, True, prior.low, prior.high, False, kind)
     if prior.kind == "log-normal" and prior.bell is not None:
-        return Coordinate(key, 1.0, *prior.bell, True, 0.0, math.inf, False, kind)
+        return ArmCoordinate(key, 1.0, *prior.bell, True, 0.0, math.inf, False, kind)
     if prior.bell is None:
         unit = (prior.high - prior.low) / 3.0
-        return Coordinate(key, unit, prior.start() / unit, 1.0, False, low, high, False, kind)
+        return ArmCoordinate(key, unit, prior.start() / unit, 1.0, False, low, high, False, kind)
     middle, unit = prior.bell
-    return Coordinate(key, unit, middle / unit, 1.0, False, low, high, False, kind)
+    return ArmCoordinate(key, unit, middle / unit, 1.0, False, low, high, False, kind)
 
 
 def _make_simulator(model: Fields, kind: str, folder: Path, registry: Registry) -> Simulator:
@@ -187,7 +187,7 @@ def _read_time(fields: Fields, table: Table, source: str, count: int) -> tuple[A
 
 
 @dataclass(frozen=True)
-class Entry:
+class LogColumn:
     """A column of the log: its name, its quantity and unit, and a factor."""
 
     column: str
@@ -196,12 +196,12 @@ class Entry:
     factor: float
 
 
-def _read_entry(table: Fields, quantity: str) -> Entry:
+def _read_entry(table: Fields, quantity: str) -> LogColumn:
     factor = table.maybe_number("factor")
-    return Entry(table.text("column"), quantity, table.text("unit"), 1.0 if factor is None else factor)
+    return LogColumn(table.text("column"), quantity, table.text("unit"), 1.0 if factor is None else factor)
 
 
-def _read_column(table: Table, entry: Entry, source: str) -> Array:
+def _read_column(table: Table, entry: LogColumn, source: str) -> Array:
     factor, _ = si_factor(entry.unit, entry.quantity)
     return np.asarray(table.column(entry.column, source) * (entry.factor * factor))
 
@@ -218,9 +218,9 @@ def _split(fields: Fields, key: str, default: str, simulator: Simulator) -> tupl
     return joint, quantity
 
 
-def _list_inputs(fields: Fields, simulator: Simulator) -> list[Entry]:
+def _list_inputs(fields: Fields, simulator: Simulator) -> list[LogColumn]:
     """Return the torque column of each joint, in the order of the joints."""
-    found: dict[str, Entry] = {}
+    found: dict[str, LogColumn] = {}
     for entry in fields.entries("inputs"):
         entry.only(("input", *ENTRY))
         joint, quantity = _split(entry, "input", "torque", simulator)
@@ -238,7 +238,7 @@ def _list_inputs(fields: Fields, simulator: Simulator) -> list[Entry]:
     return [found[joint] for joint in simulator.joints]
 
 
-def _list_sensors(fields: Fields, simulator: Simulator) -> list[tuple[Entry, tuple[int, int]]]:
+def _list_sensors(fields: Fields, simulator: Simulator) -> list[tuple[LogColumn, tuple[int, int]]]:
     """Return the readings with joint and order, positions of all joints first."""
     found = []
     for entry in fields.entries("sensors"):

@@ -14,7 +14,7 @@ import numpy as np
 
 from lostmotion.parts import Array
 from lostmotion.results.robots import Check
-from lostmotion.robots.arm import Arm
+from lostmotion.robots.arm import TapedArm
 from lostmotion.robots.log import RobotLog
 from lostmotion.robots.prepare import make_arm
 from lostmotion.simulators import Simulator
@@ -31,8 +31,8 @@ LAG, MOST_LAG = 3, 60
 """Samples of lag between torque and motion that are told, and the largest ones that are tried."""
 LEAST_TRAVEL = 50.0
 """A joint hardly moves if its travel is less than so many standard deviations of its noise."""
-UNITS = {180.0 / math.pi: "degrees", 60.0 / (2.0 * math.pi): "turns per minute"}
-"""Factors by which an angle in another unit is too large."""
+DEGREE, WIDE = 180.0 / math.pi, 7.0
+"""Degrees in a radian; the travel (rad) of a joint beyond which its positions may be in degrees."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +44,7 @@ class _Fit:
     slope: Array
 
 
-def check_log(arm: Arm, simulator: Simulator) -> tuple[Check, ...]:
+def check_log(arm: TapedArm, simulator: Simulator) -> tuple[Check, ...]:
     """Return the checks of a log, each with the remedy; those that `stop` make a diagnosis meaningless."""
     found = [*_check_motion(arm)]
     if any(check.stop for check in found):
@@ -74,7 +74,7 @@ def average(x: Array, dt: float) -> Array:
     return np.asarray(x[: count * size].reshape(count, size, *x.shape[1:]).mean(axis=1))
 
 
-def predict_torque(arm: Arm, side: str | None = None) -> Array:
+def predict_torque(arm: TapedArm, side: str | None = None) -> Array:
     """Return the torque (samples, n) of the model along the path, as the sensor of this side shows it."""
     path, tape = arm.tape.path, arm.tape
     spring = arm.get({}, "stiffness") * (path.q - arm.get({}, "rest"))
@@ -85,7 +85,7 @@ def predict_torque(arm: Arm, side: str | None = None) -> Array:
     return np.asarray(found)
 
 
-def _compare(arm: Arm, torque: Array, model: Array | None = None) -> _Fit:
+def _compare(arm: TapedArm, torque: Array, model: Array | None = None) -> _Fit:
     """Return how well a torque (samples, n) agrees with the model, friction of any size at each joint allowed for."""
     dt, path = arm.log.dt, arm.tape.path
     model = average(predict_torque(arm) if model is None else model, dt)
@@ -104,7 +104,7 @@ def _compare(arm: Arm, torque: Array, model: Array | None = None) -> _Fit:
     return _Fit(left, np.nan_to_num(correlation), slope)
 
 
-def _check_motion(arm: Arm) -> Iterator[Check]:
+def _check_motion(arm: TapedArm) -> Iterator[Check]:
     """Yield a check for each joint that hardly moves."""
     from lostmotion.robots.prepare import estimate_noise
 
@@ -119,31 +119,27 @@ def _check_motion(arm: Arm) -> Iterator[Check]:
             )  # fmt: skip
 
 
-def _check_angles(arm: Arm, simulator: Simulator, base: _Fit) -> Iterator[Check]:
-    """Yield a check if the positions agree with the torques in another unit only."""
-    if base.left.max() < CLEAR:
+def _check_angles(arm: TapedArm, simulator: Simulator, base: _Fit) -> Iterator[Check]:
+    """Yield a check if the positions agree with the torques when they are read as degrees."""
+    if base.left.max() < CLEAR or np.ptp(arm.log.positions, axis=0).max() < WIDE:
         return
-    for factor, word in UNITS.items():
-        log = arm.log
-        readings = log.readings / factor
-        other = _reread(arm, simulator, readings, log.torque)
-        if other.left.mean() < BETTER * base.left.mean() and np.median(other.correlation) > AGREES:
-            yield Check(
-                "unit", "", False,
-                f"The positions look like {word}, not radians: give the unit of the position columns in the case.",
-                stop=True,
-            )  # fmt: skip
-            return
+    other = _reread(arm, simulator, arm.log.readings / DEGREE, arm.log.torque)
+    if other.left.mean() < BETTER * base.left.mean() and np.median(other.correlation) > AGREES:
+        yield Check(
+            "unit", "", False,
+            "The positions look like degrees, not radians: give the unit of the position columns in the case.",
+            stop=True,
+        )  # fmt: skip
 
 
-def _reread(arm: Arm, simulator: Simulator, readings: Array, torque: Array) -> _Fit:
+def _reread(arm: TapedArm, simulator: Simulator, readings: Array, torque: Array) -> _Fit:
     """Return the agreement for other readings and torques."""
     log = RobotLog(arm.log.name, arm.joints, arm.log.dt, torque, readings, arm.log.picks, arm.log.hold)
     other = make_arm(simulator, log, arm.side, parts=False)
     return _compare(other, torque)
 
 
-def _check_order(arm: Arm, base: _Fit) -> Iterator[Check]:
+def _check_order(arm: TapedArm, base: _Fit) -> Iterator[Check]:
     """Yield a check if two torque columns agree with the model when they are swapped."""
     if base.left.max() < CLEAR:
         return
@@ -161,7 +157,7 @@ def _check_order(arm: Arm, base: _Fit) -> Iterator[Check]:
             )  # fmt: skip
 
 
-def _check_gravity(arm: Arm, simulator: Simulator, base: _Fit) -> Iterator[Check]:
+def _check_gravity(arm: TapedArm, simulator: Simulator, base: _Fit) -> Iterator[Check]:
     """Yield a check if the torques agree with the model under the opposite gravity, or without it."""
     if base.left.max() < CLEAR:
         return
@@ -179,7 +175,7 @@ def _check_gravity(arm: Arm, simulator: Simulator, base: _Fit) -> Iterator[Check
             return
 
 
-def _check_signs(arm: Arm, base: _Fit) -> Iterator[Check]:
+def _check_signs(arm: TapedArm, base: _Fit) -> Iterator[Check]:
     """Yield a check for each joint whose torque has the opposite sign."""
     for j, joint in enumerate(arm.joints):
         if base.correlation[j] < OPPOSED and base.slope[j] < 0.0:
@@ -191,7 +187,7 @@ def _check_signs(arm: Arm, base: _Fit) -> Iterator[Check]:
             )  # fmt: skip
 
 
-def _check_scale(arm: Arm, base: _Fit) -> Iterator[Check]:
+def _check_scale(arm: TapedArm, base: _Fit) -> Iterator[Check]:
     """Yield a check for each joint whose torque has another size, or does not agree at all."""
     for j, joint in enumerate(arm.joints):
         slope, agrees = float(base.slope[j]), base.correlation[j] > AGREES
@@ -212,7 +208,7 @@ def _check_scale(arm: Arm, base: _Fit) -> Iterator[Check]:
             )  # fmt: skip
 
 
-def _check_side(arm: Arm) -> Iterator[Check]:
+def _check_side(arm: TapedArm) -> Iterator[Check]:
     """Yield a check for each joint whose torque looks like that of the other side of the gear."""
     path, dt = arm.tape.path, arm.log.dt
     link = average(predict_torque(arm, "link"), dt)
@@ -238,7 +234,7 @@ def _check_side(arm: Arm) -> Iterator[Check]:
             )  # fmt: skip
 
 
-def _check_lag(arm: Arm, base: _Fit) -> Iterator[Check]:
+def _check_lag(arm: TapedArm, base: _Fit) -> Iterator[Check]:
     """Yield a check if all torques agree better when they are shifted in time."""
     model, torque = predict_torque(arm), arm.log.torque
     if base.left.max() < 0.02:

@@ -22,8 +22,8 @@ from numpy.typing import NDArray
 
 from lostmotion.evidence.expansion import compute_log_evidence
 from lostmotion.parts import Array
-from lostmotion.robots.arm import Arm, Column
-from lostmotion.robots.effects import Scales, weigh_part
+from lostmotion.robots.arm import Column, TapedArm
+from lostmotion.robots.effects import JointScales, weigh_part
 from lostmotion.robots.tape import Path
 
 SIZES, LENGTHS = (0.003, 0.01, 0.03), (0.3, 0.6, 1.2)
@@ -38,7 +38,7 @@ SWEEPS = 2
 
 
 @dataclass(frozen=True, eq=False)
-class SmoothForce:
+class SmoothTorque:
     """A smooth force: its joint, what it depends on, its columns, and the prior widths (options, waves)."""
 
     joint: int
@@ -66,7 +66,7 @@ class Discrepancy:
 
     columns: tuple[Column, ...]
     fixed: Array
-    forces: tuple[SmoothForce, ...]
+    forces: tuple[SmoothTorque, ...]
     shape: tuple[int, int]
 
     @property
@@ -121,8 +121,8 @@ class Discrepancy:
 
 
 def make_discrepancy(
-    arm: Arm, path: Path, accelerations: Array, scales: tuple[Scales, ...], tolerance: float, estimated: set[str],
-    sizes: tuple[float, ...] = SIZES,
+    arm: TapedArm, path: Path, accelerations: Array, scales: tuple[JointScales, ...], tolerance: float,
+    estimated: set[str], sizes: tuple[float, ...] = SIZES,
 ) -> Discrepancy:  # fmt: skip
     """Return the discrepancy of an arm along a path; values that are `estimated` are not in it."""
     fixed = _list_known(arm, path, accelerations, scales, tolerance, estimated)
@@ -135,11 +135,11 @@ def make_discrepancy(
             columns += [Column(f"{over}@{arm.joints[j]}", j, wave) for wave in waves]
             widths += [0.0] * len(waves)
             options = [size * scale.force * weights for size in sizes for weights in map(_weigh_waves, LENGTHS)]
-            forces.append(SmoothForce(j, over, place, np.array(options)))
+            forces.append(SmoothTorque(j, over, place, np.array(options)))
     return Discrepancy(tuple(columns), np.array(widths), tuple(forces), path.q.shape)
 
 
-def make_none(arm: Arm) -> Discrepancy:
+def make_none(arm: TapedArm) -> Discrepancy:
     """Return a discrepancy without any column."""
     return Discrepancy((), np.zeros(0), (), (arm.log.samples, len(arm.joints)))
 
@@ -159,7 +159,12 @@ def _weigh_waves(length: float) -> Array:
 
 
 def _list_known(
-    arm: Arm, path: Path, accelerations: Array, scales: tuple[Scales, ...], tolerance: float, estimated: set[str]
+    arm: TapedArm,
+    path: Path,
+    accelerations: Array,
+    scales: tuple[JointScales, ...],
+    tolerance: float,
+    estimated: set[str],
 ) -> list[tuple[Column, float]]:
     """Return the columns of known values and of the torque, with their prior standard deviations."""
     found, log = [], arm.log

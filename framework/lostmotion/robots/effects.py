@@ -1,6 +1,6 @@
 """What an arm may lack: terms of the library at a joint or at its drive, a gear, and masses.
 
-An effect names its place, its parameters with their priors, and how it changes the arguments of `Arm.filter`.
+An effect names its place, its parameters with their priors, and how it changes the arguments of `TapedArm.filter`.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from lostmotion.kernels.chain import evaluate_law
 from lostmotion.likelihood.compose import compile_law
 from lostmotion.parts import Array, Param
 from lostmotion.quantities import INERTIA, LENGTH, NUMBER, STIFFNESS, TIME, Dimension
-from lostmotion.robots.arm import Arm, Column, make_law
+from lostmotion.robots.arm import Column, TapedArm, make_law
 from lostmotion.robots.gears import AT, BACKLASH, USUAL_DAMPING, Gear, GearLaw
 from lostmotion.robots.tape import Path
 
@@ -45,7 +45,7 @@ USUAL_GAP, USUAL_MESH = 1e-3, 60.0
 
 
 @dataclass(frozen=True)
-class Scales:
+class JointScales:
     """The natural scales of a joint: torque (N m), angle (rad) and speed (rad/s), or N, m and m/s."""
 
     force: float
@@ -57,16 +57,16 @@ class Scales:
         return dimension.scale(self.force, self.length, self.length / self.speed)
 
 
-def measure_scales(arm: Arm) -> tuple[Scales, ...]:
+def measure_scales(arm: TapedArm) -> tuple[JointScales, ...]:
     """Return the natural scales of each joint, from its torque and its motion."""
     torque, path = arm.log.torque, arm.tape.path
     rms = np.sqrt(np.mean(path.v**2, axis=0))
     sizes = zip(np.std(torque, axis=0), np.std(path.q, axis=0), rms, strict=True)
-    return tuple(Scales(*(max(float(x), 1e-12) for x in size)) for size in sizes)
+    return tuple(JointScales(*(max(float(x), 1e-12) for x in size)) for size in sizes)
 
 
 @dataclass(frozen=True)
-class Coordinate:
+class ArmCoordinate:
     """A number that a hypothesis estimates: value = exp(x) if `log`, else `unit` * x, with x normal by the prior.
 
     `low` and `high` bound the value. `amplitude` marks one at whose null the effect is absent.
@@ -105,7 +105,7 @@ class Shape:
     amplitudes: tuple[str, ...]
 
 
-class Effect(Protocol):
+class ArmEffect(Protocol):
     """An effect that an arm may lack."""
 
     @property
@@ -113,7 +113,7 @@ class Effect(Protocol):
         """The name and the place: `coulomb_friction@elbow`."""
 
     @property
-    def coordinates(self) -> tuple[Coordinate, ...]:
+    def coordinates(self) -> tuple[ArmCoordinate, ...]:
         """Its parameters."""
 
     @property
@@ -133,9 +133,9 @@ class LawEffect:
     """A term of the library at a joint, or at the drive of a joint (`elbow.torque`)."""
 
     term: Term
-    arm: Arm
+    arm: TapedArm
     joint: int
-    scales: Scales
+    scales: JointScales
     pitches: tuple[float, ...] = ()
     chosen: tuple[float, ...] = ()
 
@@ -168,18 +168,18 @@ class LawEffect:
         return self.term.unlikely + RARE.get(self.term.name, 0.0) + FURTHER * further + tried
 
     @property
-    def coordinates(self) -> tuple[Coordinate, ...]:
+    def coordinates(self) -> tuple[ArmCoordinate, ...]:
         """The parameters that are fitted."""
         return tuple(self._make_coordinate(q) for q in self.term.params if not q.choices)
 
-    def _make_coordinate(self, q: Param) -> Coordinate:
+    def _make_coordinate(self, q: Param) -> ArmCoordinate:
         unit = q.typical * self.scales.size(q.dimension)
         causal = isinstance(self.term, DriveTerm) and q.dimension == TIME
         low = max(q.low, 0.0) if causal else q.low  # a torque from the future holds the noise of a later reading
         key = f"{self.key}.{q.name}"
         if q.null is None and q.scale == "log":
-            return Coordinate(key, 1.0, math.log(unit), UNSURE, True, low, q.high, dimension=q.dimension)
-        return Coordinate(key, unit, 0.0, 1.0, False, low, q.high, q.null is not None, q.dimension)
+            return ArmCoordinate(key, 1.0, math.log(unit), UNSURE, True, low, q.high, dimension=q.dimension)
+        return ArmCoordinate(key, unit, 0.0, 1.0, False, low, q.high, q.null is not None, q.dimension)
 
     def _list_grid(self, q: Param) -> tuple[float, ...]:
         unit = q.typical * self.scales.size(q.dimension)
@@ -235,7 +235,7 @@ class GearEffect:
     """Play or flexibility between motor and link of a joint."""
 
     law: GearLaw
-    arm: Arm
+    arm: TapedArm
     joint: int
 
     @property
@@ -264,13 +264,13 @@ class GearEffect:
         return self.arm.values.get(f"{self.arm.joints[self.joint]}.armature", 0.0)
 
     @property
-    def coordinates(self) -> tuple[Coordinate, ...]:
+    def coordinates(self) -> tuple[ArmCoordinate, ...]:
         """Half of the play and the stiffness, by their orders of magnitude."""
         mesh = (2.0 * math.pi * USUAL_MESH) ** 2 * self.inertia
         usual = {"gap": USUAL_GAP, "stiffness": mesh, "damping_ratio": USUAL_DAMPING}
         kinds = {"gap": LENGTH, "stiffness": STIFFNESS, "damping_ratio": NUMBER}
         return tuple(
-            Coordinate(f"{self.key}.{name}", 1.0, math.log(usual[name]), UNSURE, log=True, dimension=kinds[name])
+            ArmCoordinate(f"{self.key}.{name}", 1.0, math.log(usual[name]), UNSURE, log=True, dimension=kinds[name])
             for name in self.law.params
         )
 
@@ -302,7 +302,7 @@ class MassEffect:
     name: str
     at: str
     value: str
-    arm: Arm
+    arm: TapedArm
     unit: float
 
     @property
@@ -321,11 +321,11 @@ class MassEffect:
         return 0.0 if self.name == "payload" else 0.5
 
     @property
-    def coordinates(self) -> tuple[Coordinate, ...]:
+    def coordinates(self) -> tuple[ArmCoordinate, ...]:
         """The mass, or the change of the mass or of the moment of inertia."""
         word = "mass" if self.name == "payload" else "change"
         least = 0.0 if self.name == "payload" else -0.9 * self.arm.values.get(self.value, 0.0)
-        return (Coordinate(f"{self.key}.{word}", self.unit, 0.0, 1.0, low=least, amplitude=True, dimension=INERTIA),)
+        return (ArmCoordinate(f"{self.key}.{word}", self.unit, 0.0, 1.0, low=least, amplitude=True, dimension=INERTIA),)
 
     def list_shapes(self, path: Path, accelerations: Array) -> Sequence[Shape]:
         """Return the torque of one unit of the mass along a path."""
@@ -338,7 +338,7 @@ class MassEffect:
         return (Shape({}, (column,), (key,)),)
 
 
-def weigh_part(arm: Arm, name: str, accelerations: Array) -> Array:
+def weigh_part(arm: TapedArm, name: str, accelerations: Array) -> Array:
     """Return the torque (samples, n) that one more unit of a linear value needs along a path."""
     part = arm.parts[name]
     return np.asarray(np.einsum("kij,kj->ki", part.mass, accelerations) + part.bias)

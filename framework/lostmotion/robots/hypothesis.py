@@ -3,7 +3,7 @@
     score = [log Z(fitted data | model + effects + discrepancy) + log p(held-out | fitted data)] / temper - price
 
 Gauss-Newton on levels of noise, estimated values, parameters of effects and coefficients of the discrepancy together.
-The derivatives over the last are exact (`Arm.differentiate`), those over the others are differences.
+The derivatives over the last are exact (`TapedArm.differentiate`), those over the others are differences.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ from lostmotion.contracts import Term
 from lostmotion.evidence.expansion import Expansion
 from lostmotion.likelihood.engine import Innovations
 from lostmotion.parts import Array
-from lostmotion.robots.arm import Arm, Filtered
+from lostmotion.robots.arm import FilteredLog, TapedArm
 from lostmotion.robots.discrepancy import Choice, Discrepancy
-from lostmotion.robots.effects import Coordinate, Effect, GearEffect, LawEffect, MassEffect
+from lostmotion.robots.effects import ArmCoordinate, ArmEffect, GearEffect, LawEffect, MassEffect
 from lostmotion.robots.gears import Gear
 
 NUDGE = 1e-3
@@ -34,17 +34,17 @@ BLOCKS = 40
 
 
 @dataclass(frozen=True, eq=False)
-class Frame:
+class ArmFrame:
     """What is fitted: an arm up to sample `last`, effects, levels and estimated values, and the discrepancy."""
 
-    arm: Arm
-    effects: tuple[Effect, ...]
-    base: tuple[Coordinate, ...]
+    arm: TapedArm
+    effects: tuple[ArmEffect, ...]
+    base: tuple[ArmCoordinate, ...]
     discrepancy: Discrepancy
     last: int
 
     @cached_property
-    def own(self) -> tuple[Coordinate, ...]:
+    def own(self) -> tuple[ArmCoordinate, ...]:
         """All coordinates before those of the discrepancy."""
         return (*self.base, *(c for effect in self.effects for c in effect.coordinates))
 
@@ -73,7 +73,7 @@ class Frame:
 
     def run(
         self, at: Array, *, last: int | None = None, keep: bool = False, force: Array | None = None, **more: object
-    ) -> Filtered:
+    ) -> FilteredLog:
         """Return the filter at coordinates; `force` is that of the discrepancy, where it is known already."""
         values, count = self.read(at), len(self.arm.joints)
         if force is None:
@@ -88,7 +88,7 @@ class Frame:
             last=self.last if last is None else last, keep=keep, **more,  # type: ignore[arg-type]
         )  # fmt: skip
 
-    def expand(self, at: Array, choice: Choice, *, last: int | None = None) -> tuple[Expansion, Filtered]:
+    def expand(self, at: Array, choice: Choice, *, last: int | None = None) -> tuple[Expansion, FilteredLog]:
         """Return the expansion of the one-step errors at coordinates."""
         kept = self.run(at, last=last, keep=True)
         own, force = len(self.own), self.discrepancy.force(at[len(self.own) :])
@@ -136,10 +136,10 @@ class Frame:
 
 
 @dataclass(frozen=True, eq=False)
-class Hypothesis:
+class ArmHypothesis:
     """A fitted hypothesis: its frame, coordinates `at`, choice of smooth forces, and the parts of its score."""
 
-    frame: Frame
+    frame: ArmFrame
     at: Array
     choice: Choice
     log_evidence: float
@@ -147,7 +147,7 @@ class Hypothesis:
     price: float
     scatter: float
     expansion: Expansion
-    kept: Filtered
+    kept: FilteredLog
     used: NDArray[np.intp]
     precision: Array
     unknown: bool = False
@@ -178,7 +178,7 @@ class Hypothesis:
         return math.sqrt(self.scatter * self.covariance[place, place])
 
 
-def fit_hypothesis(frame: Frame, start: Array, price: float, choice: Choice | None = None) -> Hypothesis | None:
+def fit_hypothesis(frame: ArmFrame, start: Array, price: float, choice: Choice | None = None) -> ArmHypothesis | None:
     """Return the fitted hypothesis from start coordinates; None where the filter diverges."""
     at, chosen = frame.clip(start), choice or frame.discrepancy.none
     if not math.isfinite(frame.target(at, chosen)):
@@ -214,10 +214,10 @@ def fit_hypothesis(frame: Frame, start: Array, price: float, choice: Choice | No
         return None
     evidence = target + 0.5 * len(used) * math.log(2.0 * math.pi) - 0.5 * float(size)
     scatter = _measure_scatter(seen, used, own)
-    return Hypothesis(frame, at, chosen, evidence, 0.0, price, scatter, seen, kept, used, precision)
+    return ArmHypothesis(frame, at, chosen, evidence, 0.0, price, scatter, seen, kept, used, precision)
 
 
-def _choose_forces(frame: Frame, seen: Expansion, choice: Choice) -> Choice:
+def _choose_forces(frame: ArmFrame, seen: Expansion, choice: Choice) -> Choice:
     """Return the best sizes and lengths of the smooth forces, with the own coordinates re-optimised."""
     own = np.arange(len(frame.own))
     more = np.arange(len(frame.own), len(seen.at))
@@ -226,7 +226,7 @@ def _choose_forces(frame: Frame, seen: Expansion, choice: Choice) -> Choice:
     return frame.discrepancy.choose(gradient, information, choice)
 
 
-def _find_precision(frame: Frame, seen: Expansion, choice: Choice) -> tuple[NDArray[np.intp], Array]:
+def _find_precision(frame: ArmFrame, seen: Expansion, choice: Choice) -> tuple[NDArray[np.intp], Array]:
     """Return the indices of the coordinates in use, and the precision of their posterior."""
     weights = frame.weigh(choice)
     used = np.flatnonzero(np.isfinite(weights))
@@ -242,7 +242,7 @@ def _measure_scatter(seen: Expansion, used: NDArray[np.intp], own: int) -> float
     return max(1.0, float(np.median(sums.var(axis=0)[told] * BLOCKS / stated[told]))) if told.any() else 1.0
 
 
-def score_heldout(found: Hypothesis, first: int, last: int) -> float:
+def score_heldout(found: ArmHypothesis, first: int, last: int) -> float:
     """Return the log density of the samples from `first` to `last`, averaged over the posterior of the fitted ones.
 
     It is the closed form for errors that are linear in the coordinates, as in `evidence.heldout`; where they are not,
@@ -270,16 +270,16 @@ def score_heldout(found: Hypothesis, first: int, last: int) -> float:
 
 
 def list_base(
-    arm: Arm, forces: Sequence[float], noises: Sequence[float], estimated: Mapping[str, Coordinate]
-) -> tuple[Coordinate, ...]:
+    arm: TapedArm, forces: Sequence[float], noises: Sequence[float], estimated: Mapping[str, ArmCoordinate]
+) -> tuple[ArmCoordinate, ...]:
     """Return the coordinates of levels, about usual random forces (N m) and noises (SI), and of estimated values."""
     levels = [
-        Coordinate(f"{joint}.random_force", 1.0, math.log(size), 3.0, log=True)
+        ArmCoordinate(f"{joint}.random_force", 1.0, math.log(size), 3.0, log=True)
         for joint, size in zip(arm.joints, forces, strict=True)
     ]
     words = ("position", "velocity")
     levels += [
-        Coordinate(f"{arm.joints[j]}.{words[order]}_noise", 1.0, math.log(size), 3.0, log=True)
+        ArmCoordinate(f"{arm.joints[j]}.{words[order]}_noise", 1.0, math.log(size), 3.0, log=True)
         for (j, order), size in zip(arm.log.picks, noises, strict=True)
     ]
     return (*levels, *estimated.values())

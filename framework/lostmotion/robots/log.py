@@ -92,7 +92,7 @@ def fill_missing(x: Array) -> Array:
 
 
 @dataclass(frozen=True)
-class Clock:
+class LogClock:
     """The even grid of a log: its step (s), jitter and repeated stamps, and the largest gap (s)."""
 
     dt: float
@@ -123,7 +123,7 @@ class Clock:
         return tuple(notes)
 
 
-def measure_clock(time: Array, source: str) -> Clock:
+def measure_clock(time: Array, source: str) -> LogClock:
     """Return the clock of time stamps (samples,) in s; raise `DataError` where they run backwards or are too few."""
     if len(time) < SHORTEST:
         raise DataError(f"{source} has {len(time)} samples: a diagnosis needs at least {SHORTEST}")
@@ -138,10 +138,11 @@ def measure_clock(time: Array, source: str) -> Clock:
         raise DataError(f"{source}: all time stamps are equal: give the column of the time of each sample")
     dt = float(np.median(moving))
     even = moving[moving < GAP * dt]
-    return Clock(dt, float(np.std(even) / dt), len(steps) - len(moving), float(moving.max()), max(1, math.ceil(FINEST / dt)))
+    every = max(1, math.ceil(FINEST / dt))
+    return LogClock(dt, float(np.std(even) / dt), len(steps) - len(moving), float(moving.max()), every)
 
 
-def resample(time: Array, columns: Array, clock: Clock, *, step: bool) -> tuple[Array, NDArray[np.bool_]]:
+def resample(time: Array, columns: Array, clock: LogClock, *, step: bool) -> tuple[Array, NDArray[np.bool_]]:
     """Return columns (samples, k) on the even grid of a clock, and which of its points lie in a gap of the log.
 
     Torques that a controller holds (`step`) are not interpolated over a jump, but averaged over the step that follows.

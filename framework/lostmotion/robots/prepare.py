@@ -10,11 +10,11 @@ import numpy as np
 from lostmotion.contracts import Term
 from lostmotion.errors import DataError
 from lostmotion.parts import Array
-from lostmotion.robots.arm import Arm
+from lostmotion.robots.arm import TapedArm
 from lostmotion.robots.candidates import list_effects, make_screen, relinearise
 from lostmotion.robots.discrepancy import LARGE, SIZES, make_discrepancy, make_none
-from lostmotion.robots.effects import Coordinate, measure_scales
-from lostmotion.robots.hypothesis import Frame, fit_hypothesis, list_base
+from lostmotion.robots.effects import ArmCoordinate, measure_scales
+from lostmotion.robots.hypothesis import ArmFrame, fit_hypothesis, list_base
 from lostmotion.robots.log import RobotLog
 from lostmotion.robots.search import ArmSearch, Say
 from lostmotion.robots.tape import Path, make_part, make_tape, smooth_path
@@ -31,7 +31,7 @@ SECONDS = 600.0
 
 
 @dataclass(frozen=True)
-class Options:
+class SearchOptions:
     """How a search is done: the tolerance of known values, the most effects of a set, and its processor time (s)."""
 
     tolerance: float = 0.02
@@ -46,7 +46,7 @@ def make_arm(
     *,
     known: Mapping[str, float] | None = None,
     parts: bool = True,
-) -> Arm:
+) -> TapedArm:
     """Return an arm along the smoothed recorded path, with other `known` values; without its `parts` for a check.
 
     Where the torque is that of the link, the motor with its armature, damping and friction is on the other side of the
@@ -60,10 +60,10 @@ def make_arm(
     if side == "link":
         lost = (".armature", ".damping", ".frictionloss")
         taken = {key: 0.0 if key.endswith(lost) else value for key, value in taken.items()}
-    return Arm(log, tape, made, {**simulator.linear, **taken}, side, inertia)
+    return TapedArm(log, tape, made, {**simulator.linear, **taken}, side, inertia)
 
 
-def renew_tape(arm: Arm, simulator: Simulator, path: Path) -> Arm:
+def renew_tape(arm: TapedArm, simulator: Simulator, path: Path) -> TapedArm:
     """Return the arm with a tape along another path."""
     tape = make_tape(simulator, path)
     return replace(arm, tape=tape, parts={name: make_part(simulator, name, tape) for name in arm.parts}, _cache={})
@@ -79,11 +79,11 @@ def estimate_noise(readings: Array) -> Array:
 
 
 def prepare_search(
-    arm: Arm,
+    arm: TapedArm,
     simulator: Simulator,
     terms: Iterable[Term],
-    estimated: Mapping[str, Coordinate],
-    options: Options,
+    estimated: Mapping[str, ArmCoordinate],
+    options: SearchOptions,
     say: Say = lambda _: None,
 ) -> tuple[ArmSearch, Array]:
     """Return a search, and the coordinates of the nominal fit to start it from."""
@@ -93,7 +93,7 @@ def prepare_search(
     say("nominal model")
     path, at = _filter_path(arm, base, last)
     arm = renew_tape(arm, simulator, path)
-    plain = Frame(arm, (), base, make_none(arm), last).run(at, keep=True)
+    plain = ArmFrame(arm, (), base, make_none(arm), last).run(at, keep=True)
     known = set(estimated)
     both = [
         make_discrepancy(arm, arm.tape.path, arm.tape.path.a, scales, options.tolerance, known, sizes)
@@ -101,14 +101,14 @@ def prepare_search(
     ]
     effects = list_effects(arm, scales, terms, simulator.points, plain)
     screen = make_screen(arm, effects, arm.tape.path.a)
-    frame = Frame(arm, (), base, both[0], last)
+    frame = ArmFrame(arm, (), base, both[0], last)
     search = ArmSearch(frame, screen, both[1], arm.log.samples, options.most, options.budget, say)
     return search, np.concatenate([[c.mean for c in base], np.zeros(len(both[0].columns))])
 
 
-def _filter_path(arm: Arm, base: Sequence[Coordinate], last: int) -> tuple[Path, Array]:
+def _filter_path(arm: TapedArm, base: Sequence[ArmCoordinate], last: int) -> tuple[Path, Array]:
     """Return the filtered path of the nominal model, and its fitted levels."""
-    frame = Frame(arm, (), tuple(base), make_none(arm), last)
+    frame = ArmFrame(arm, (), tuple(base), make_none(arm), last)
     start = np.array([c.mean for c in base])
     found = fit_hypothesis(frame, start, 0.0)
     if found is None:

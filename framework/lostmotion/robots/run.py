@@ -20,13 +20,13 @@ from lostmotion.results.background import Origin, RecordingFacts
 from lostmotion.results.diagnosis import HeldOutScore, HeldOutScores, Labels, Mechanism, ParameterSets
 from lostmotion.results.mismatch import UnexplainedForce
 from lostmotion.results.robots import Check, RobotDiagnosis
-from lostmotion.robots.arm import Arm, can_act
+from lostmotion.robots.arm import TapedArm, can_act
 from lostmotion.robots.case import RobotCase, load_robot_case
 from lostmotion.robots.checks import average, check_log, predict_torque
-from lostmotion.robots.hypothesis import Hypothesis
+from lostmotion.robots.hypothesis import ArmHypothesis
 from lostmotion.robots.page import write_robot_report
-from lostmotion.robots.predict import HORIZON, Prediction, predict_heldout
-from lostmotion.robots.prepare import SECONDS, Options, make_arm, prepare_search
+from lostmotion.robots.predict import HORIZON, FreeRuns, predict_heldout
+from lostmotion.robots.prepare import SECONDS, SearchOptions, make_arm, prepare_search
 from lostmotion.robots.search import ArmSearch
 from lostmotion.robots.tape import Path as RobotPath
 from lostmotion.robots.words import (
@@ -37,7 +37,7 @@ from lostmotion.robots.words import (
     make_interval,
     rank_sets,
 )
-from lostmotion.simulators import Finding
+from lostmotion.simulators import FoundMechanism
 from lostmotion.storage import StoredArray, dataset_of, folder_for, save_datasets, save_json, save_text
 
 Say = Callable[[str], None]
@@ -92,7 +92,7 @@ def diagnose_robot(
     if stopped := [check.says for check in checks if check.stop]:
         raise CaseError(" ".join(stopped))
     terms = [registry.make("term", name) for name in registry.names("term")]
-    options = Options(case.tolerance, budget=SECONDS if budget is None else budget)
+    options = SearchOptions(case.tolerance, budget=SECONDS if budget is None else budget)
     search, start = prepare_search(plain, case.simulator, terms, case.estimate, options, say)
     search.run(start)
     if not search.found:
@@ -103,7 +103,7 @@ def diagnose_robot(
 
 
 def _make_output(
-    case: RobotCase, plain: Arm, search: ArmSearch, checks: Sequence[Check], terms: Sequence[Term]
+    case: RobotCase, plain: TapedArm, search: ArmSearch, checks: Sequence[Check], terms: Sequence[Term]
 ) -> RobotOutput:
     motions = dict(zip(case.simulator.joints, case.simulator.moves, strict=True))
     nominal, best = search.found[frozenset()], search.best
@@ -147,9 +147,7 @@ def _average_path(path: RobotPath, dt: float) -> RobotPath:
     return RobotPath(*(average(x, dt) for x in (path.q, path.v, path.a)))
 
 
-def _summarise(
-    found: Sequence[Mechanism], before: Prediction, after: Prediction, joints: Sequence[str]
-) -> tuple[str, ...]:
+def _summarise(found: Sequence[Mechanism], before: FreeRuns, after: FreeRuns, joints: Sequence[str]) -> tuple[str, ...]:
     """Return the result in sentences."""
     if not found:
         return (
@@ -164,12 +162,12 @@ def _summarise(
     return tuple(told)
 
 
-def _score(told: Prediction, joints: Sequence[str]) -> HeldOutScore:
+def _score(told: FreeRuns, joints: Sequence[str]) -> HeldOutScore:
     by_joint = {joint: float(x) for joint, x in zip(joints, told.nrmse, strict=True)}
     return HeldOutScore(told.log_score, float(np.mean(told.nrmse)), by_joint, HORIZON)
 
 
-def _list_values(one: Hypothesis, motions: dict[str, str]) -> dict[str, Interval]:
+def _list_values(one: ArmHypothesis, motions: dict[str, str]) -> dict[str, Interval]:
     """Return the estimated values of the model, and the random force of each joint."""
     own = [c for c in one.frame.base if not c.key.endswith("_noise")]
     found = {
@@ -187,7 +185,7 @@ def _name_unit(key: str, motions: dict[str, str], unit: str) -> str:
     return "N m" if motions[key.partition(".")[0]] == "rotation" else "N"
 
 
-def _list_noise(one: Hypothesis, motions: dict[str, str]) -> dict[str, Interval]:
+def _list_noise(one: ArmHypothesis, motions: dict[str, str]) -> dict[str, Interval]:
     """Return the noise of each reading."""
     units = {("rotation", "position"): "rad", ("rotation", "velocity"): "rad/s"}
     units |= {("translation", "position"): "m", ("translation", "velocity"): "m/s"}
@@ -229,7 +227,7 @@ def _make_origin(case: RobotCase, search: ArmSearch) -> Origin:
 
 
 def _list_arrays(
-    case: RobotCase, seen: Arm, missing: Array, both: tuple[Prediction, Prediction]
+    case: RobotCase, seen: TapedArm, missing: Array, both: tuple[FreeRuns, FreeRuns]
 ) -> tuple[dict[str, StoredArray], dict[str, StoredArray]]:
     """Return the arrays of the page: the missing torque over the path, and held-out predictions."""
     log, first = case.log, both[0].first
@@ -253,10 +251,10 @@ def _list_arrays(
     return arrays, coords
 
 
-def list_changes(output: RobotOutput) -> tuple[Finding, ...]:
+def list_changes(output: RobotOutput) -> tuple[FoundMechanism, ...]:
     """Return the named mechanisms for a simulator, which writes them into its own file."""
     return tuple(
-        Finding(m.mechanism, m.at, {name: x.median for name, x in m.parameters.items()}, m.says)
+        FoundMechanism(m.mechanism, m.at, {name: x.median for name, x in m.parameters.items()}, m.says)
         for m in output.result.found
         if m.mechanism != "unknown"
     )

@@ -10,10 +10,10 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from lostmotion.parts import Array
-from lostmotion.robots.candidates import Promise, Screen, list_gear_promises, list_promises
+from lostmotion.robots.candidates import ArmPromise, Screen, list_gear_promises, list_promises
 from lostmotion.robots.discrepancy import Discrepancy
-from lostmotion.robots.effects import Effect
-from lostmotion.robots.hypothesis import Frame, Hypothesis, fit_hypothesis, score_heldout
+from lostmotion.robots.effects import ArmEffect
+from lostmotion.robots.hypothesis import ArmFrame, ArmHypothesis, fit_hypothesis, score_heldout
 
 Say = Callable[[str], None]
 Terms = frozenset[str]
@@ -37,14 +37,14 @@ class ArmSearch:
     larger smooth force. `budget` is processor time in s.
     """
 
-    frame: Frame
+    frame: ArmFrame
     screen: Screen
     large: Discrepancy
     samples: int
     most: int
     budget: float
     say: Say = lambda _: None
-    found: dict[Terms, Hypothesis] = field(default_factory=dict)
+    found: dict[Terms, ArmHypothesis] = field(default_factory=dict)
     extended: set[Terms] = field(default_factory=set)
     dropped: set[tuple[Terms, Terms]] = field(default_factory=set)
     skipped: bool = False
@@ -62,7 +62,7 @@ class ArmSearch:
         return best.scatter
 
     @property
-    def best(self) -> Hypothesis:
+    def best(self) -> ArmHypothesis:
         """The hypothesis of the largest score."""
         return max(self.found.values(), key=lambda one: one.score(self.temper))
 
@@ -91,13 +91,13 @@ class ArmSearch:
             self.weigh_unknown(self.found[frozenset()])
         return self
 
-    def _choose_next(self) -> Hypothesis | None:
+    def _choose_next(self) -> ArmHypothesis | None:
         least = self.best.score(self.temper) - REACH
         open_ = [one for terms, one in self.found.items() if terms not in self.extended and len(terms) < self.most]
         near = [one for one in open_ if not one.unknown and one.score(self.temper) > least]
         return max(near, key=lambda one: one.score(self.temper), default=None)
 
-    def extend(self, target: Hypothesis) -> None:
+    def extend(self, target: ArmHypothesis) -> None:
         """Fit the sets with one more effect that promise to be better."""
         temper, small = self.temper, self._make_small(target)
         usual = list_promises(self.screen, target, self.price, temper)[:MOST_FITTED]
@@ -105,7 +105,7 @@ class ArmSearch:
         more = list_promises(self.screen, small, self.price, temper)[:MOST_SMALL] if small is not None else []
         low = target.at[: len(self.frame.arm.joints)] + math.log(SMALL)
         gears = list_gear_promises(self.screen, target, low, self.price, temper)[:MOST_GEARS]
-        wanted: list[tuple[Promise, tuple[float, ...]]] = [(p, (0.0,)) for p in usual if p.gain > 0.0]
+        wanted: list[tuple[ArmPromise, tuple[float, ...]]] = [(p, (0.0,)) for p in usual if p.gain > 0.0]
         wanted += [(p, (math.log(SMALL),)) for p in more if p.gain > 0.0 and p.effect.key not in known]
         wanted += [(p, (0.0, math.log(SMALL))) for p in gears if p.gain > 0.0]
         self.say(f"fits beside {name_set(target.terms)}: {', '.join(p.effect.key for p, _ in wanted) or 'none'}")
@@ -115,7 +115,7 @@ class ArmSearch:
                 return
             self._weigh_beside(target, promise, shifts)
 
-    def _make_small(self, target: Hypothesis) -> Hypothesis | None:
+    def _make_small(self, target: ArmHypothesis) -> ArmHypothesis | None:
         """Return the hypothesis with a small random force, at which slopes of effects that look like noise show."""
         at = target.at.copy()
         at[: len(self.frame.arm.joints)] += math.log(SMALL)
@@ -125,7 +125,7 @@ class ArmSearch:
         precision = seen.information[np.ix_(target.used, target.used)] + np.diag(seen.precision[target.used])
         return replace(target, at=at, expansion=seen, kept=kept, precision=precision)
 
-    def _weigh_beside(self, target: Hypothesis, promise: Promise, shifts: tuple[float, ...]) -> None:
+    def _weigh_beside(self, target: ArmHypothesis, promise: ArmPromise, shifts: tuple[float, ...]) -> None:
         """Fit a set with one more effect, in place of simpler ones that it contains."""
         kept = [e for e in target.frame.effects if e.key not in promise.effect.extends]
         effects = tuple(sorted((*kept, promise.effect), key=lambda e: e.key))
@@ -137,7 +137,7 @@ class ArmSearch:
         }
         self.weigh(effects, self._vary_levels(self._place(effects, known), shifts), target)
 
-    def _move(self, one: Hypothesis, shift: Array) -> Hypothesis:
+    def _move(self, one: ArmHypothesis, shift: Array) -> ArmHypothesis:
         """Return a hypothesis with the coefficients of its discrepancy where a promise expects them."""
         of_discrepancy = np.arange(len(one.at)) >= len(one.frame.own)
         return replace(one, at=one.at + np.where(of_discrepancy, shift, 0.0))
@@ -147,19 +147,19 @@ class ArmSearch:
         first = np.arange(len(at)) < len(self.frame.arm.joints)
         return [np.where(first, at + shift, at) for shift in shifts]
 
-    def _read(self, one: Hypothesis) -> dict[str, float]:
+    def _read(self, one: ArmHypothesis) -> dict[str, float]:
         """Return the coordinates of a hypothesis by key, those of the discrepancy by number."""
         own = {c.key: float(x) for c, x in zip(one.frame.own, one.at, strict=False)}
         return own | {f"#{i}": float(x) for i, x in enumerate(one.at[len(one.frame.own) :])}
 
-    def _place(self, effects: tuple[Effect, ...], known: Mapping[str, float]) -> Array:
+    def _place(self, effects: tuple[ArmEffect, ...], known: Mapping[str, float]) -> Array:
         """Return the coordinates of a frame with some effects."""
         frame = replace(self.frame, effects=effects)
         own = [known.get(c.key, c.mean) for c in frame.own]
         more = [known.get(f"#{i}", 0.0) for i in range(len(frame.discrepancy.columns))]
         return np.array([*own, *more])
 
-    def weigh(self, effects: tuple[Effect, ...], starts: list[Array], beside: Hypothesis | None = None) -> None:
+    def weigh(self, effects: tuple[ArmEffect, ...], starts: list[Array], beside: ArmHypothesis | None = None) -> None:
         """Fit a set of effects from several starts, and keep the best fit with its density of held-out data."""
         frame = replace(self.frame, effects=effects)
         price = sum(self.price + effect.price for effect in effects)
@@ -169,14 +169,14 @@ class ArmSearch:
         if fitted:
             self._keep(max(fitted, key=lambda one: one.log_evidence))
 
-    def _keep(self, made: Hypothesis) -> None:
+    def _keep(self, made: ArmHypothesis) -> None:
         made = replace(made, heldout=score_heldout(made, self.frame.last, self.samples))
         known = self.found.get(made.terms)
         better = known is None or made.log_evidence + made.heldout > known.log_evidence + known.heldout
         if math.isfinite(made.heldout) and better:
             self.found[made.terms] = made
 
-    def drop_each(self, target: Hypothesis) -> None:
+    def drop_each(self, target: ArmHypothesis) -> None:
         """Weigh a set without each of its effects in turn, starting from the set."""
         known = self._read(target)
         for effect in target.frame.effects:
@@ -186,7 +186,7 @@ class ArmSearch:
                 self.dropped.add((target.terms, terms))
                 self.weigh(rest, self._vary_levels(self._place(rest, known)), target)
 
-    def weigh_unknown(self, target: Hypothesis) -> None:
+    def weigh_unknown(self, target: ArmHypothesis) -> None:
         """Fit a set with a smooth force that is larger than the usual discrepancy."""
         if target.unknown:
             return
@@ -200,7 +200,7 @@ class ArmSearch:
             self._keep(replace(made, unknown=True))
 
 
-def _widen(target: Hypothesis, large: Discrepancy) -> tuple[int, ...]:
+def _widen(target: ArmHypothesis, large: Discrepancy) -> tuple[int, ...]:
     """Return the choice of a hypothesis among the options of a larger discrepancy, whose first ones are the same."""
     return tuple(min(option, len(f.options) - 1) for option, f in zip(target.choice, large.forces, strict=True))
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from lostmotion.parts import Array
-from lostmotion.robots.arm import Arm, Column, Filtered
+from lostmotion.robots.arm import Column, FilteredLog, TapedArm
 
 FEWEST, MOST, FINE = 3.0, 150.0, 0.4
 """The numbers of waves within the travel of a joint that are tried, and their distance."""
@@ -15,7 +15,7 @@ KEPT = 2
 """The number of pitches of a joint that are kept."""
 
 
-def find_pitches(arm: Arm, kept: Filtered, joint: int) -> tuple[float, ...]:
+def find_pitches(arm: TapedArm, kept: FilteredLog, joint: int) -> tuple[float, ...]:
     """Return the pitches (rad or m) at which a wave of force at a joint would gain most, beside a filtered model.
 
     Shorter waves than the joint passes in a few samples are not tried.
@@ -35,7 +35,7 @@ def find_pitches(arm: Arm, kept: Filtered, joint: int) -> tuple[float, ...]:
     return tuple(found)
 
 
-def _weigh(arm: Arm, kept: Filtered, joint: int, waves: Array) -> Array:
+def _weigh(arm: TapedArm, kept: FilteredLog, joint: int, waves: Array) -> Array:
     """Return the gain in log-likelihood of a cosine and a sine at each number of waves per unit of position."""
     angle = 2.0 * np.pi * np.outer(waves, arm.tape.path.q[:, joint])
     columns = [Column("wave", joint, f(a)) for a in angle for f in (np.cos, np.sin)]

@@ -12,10 +12,10 @@ from lostmotion.parts import Array
 from lostmotion.results import Interval, attach_unit, percent
 from lostmotion.results.diagnosis import Candidate, Confusion, Mechanism
 from lostmotion.results.robots import Dependence, JointRow
-from lostmotion.robots.arm import Arm
-from lostmotion.robots.effects import Coordinate, Effect, GearEffect, LawEffect, MassEffect
-from lostmotion.robots.hypothesis import Hypothesis
-from lostmotion.robots.predict import Prediction
+from lostmotion.robots.arm import TapedArm
+from lostmotion.robots.effects import ArmCoordinate, ArmEffect, GearEffect, LawEffect, MassEffect
+from lostmotion.robots.hypothesis import ArmHypothesis
+from lostmotion.robots.predict import FreeRuns
 from lostmotion.robots.search import UNKNOWN, ArmSearch, compute_probabilities, find_probabilities
 
 SURE, LIKELY = 0.95, 0.5
@@ -25,12 +25,12 @@ CLOSE = 3.0
 BINS = 16
 
 
-def find_place(effect: Effect) -> str:
+def find_place(effect: ArmEffect) -> str:
     """Return the place of an effect."""
     return effect.key.partition("@")[2]
 
 
-def make_interval(found: Hypothesis, c: Coordinate, motion: str) -> Interval:
+def make_interval(found: ArmHypothesis, c: ArmCoordinate, motion: str) -> Interval:
     """Return median and 95 % interval of a coordinate."""
     index = [own.key for own in found.frame.own].index(c.key)
     middle, sd = float(found.at[index]), found.deviation(c.key)
@@ -41,7 +41,9 @@ def make_interval(found: Hypothesis, c: Coordinate, motion: str) -> Interval:
     return Interval(median, low, high, unit)
 
 
-def describe_effect(found: Hypothesis, effect: Effect, motions: Mapping[str, str]) -> tuple[str, dict[str, Interval]]:
+def describe_effect(
+    found: ArmHypothesis, effect: ArmEffect, motions: Mapping[str, str]
+) -> tuple[str, dict[str, Interval]]:
     """Return the finding in a sentence, and its parameters."""
     at = find_place(effect)
     motion = motions.get(at.partition(".")[0], "rotation")
@@ -99,7 +101,7 @@ def list_findings(search: ArmSearch, motions: Mapping[str, str]) -> tuple[Mechan
     return tuple(found)
 
 
-def _measure_share(found: Hypothesis, effect: Effect, arm: Arm) -> float | None:
+def _measure_share(found: ArmHypothesis, effect: ArmEffect, arm: TapedArm) -> float | None:
     """Return the amplitude of a force over the torque of its joint; None for an effect that is no force."""
     if not isinstance(effect, LawEffect):
         return None
@@ -112,7 +114,7 @@ def _measure_share(found: Hypothesis, effect: Effect, arm: Arm) -> float | None:
     return size / max(float(np.std(arm.log.torque[:, effect.joint])), 1e-300)
 
 
-def _describe_unknown(found: Hypothesis, share: float, state: str) -> Mechanism:
+def _describe_unknown(found: ArmHypothesis, share: float, state: str) -> Mechanism:
     """Return a torque without a name: its joint, its size, and what it depends on."""
     sizes = measure_forces(found)
     joint = max(found.frame.arm.joints, key=lambda j: sum(v for (name, _), v in sizes.items() if name == j))
@@ -127,7 +129,7 @@ def _describe_unknown(found: Hypothesis, share: float, state: str) -> Mechanism:
     )
 
 
-def measure_forces(found: Hypothesis) -> dict[tuple[str, str], float]:
+def measure_forces(found: ArmHypothesis) -> dict[tuple[str, str], float]:
     """Return the rms of each smooth force that is present, by joint and what it depends on (N m)."""
     frame = found.frame
     rest, told = found.at[len(frame.own) :], {}
@@ -184,7 +186,7 @@ def list_confusions(search: ArmSearch) -> tuple[Confusion, ...]:
 
 
 def list_joints(
-    search: ArmSearch, before: tuple[Hypothesis, Prediction], after: tuple[Hypothesis, Prediction],
+    search: ArmSearch, before: tuple[ArmHypothesis, FreeRuns], after: tuple[ArmHypothesis, FreeRuns],
     found: Sequence[Mechanism], motions: Mapping[str, str],
 ) -> tuple[JointRow, ...]:  # fmt: skip
     """Return each joint, before and after."""
@@ -208,7 +210,7 @@ def list_joints(
     return tuple(rows)
 
 
-def describe_dependence(torque: Array, arm: Arm) -> Dependence:
+def describe_dependence(torque: Array, arm: TapedArm) -> Dependence:
     """Return what the missing torque (samples, n) depends on, for the joint at which it is largest in its torque."""
     shares = np.std(torque, axis=0) / np.std(arm.log.torque, axis=0)
     j = int(np.argmax(shares))

@@ -21,7 +21,8 @@ def _make_path(simulator: Simulator) -> tuple[Array, Array, Array]:
     n = len(simulator.joints)
     angle = 2.0 * math.pi * np.outer(np.arange(SAMPLES) / SAMPLES, 1.0 + np.arange(n) % 3) + np.arange(n)
     w = 2.0 * math.pi / PERIOD * (1.0 + np.arange(n) % 3)
-    return TRAVEL * np.sin(angle), TRAVEL * w * np.cos(angle), -TRAVEL * w**2 * np.sin(angle)
+    path = (TRAVEL * np.sin(angle), TRAVEL * w * np.cos(angle), -TRAVEL * w**2 * np.sin(angle))
+    return np.asarray(path[0], float), np.asarray(path[1], float), np.asarray(path[2], float)
 
 
 def _find_mass(simulator: Simulator, q: Array, v: Array) -> Array:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from lostmotion.errors import ContractError
-from lostmotion.simulators import Finding
+from lostmotion.simulators import FoundMechanism
 
 FINE = 5e-4
 """The longest step (s) at which stiff friction and limits hold."""
@@ -19,7 +19,7 @@ MARK = "found by lostmotion"
 
 
 def write_findings(
-    mujoco: Any, spec: Any, found: Sequence[Finding], known: Mapping[str, float]
+    mujoco: Any, spec: Any, found: Sequence[FoundMechanism], known: Mapping[str, float]
 ) -> tuple[str, tuple[str, ...]]:
     """Return the changed MJCF, and notes on what was changed and on what MJCF cannot express.
 
@@ -57,7 +57,7 @@ class _Writer:
             setattr(self.spec.joint(owner), kind, value)
         self.notes.append(f"{name} = {value:.6g}, as the case states.")
 
-    def apply(self, one: Finding) -> None:
+    def apply(self, one: FoundMechanism) -> None:
         """Change the spec by one finding, or note that MJCF cannot express it."""
         change = getattr(self, f"_add_{one.mechanism}", None)
         if change is None:
@@ -71,28 +71,28 @@ class _Writer:
             self.spec.option.timestep = FINE
             self.notes.append(f"the step is {1e3 * FINE:g} ms now: with a longer one friction and limits are soft.")
 
-    def _add_viscous_damping(self, one: Finding) -> None:
+    def _add_viscous_damping(self, one: FoundMechanism) -> None:
         joint = self.spec.joint(one.at)
         _set_first(joint, "damping", _get_first(joint.damping) + one.values["coefficient"])
 
-    def _add_coulomb_friction(self, one: Finding) -> None:
+    def _add_coulomb_friction(self, one: FoundMechanism) -> None:
         joint = self.spec.joint(one.at)
         joint.frictionloss = joint.frictionloss + one.values["force"]
         joint.solref_friction = STIFF
         self._refine()
 
-    def _add_stribeck_friction(self, one: Finding) -> None:
+    def _add_stribeck_friction(self, one: FoundMechanism) -> None:
         self._add_coulomb_friction(one)
         self.notes.append("MJCF has no friction that rises towards rest: only its sliding level is written.")
 
-    def _add_linear_stiffness(self, one: Finding) -> None:
+    def _add_linear_stiffness(self, one: FoundMechanism) -> None:
         joint, more = self.spec.joint(one.at), one.values["coefficient"]
         own = _get_first(joint.stiffness)
         if own + more != 0.0:
             joint.springref = own * joint.springref / (own + more)
         _set_first(joint, "stiffness", own + more)
 
-    def _add_inertia_change(self, one: Finding) -> None:
+    def _add_inertia_change(self, one: FoundMechanism) -> None:
         joint = self.spec.joint(one.at)
         if joint is not None:
             joint.armature = joint.armature + one.values["change"]
@@ -106,7 +106,7 @@ class _Writer:
         if np.isfinite(body.fullinertia).all():
             body.fullinertia = np.array(body.fullinertia) * share
 
-    def _add_payload(self, one: Finding) -> None:
+    def _add_payload(self, one: FoundMechanism) -> None:
         site = self.spec.site(one.at)
         parent, place = (site.parent, site.pos) if site is not None else (self.spec.body(one.at), [0.0, 0.0, 0.0])
         parent.add_body(
@@ -120,17 +120,17 @@ class _Writer:
             self.notes.append(f"the file has no actuator at {joint}: the next line is not written.")
         return found
 
-    def _add_excitation_delay(self, one: Finding) -> None:
+    def _add_excitation_delay(self, one: FoundMechanism) -> None:
         delay = one.values["delay"]
         for actuator in self._list_actuators(one.at.removesuffix(".torque")):
             actuator.delay = delay
             actuator.nsample = math.ceil(delay / self.spec.option.timestep) + 1
 
-    def _add_excitation_gain(self, one: Finding) -> None:
+    def _add_excitation_gain(self, one: FoundMechanism) -> None:
         for actuator in self._list_actuators(one.at.removesuffix(".torque")):
             actuator.gear = np.array(actuator.gear) * (1.0 + one.values["error"])
 
-    def _add_gear(self, one: Finding) -> Any:
+    def _add_gear(self, one: FoundMechanism) -> Any:
         """Return a second joint between motor and link, with the axis of the first one."""
         motor = self.spec.joint(one.at.removesuffix(".gear"))
         self._refine()
@@ -138,13 +138,13 @@ class _Writer:
             name=f"{motor.name}_gear", type=motor.type, axis=motor.axis, pos=motor.pos, armature=0.0
         )
 
-    def _add_joint_elasticity(self, one: Finding) -> None:
+    def _add_joint_elasticity(self, one: FoundMechanism) -> None:
         motor, gear = self.spec.joint(one.at.removesuffix(".gear")), self._add_gear(one)
         _set_first(gear, "stiffness", one.values["stiffness"])
         loss = 2.0 * one.values["damping_ratio"] * math.sqrt(one.values["stiffness"] * motor.armature)
         _set_first(gear, "damping", loss)
 
-    def _add_backlash(self, one: Finding) -> None:
+    def _add_backlash(self, one: FoundMechanism) -> None:
         gear = self._add_gear(one)
         gear.limited, gear.range = self.mujoco.mjtLimited.mjLIMITED_TRUE, (-one.values["gap"], one.values["gap"])
         gear.solref_limit = STIFF

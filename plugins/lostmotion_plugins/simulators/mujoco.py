@@ -13,7 +13,7 @@ import numpy as np
 
 from lostmotion.errors import CaseError, nearest
 from lostmotion.parts import Array
-from lostmotion.simulators import Finding, Simulator
+from lostmotion.simulators import FoundMechanism, Simulator
 from lostmotion_plugins.simulators.mjcf import write_findings
 
 EXAMPLE = """
@@ -192,7 +192,7 @@ class MujocoSimulator(Simulator):
             found[k] = data.qfrc_inverse[dof]
         return found
 
-    def write_found(self, found: Sequence[Finding], known: Mapping[str, float]) -> tuple[str, tuple[str, ...]]:
+    def write_found(self, found: Sequence[FoundMechanism], known: Mapping[str, float]) -> tuple[str, tuple[str, ...]]:
         """Return the MJCF with what was found, and notes; a URDF becomes an MJCF."""
         mujoco = _import_mujoco()
         spec = mujoco.MjSpec.from_file(self.file) if self.file else mujoco.MjSpec.from_string(EXAMPLE)
