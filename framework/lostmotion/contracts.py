@@ -2,8 +2,7 @@
 
 `rhs`, `observe`, `force` and `rate` are scalar Python functions on NumPy arrays. The framework compiles them with numba
 into one kernel, so they may use arithmetic, branches and `math`, but no NumPy functions and no objects. A quantity that
-is *estimated* is an entry of `p`, never a field of the class. `lostmotion plugins check NAME` tests a plugin against
-all rules of its kind. All values are in SI units.
+is *estimated* is an entry of `p`, not a field. `lostmotion plugins check NAME` tests all rules. Values are in SI units.
 """
 
 from __future__ import annotations
@@ -22,6 +21,7 @@ from lostmotion.quantities import Dimension
 from lostmotion.recording.arrays import table_of_arrays
 from lostmotion.recording.table import Table
 from lostmotion.results import Embedding, Estimate
+from lostmotion.simulators import Simulator
 from lostmotion.subjects import Attractors, Data, Flow, Orbit, Series
 
 if TYPE_CHECKING:
@@ -31,8 +31,8 @@ if TYPE_CHECKING:
 __all__ = [
     "KINDS", "PSEUDO_NEEDS", "Array", "Assembly", "Attractors", "Data", "Denoiser", "Drive", "DriveTerm", "Embedder",
     "Engine", "Flow", "Group", "Input", "Interface", "Model", "Motion", "Noise", "NoiseBlock", "NoiseParameter",
-    "Orbit", "Param", "Quantifier", "SensorScales", "SensorTerm", "Series", "Surrogate", "Table", "Term", "Values",
-    "place_of", "table_of_arrays"]  # fmt: skip
+    "Orbit", "Param", "Quantifier", "SensorScales", "SensorTerm", "Series", "Simulator", "Surrogate", "Table", "Term",
+    "Values", "place_of", "table_of_arrays"]  # fmt: skip
 
 _NOWHERE = Interface("", -1, "", lambda y, u: (0.0, 0.0))
 
@@ -396,5 +396,6 @@ class Engine(ABC):
 
 
 KINDS: Mapping[str, type[Any]] = {
-    kind.__name__.lower(): kind for kind in (Model, Term, Embedder, Quantifier, Surrogate, Denoiser, Engine, Noise)
+    kind.__name__.lower(): kind
+    for kind in (Model, Term, Embedder, Quantifier, Surrogate, Denoiser, Engine, Noise, Simulator)
 }

@@ -74,6 +74,12 @@ def lostmotion_noises() -> Mapping[str, str]:
 
 
 @hookspec
+def lostmotion_simulators() -> Mapping[str, str]:
+    """Return `{"name": "package.module:Class"}` for each `Simulator`: a machine with joints, by others."""
+    raise NotImplementedError
+
+
+@hookspec
 def lostmotion_commands() -> Mapping[str, tuple[str, str]]:
     """Return `{"name": ("package.module:command", "One line of help.")}` for each `click.Command`.
 

@@ -98,6 +98,13 @@ def lostmotion_engines() -> dict[str, str]:
 
 
 @hookimpl
+def lostmotion_simulators() -> dict[str, str]:
+    """Return the built-in simulators, under the keys that name their files in a case."""
+    at = f"{_HERE}.simulators.mujoco"
+    return {"mujoco": f"{at}:MujocoSimulator", "urdf": f"{at}:UrdfSimulator"}
+
+
+@hookimpl
 def lostmotion_readers() -> dict[str, tuple[str, str]]:
     """Return the readers of formats whose libraries are extras; they are parts of the framework itself."""
     at = "lostmotion.recording.readers"

@@ -263,13 +263,13 @@ def _read_estimate(model: Fields, known: Mapping[str, float]) -> dict[str, Prior
     both = [name for name in fields.values if name in known]
     if both:
         raise model.error(f"has {both[0]!r} both known and estimated: remove it from one of the two")
-    return {name: _read_prior(fields.table(name), ("each",)) for name in fields.values}
+    return {name: read_prior(fields.table(name), ("each",)) for name in fields.values}
 
 
 def _read_sensor(top: Fields) -> SensorSpec:
     fields = top.maybe_table("sensor").only(SENSOR)
     noise = fields.choice("noise", get_args(Sharing)) if "noise" in fields.values else "each"
-    offset = _read_prior(fields.table("offset")) if "offset" in fields.values else None
+    offset = read_prior(fields.table("offset")) if "offset" in fields.values else None
     return SensorSpec(cast(Sharing, noise), offset)
 
 
@@ -278,7 +278,7 @@ def _read_experiment(top: Fields) -> Experiment:
     return Experiment(**{key: fields.positive(key) for key in fields.values})
 
 
-def _read_prior(fields: Fields, more: tuple[str, ...] = ()) -> Prior:
+def read_prior(fields: Fields, more: tuple[str, ...] = ()) -> Prior:
     """Return a prior; `more` are further keys that are allowed at its place."""
     fields.only((*PRIOR, *more))
     if not any(form <= fields.values.keys() for form in FORMS):

@@ -67,12 +67,27 @@ def command(
 def _diagnose_one(
     ctx: click.Context, case: Path, out: Path, *, quiet: bool, seed: int, jobs: int, settings: Settings
 ) -> None:
+    from lostmotion.robots.case import names_robot
+
+    if names_robot(case, registry_of(ctx)):
+        _diagnose_robot(ctx, case, out, quiet=quiet, settings=settings)
+        return
     from lostmotion.case import GUESSED
     from lostmotion.diagnosis.run import run_diagnosis
 
     with show_progress("diagnose", quiet=quiet) as say:
         found = run_diagnosis(case, out, registry_of(ctx), seed=seed, jobs=jobs, say=say, settings=settings)
     for sentence in (*found.says, *(note for note in found.notes if note.startswith(GUESSED))):
+        click.echo(sentence)
+    click.echo(str(out / "report.html"))
+
+
+def _diagnose_robot(ctx: click.Context, case: Path, out: Path, *, quiet: bool, settings: Settings) -> None:
+    from lostmotion.robots.run import run_robot
+
+    with show_progress("diagnose", quiet=quiet) as say:
+        found = run_robot(case, out, registry_of(ctx), budget=settings.select.budget or None, say=say)
+    for sentence in found.says:
         click.echo(sentence)
     click.echo(str(out / "report.html"))
 

@@ -179,7 +179,8 @@ def attributes_are_complete(component: Any) -> str:
 def methods_have_the_arguments_of_the_contract(component: Any) -> str:
     """Copy the line with `def` from the contract: the framework passes exactly these arguments in this order."""
     base = _contract_of(component)
-    for name in sorted(base.__abstractmethods__ | (set(vars(base)) & {"rate"})):
+    methods = {name for name in base.__abstractmethods__ if not isinstance(vars(base).get(name), property)}
+    for name in sorted(methods | (set(vars(base)) & {"rate"})):
         wanted, own = _argument_names(base, name), _argument_names(type(component), name)
         if own != wanted:
             return f"{name} takes ({join_words(own)}), where ({join_words(wanted)}) is expected"

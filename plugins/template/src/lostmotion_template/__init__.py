@@ -18,6 +18,12 @@ def lostmotion_terms() -> dict[str, str]:
 
 
 @hookimpl
+def lostmotion_simulators() -> dict[str, str]:
+    """Return the simulators of this package, under the keys that name their files in a case."""
+    return {"two_link": f"{_HERE}.simulators:TwoLink"}
+
+
+@hookimpl
 def lostmotion_commands() -> dict[str, tuple[str, str]]:
     """Return the commands of this package, each with its line in `lostmotion --help`."""
     return {"crest": (f"{_HERE}.commands:crest", "Tell how far the peaks of a recording reach beyond its rms.")}

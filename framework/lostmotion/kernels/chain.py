@@ -1,0 +1,381 @@
+"""The filter of a chain of joints along a tape, and the derivatives of its one-step errors.
+
+The multibody part is linear along the recorded path, tau = M a + h + Kq (q - q0) + Kv (v - v0), so one step of the
+filter is that of a Kalman filter. Forces of laws at joints follow the step: their mean, slope and remaining variance
+under the uncertainty of the state are found by Gauss-Hermite quadrature (statistical linearisation). A dry friction
+that is a line of width `force * mobility` around zero velocity then is the impulse that holds the joint, as in time
+stepping with set-valued friction (Moreau, 1988), averaged over the uncertainty.
+
+States are the positions (n,), the velocities (n,), then position and velocity of each motor behind a gear.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numba
+import numpy as np
+
+from lostmotion.kernels import vector
+from lostmotion.kernels.vector import STRIDE
+
+pointer: Any = vector.pointer
+call: Any = vector.call
+
+_FEW = np.polynomial.hermite_e.hermegauss(3)
+_MANY = np.polynomial.hermite_e.hermegauss(14)
+FEW, FEW_SHARES = _FEW[0], _FEW[1] / _FEW[1].sum()
+MANY, MANY_SHARES = _MANY[0], _MANY[1] / _MANY[1].sum()
+"""Nodes and weights of Gauss-Hermite quadrature: far from zero velocity, where laws are smooth, and near it."""
+RUNAWAY = 1e6
+"""A velocity (SI) that no machine reaches: the filter has diverged."""
+_RT2, _RT2PI = math.sqrt(2.0), math.sqrt(2.0 * math.pi)
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def clip_moments(m, s, c):  # type: ignore[no-untyped-def]
+    """Return mean, slope and remaining variance of clip(d, -c, c) for d of mean `m` and standard deviation `s`."""
+    a, b = (-c - m) / s, (c - m) / s
+    if a > 8.0:
+        return -c, 0.0, 0.0
+    if b < -8.0:
+        return c, 0.0, 0.0
+    below, above = 0.5 * math.erfc(-a / _RT2), 0.5 * math.erfc(b / _RT2)
+    fa = math.exp(-0.5 * a * a) / _RT2PI if abs(a) < 30.0 else 0.0
+    fb = math.exp(-0.5 * b * b) / _RT2PI if abs(b) < 30.0 else 0.0
+    p = 1.0 - below - above
+    mean = c * (above - below) + m * p + s * (fa - fb)
+    square = c * c * (below + above) + (m * m + s * s) * p + 2.0 * m * s * (fa - fb) + s * s * (a * fa - b * fb)
+    return mean, p, max(square - mean * mean - p * p * s * s, 0.0)
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def _average_laws(t, q, v, sq, sv, j, mobility, step, joints, addresses, firsts, widths, needs, numbers, own, desk):  # type: ignore[no-untyped-def]
+    """Return the mean force of the laws of a joint, its slopes over position and velocity, and its variance."""
+    spread = 6.0 * sv
+    near = abs(v) < spread + 1e-9
+    for a in range(len(joints)):
+        if joints[a] == j:  # the width of the line of dry friction: a force times the mobility
+            for b in range(widths[a]):
+                if needs[firsts[a] + b] == 1 and abs(v) < spread + 3.0 * mobility * abs(numbers[firsts[a]]):
+                    near = True
+    count = len(MANY) if near else len(FEW)
+    lanes = count + 2
+    for o in range(lanes):
+        node = 0.0
+        if o < count:
+            node = MANY[o] if near else FEW[o]
+        desk[0, o], desk[2, o], desk[3, o] = t, v + sv * node, 0.0
+        desk[1, o] = q + (sq if o == count else (-sq if o == count + 1 else 0.0))
+    mean, square, slope, slant = 0.0, 0.0, 0.0, 0.0
+    total = desk[4]
+    for o in range(lanes):
+        total[o] = 0.0
+    for a in range(len(joints)):
+        if joints[a] != j:
+            continue
+        for b in range(widths[a]):
+            kind = needs[firsts[a] + b]
+            number = numbers[firsts[a] + b]
+            if kind == 1:
+                number = mobility
+            elif kind == 2:
+                number = step
+            elif kind == 3:
+                number = step / mobility
+            for o in range(lanes):
+                own[b, o] = number
+        if call(addresses[a], pointer(own), pointer(desk), lanes) != 0:
+            return math.nan, 0.0, 0.0, 0.0
+        for o in range(lanes):
+            total[o] += desk[3, o]
+    for o in range(count):
+        share = MANY_SHARES[o] if near else FEW_SHARES[o]
+        node = MANY[o] if near else FEW[o]
+        mean += share * total[o]
+        square += share * total[o] * total[o]
+        slope += share * node * total[o]
+    slope /= sv
+    slant = (total[count] - total[count + 1]) / (2.0 * sq)
+    return mean, slant, slope, max(square - mean * mean - slope * slope * sv * sv, 0.0)
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def filter_chain(  # type: ignore[no-untyped-def]
+    z, picks, dt, coarse, fine, inverses, Kq, KV, h, q0, v0, tau, S, R, motors, gears, joints, addresses, firsts,
+    widths, needs, numbers, x0, P0, errors, variances, states, accelerations, gains, moves, pushes,
+):  # fmt: skip
+    """Write one-step errors and their variances, (samples, readings); return the number of samples that were filtered.
+
+    `z` (samples, readings) may hold NaN, `picks` are the states that are read. A sample has `coarse` steps, or
+    `fine` ones while a law may change its sign; `inverses` (2, samples, n, n) are those of M + hs / 2 KV for the two
+    lengths hs of a step. `h` already holds - Kv v0. `tau` (samples, n) acts over the sample
+    that follows, `S` (n,) is the intensity of the random force (N m)^2 s and `R` (readings,) the variance of readings.
+    `motors` (n,) is the position of the motor of a joint in the state, or -1; `gears` (n, 5) holds half of its play,
+    stiffness, damping, one over its inertia, and its viscous damping. Laws have a joint, an address, and numbers. Where
+    `moves` has a row for each sample, `states`, `gains`, `accelerations`, and the transitions `moves` (samples, L, L)
+    and `pushes` (samples, L, n) are written too.
+    """
+    N, m = z.shape
+    n = Kq.shape[1]
+    L = len(x0)
+    keep = len(moves) == N
+    x, P = x0.copy(), P0.copy()
+    A, T, F, E = np.zeros((L, L)), np.zeros((L, L)), np.zeros((L, L)), np.zeros((L, n))
+    Y, y, g, d, f, up = np.zeros((n, L)), np.zeros(n), np.zeros(L), np.zeros(L), np.zeros(L), np.zeros(L)
+    own, desk = np.zeros((16, STRIDE)), np.zeros((8, STRIDE))
+    active = np.zeros(n, dtype=np.bool_)
+    for a in range(len(joints)):
+        active[joints[a]] = True
+    past = np.zeros(n)
+    for k in range(N):
+        for i in range(m):
+            if z[k, i] != z[k, i]:
+                errors[k, i], variances[k, i] = 0.0, 1.0 / (2.0 * math.pi)
+                if keep:
+                    gains[k, i, :] = 0.0
+                continue
+            c = picks[i]
+            s, e = P[c, c] + R[i], z[k, i] - x[c]
+            errors[k, i], variances[k, i] = e, s
+            for a in range(L):
+                g[a] = P[a, c] / s
+            if keep:
+                gains[k, i, :] = g
+            for a in range(L):
+                x[a] += g[a] * e
+                for b in range(a + 1):
+                    P[a, b] -= g[a] * g[b] * s
+                    P[b, a] = P[a, b]
+        if keep:
+            states[k] = x
+        if not abs(x[n]) < RUNAWAY:
+            return k
+        if k == N - 1:
+            break
+        if keep:
+            F[:] = 0.0
+            E[:] = 0.0
+            for a in range(L):
+                F[a, a] = 1.0
+            for i in range(n):
+                accelerations[k, i] = -x[n + i] / dt
+        steps, W = coarse, inverses[0]
+        if fine > coarse:
+            for i in range(n):
+                c = n + i if motors[i] < 0 else motors[i] + 1
+                if active[i] and abs(x[c]) < 6.0 * math.sqrt(P[c, c]) + 2.0 * abs(x[c] - past[i]):
+                    steps, W = fine, inverses[1]
+                past[i] = x[c]
+        hs = dt / steps
+        for s in range(steps):
+            off = ((s + 0.5) / steps - 0.5) * dt
+            for i in range(n):
+                r = tau[k, i] - h[k, i]
+                for b in range(L):
+                    Y[i, b] = 0.0
+                for j in range(n):
+                    r -= Kq[k, i, j] * (x[j] + 0.5 * hs * x[n + j] - q0[k, j] - off * v0[k, j]) + KV[k, i, j] * x[n + j]
+                    Y[i, j] -= Kq[k, i, j]
+                    Y[i, n + j] -= KV[k, i, j] + 0.5 * hs * Kq[k, i, j]
+                y[i] = r
+            for a in range(L):
+                for b in range(L):
+                    A[a, b] = 0.0
+                f[a] = 0.0
+            for i in range(n):
+                w = motors[i]
+                if w < 0:
+                    continue
+                play, stiff, loss, light, drag = gears[i]
+                twist = x[w] + 0.5 * hs * x[w + 1] - x[i] - 0.5 * hs * x[n + i]
+                spread = math.sqrt(max(P[w, w] + P[i, i] - 2.0 * P[w, i], 1e-24))
+                mid, p, left = clip_moments(twist, spread, play)
+                share = 1.0 - p
+                pull = stiff * (twist - mid) + loss * share * (x[w + 1] - x[n + i])
+                y[i] += pull - tau[k, i]
+                a1, a2 = stiff * share, loss * share + 0.5 * hs * stiff * share
+                Y[i, w] += a1
+                Y[i, i] -= a1
+                Y[i, w + 1] += a2
+                Y[i, n + i] -= a2
+                f[w + 1] = light * (tau[k, i] - drag * x[w + 1] - pull)
+                A[w + 1, w] = -hs * light * a1
+                A[w + 1, i] = hs * light * a1
+                A[w + 1, w + 1] = 1.0 - hs * light * (drag + a2)
+                A[w + 1, n + i] = hs * light * a2
+                up[i] = stiff * stiff * left
+            for i in range(n):
+                r = 0.0
+                for j in range(n):
+                    r += W[k, i, j] * y[j]
+                f[n + i] = r
+                for b in range(L):
+                    r = 0.0
+                    for j in range(n):
+                        r += W[k, i, j] * Y[j, b]
+                    A[n + i, b] = hs * r
+                A[n + i, n + i] += 1.0
+            for i in range(n):
+                for b in range(L):
+                    A[i, b] = 0.5 * hs * A[n + i, b]
+                A[i, i] += 1.0
+                A[i, n + i] += 0.5 * hs
+                x[i] += hs * (x[n + i] + 0.5 * hs * f[n + i])
+                x[n + i] += hs * f[n + i]
+                w = motors[i]
+                if w >= 0:
+                    for b in range(L):
+                        A[w, b] = 0.5 * hs * A[w + 1, b]
+                    A[w, w] += 1.0
+                    A[w, w + 1] += 0.5 * hs
+                    x[w] += hs * (x[w + 1] + 0.5 * hs * f[w + 1])
+                    x[w + 1] += hs * f[w + 1]
+            for a in range(L):
+                for b in range(L):
+                    r = 0.0
+                    for c in range(L):
+                        r += A[a, c] * P[c, b]
+                    T[a, b] = r
+            for a in range(L):
+                for b in range(a + 1):
+                    r = 0.0
+                    for c in range(L):
+                        r += T[a, c] * A[b, c]
+                    P[a, b] = r
+                    P[b, a] = r
+            if keep:
+                T[:] = A @ F
+                F[:] = T
+                E[:] = A @ E
+            for i in range(n):
+                w = motors[i]
+                force = S[i] * hs
+                if w >= 0:
+                    light = gears[i, 3]
+                    more = light * light * (force + up[i] * hs * hs)
+                    P[w + 1, w + 1] += more
+                    P[w, w] += more * hs * hs / 3.0
+                    P[w, w + 1] += 0.5 * more * hs
+                    P[w + 1, w] += 0.5 * more * hs
+                    force = up[i] * hs * hs
+                    if keep:
+                        E[w + 1, i] += hs * light
+                        E[w, i] += 0.5 * hs * hs * light
+                elif keep:
+                    for a in range(n):
+                        E[n + a, i] += hs * W[k, a, i]
+                        E[a, i] += 0.5 * hs * hs * W[k, a, i]
+                for a in range(n):
+                    for b in range(n):
+                        more = W[k, a, i] * W[k, b, i] * force
+                        P[n + a, n + b] += more
+                        P[a, b] += more * hs * hs / 3.0
+                        P[a, n + b] += 0.5 * more * hs
+                        P[n + a, b] += 0.5 * more * hs
+            for i in range(n):
+                if not active[i]:
+                    continue
+                w = motors[i]
+                b, c = (i, n + i) if w < 0 else (w, w + 1)
+                ease = W[k, i, i] if w < 0 else gears[i, 3]
+                sq, sv = math.sqrt(max(P[b, b], 1e-24)), math.sqrt(max(P[c, c], 1e-24))
+                mean, slant, slope, left = _average_laws(
+                    (k + (s + 0.5) / steps) * dt, x[b] - 0.5 * hs * x[c], x[c], sq, sv, i, hs * ease, hs, joints,
+                    addresses, firsts, widths, needs, numbers, own, desk)  # fmt: skip
+                for a in range(L):
+                    g[a] = 0.0
+                if w < 0:
+                    for a in range(n):
+                        g[n + a] = hs * W[k, a, i]
+                        g[a] = 0.5 * hs * g[n + a]
+                else:
+                    g[w + 1] = hs * ease
+                    g[w] = 0.5 * hs * g[w + 1]
+                inner = slant * slant * P[b, b] + 2.0 * slant * slope * P[b, c] + slope * slope * P[c, c] + left
+                for a in range(L):
+                    x[a] += g[a] * mean
+                    d[a] = slant * P[a, b] + slope * P[a, c]
+                for a in range(L):
+                    for j in range(L):
+                        P[a, j] += g[a] * d[j] + d[a] * g[j] + inner * g[a] * g[j]
+                if keep:
+                    for a in range(L):
+                        d[a] = slant * F[b, a] + slope * F[c, a]
+                    for a in range(L):
+                        for j in range(L):
+                            F[a, j] += g[a] * d[j]
+                    for j in range(n):
+                        d[j] = slant * E[b, j] + slope * E[c, j]
+                    for a in range(L):
+                        for j in range(n):
+                            E[a, j] += g[a] * d[j]
+        if keep:
+            moves[k] = F
+            pushes[k] = E
+            for i in range(n):
+                accelerations[k, i] += x[n + i] / dt
+    return N
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def differentiate_errors(picks, gains, moves, pushes, joints, columns, shifts, found):  # type: ignore[no-untyped-def]
+    """Write the derivatives of one-step errors with respect to coefficients of forces into `found`.
+
+    `columns` (count, samples) are the forces of unit coefficients at the joint `joints[c]` (at all joints where it is
+    negative: then row c + j of `columns` is the force at joint j, and only the first row counts). `shifts`
+    (count, readings) are shifts of the readings by a unit coefficient. `found` is (count, samples, readings). The gains
+    of the filter are held: they do not depend on forces as long as the laws are linear.
+    """
+    N, m, L = gains.shape
+    n = pushes.shape[2]
+    count = len(joints)
+    D, T = np.zeros((L, count)), np.zeros((L, count))
+    e = np.zeros(count)
+    for k in range(N):
+        for i in range(m):
+            c = picks[i]
+            for b in range(count):
+                e[b] = shifts[b, i] - D[c, b]
+                found[b, k, i] = e[b]
+            for a in range(L):
+                r = gains[k, i, a]
+                for b in range(count):
+                    D[a, b] += r * e[b]
+        if k == N - 1:
+            break
+        for a in range(L):
+            for b in range(count):
+                T[a, b] = 0.0
+            for c in range(L):
+                r = moves[k, a, c]
+                for b in range(count):
+                    T[a, b] += r * D[c, b]
+            for b in range(count):
+                j = joints[b]
+                if j >= 0:
+                    T[a, b] += pushes[k, a, j] * columns[b, k]
+                elif j == -1:
+                    for i in range(n):
+                        T[a, b] += pushes[k, a, i] * columns[b + i, k]
+        for a in range(L):
+            for b in range(count):
+                D[a, b] = T[a, b]
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def evaluate_law(address, numbers, t, q, v, found):  # type: ignore[no-untyped-def]
+    """Write the force of a law with all its `numbers` at times, positions and velocities (samples,) into `found`."""
+    own, desk = np.zeros((16, STRIDE)), np.zeros((8, STRIDE))
+    for first in range(0, len(t), STRIDE):
+        lanes = min(STRIDE, len(t) - first)
+        for o in range(lanes):
+            desk[0, o], desk[1, o], desk[2, o] = t[first + o], q[first + o], v[first + o]
+            for a in range(len(numbers)):
+                own[a, o] = numbers[a]
+        if call(address, pointer(own), pointer(desk), lanes) != 0:
+            return False
+        for o in range(lanes):
+            found[first + o] = desk[3, o]
+    return True

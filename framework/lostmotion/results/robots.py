@@ -1,0 +1,71 @@
+"""The result of a diagnosis of a robot: what `diagnosis.json` holds besides the keys of any diagnosis."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from lostmotion.codec import described
+from lostmotion.results import Interval
+from lostmotion.results.background import Origin, RecordingFacts
+from lostmotion.results.diagnosis import SCHEMA, Candidate, Confusion, HeldOutScores, Labels, Mechanism, ParameterSets
+from lostmotion.results.mismatch import UnexplainedForce
+
+
+@dataclass(frozen=True)
+class Check:
+    """Something that was looked at before any fit."""
+
+    name: str = described("motion, unit, order, gravity, sign, torque, side, clock or parameters")
+    joint: str = described("the joint; empty where it concerns all")
+    passed: bool = described("whether nothing is wrong")
+    says: str = described("what was found, with the remedy")
+    stop: bool = described("whether a diagnosis is meaningless before it is corrected", default=False, spare=True)
+
+
+@dataclass(frozen=True)
+class Dependence:
+    """What the missing torque depends on."""
+
+    summary: str = described("the joint and the quantities, in a sentence")
+    explained_by: Mapping[str, float] = described("the share that each quantity explains, for the joint with the most")
+
+
+@dataclass(frozen=True)
+class JointRow:
+    """A joint before and after."""
+
+    joint: str = described("its name")
+    unit: str = described("unit of torques")
+    torque: float = described("standard deviation of its torque, in `unit`")
+    random_before: float = described("rms of its random force in a sample, nominal model, in `unit`")
+    random_after: float = described("the same with the found mechanisms")
+    nrmse_before: float = described("error of free runs over held-out data, nominal model")
+    nrmse_after: float = described("the same with the found mechanisms")
+    white_before: float = described("variance of standardised one-step errors on held-out data, nominal model")
+    white_after: float = described("the same with the found mechanisms")
+    found: tuple[str, ...] = described("the mechanisms found there")
+
+
+@dataclass(frozen=True, kw_only=True)
+class RobotDiagnosis:
+    """The result of a diagnosis of a robot: the content of `diagnosis.json`."""
+
+    title: str = described("title of the case")
+    schema: str = described("name and number of this format", default=SCHEMA)
+    verdict: str = described("`adequate`: this log shows no missing physics; or `mismatch`")
+    says: tuple[str, ...] = described("the result in sentences")
+    checks: tuple[Check, ...] = described("what was looked at before any fit")
+    found: tuple[Mechanism, ...] = described("the missing mechanisms; empty where the verdict is `adequate`")
+    ranking: tuple[Candidate, ...] = described("every set of mechanisms that was fitted, the most probable first")
+    confused_with: tuple[Confusion, ...] = described("mechanisms that this log cannot distinguish from the found ones")
+    unexplained: UnexplainedForce = described("the remaining random force at the joint where it is largest")
+    where: Dependence = described("dependence of the missing torque, before")
+    parameters: ParameterSets = described("the parameters of the model, before and after")
+    fit: HeldOutScores = described("predictions of held-out data, before and after")
+    model: Labels = described("the models in words")
+    joints: tuple[JointRow, ...] = described("each joint, before and after")
+    noise: Mapping[str, Interval] = described("noise of each encoder, after")
+    recordings: tuple[RecordingFacts, ...] = described("the log")
+    notes: tuple[str, ...] = described("limitations and remarks, in sentences")
+    provenance: Origin = described("versions, settings and digests of the inputs")

@@ -1,0 +1,83 @@
+"""The contract of a simulator: a machine with many joints that somebody else has written."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
+from typing import ClassVar, NamedTuple
+
+from lostmotion.parts import Array
+
+
+class FoundMechanism(NamedTuple):
+    """A mechanism that a machine lacks: its name, its place, its parameters (SI), and what it is in a sentence."""
+
+    mechanism: str
+    at: str
+    values: Mapping[str, float]
+    says: str
+
+
+class Simulator(ABC):
+    """The user's own simulation of a machine with n joints, each with a position that is measured.
+
+    It is only asked for its inverse dynamics, in batches, along a recorded path. `joints` names the joints, `motions`
+    is "rotation" (rad, N m) or "translation" (m, N) of each. `taken` are the values of what `inverse` leaves out, so
+    that it can be estimated: "elbow.damping", "elbow.frictionloss", "elbow.armature", "elbow.stiffness" and
+    "elbow.rest" (the position at which that spring is relaxed), in SI units; what is not listed is zero. `linear` are
+    values on which `inverse` depends linearly, such as "fore.mass"; `changed` returns the simulator with others.
+    `points` names places at which a mass may be added: "tip.payload" is then a name that `changed` knows as well.
+    """
+
+    name: ClassVar[str]
+    paper: ClassVar[str]
+
+    @property
+    @abstractmethod
+    def joints(self) -> tuple[str, ...]:
+        """The names of the joints, in the order of the columns of all arrays."""
+
+    @property
+    def moves(self) -> tuple[str, ...]:
+        """The kind of motion of each joint: "rotation" or "translation"."""
+        return ("rotation",) * len(self.joints)
+
+    @property
+    def taken(self) -> Mapping[str, float]:
+        """The values of damping, friction, armature and springs that `inverse` leaves out, by `joint.name`."""
+        return {}
+
+    @property
+    def linear(self) -> Mapping[str, float]:
+        """The values on which `inverse` depends linearly, by `body.name`, in SI units."""
+        return {}
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        """The places at which a payload may be carried."""
+        return ()
+
+    @property
+    def step(self) -> float | None:
+        """The time step (s) at which the simulator integrates; None where it does not integrate."""
+        return None
+
+    @abstractmethod
+    def inverse(self, q: Array, v: Array, a: Array) -> Array:
+        """Return the joint torques (samples, n) that give accelerations `a` at positions `q` and velocities `v`.
+
+        All arrays are (samples, n), in SI units. The result is M(q) a + c(q, v) + g(q), without what is `taken` out.
+        """
+
+    def changed(self, values: Mapping[str, float]) -> Simulator:
+        """Return the simulator with other values of some of `linear`, or with a payload (kg) at some of `points`."""
+        raise NotImplementedError(f"{self.name} has no values that can be changed")
+
+    def write_found(
+        self, found: Sequence[FoundMechanism], known: Mapping[str, float]
+    ) -> tuple[str, tuple[str, ...]] | None:
+        """Return the file of the simulator with what was found in it, and what it cannot express; None without a file.
+
+        `known` are values that a case states in place of those in the file.
+        """
+        return None

@@ -1,0 +1,234 @@
+"""Machines in MJCF or URDF files, through MuJoCo. This is the only module that imports it."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any, ClassVar
+
+import numpy as np
+
+from lostmotion.errors import CaseError, nearest
+from lostmotion.parts import Array
+from lostmotion.simulators import FoundMechanism, Simulator
+from lostmotion_plugins.simulators.mjcf import write_findings
+
+EXAMPLE = """
+<mujoco model="arm">
+  <compiler angle="radian"/>
+  <worldbody>
+    <body name="upper">
+      <joint name="shoulder" axis="0 -1 0" armature="0.3" damping="0.5"/>
+      <inertial pos="0.2 0 0" mass="3" diaginertia="0.05 0.05 0.05"/>
+      <body name="fore" pos="0.4 0 0">
+        <joint name="elbow" axis="0 -1 0" armature="0.1" damping="0.3"/>
+        <inertial pos="0.15 0 0" mass="2" diaginertia="0.03 0.03 0.03"/>
+        <site name="tip" pos="0.35 0 0"/>
+      </body>
+    </body>
+  </worldbody>
+</mujoco>
+"""
+"""The machine that is used where no file is given: an arm with two joints that moves in a vertical plane."""
+_MOTIONS = {2: "translation", 3: "rotation"}
+"""The kinds of MuJoCo's slide and hinge joints."""
+_PAYLOAD = ".payload"
+
+
+def _import_mujoco() -> Any:
+    try:
+        import mujoco
+    except ImportError as err:
+        raise CaseError('MJCF and URDF files need MuJoCo: install it with pip install "lostmotion[mujoco]"') from err
+    return mujoco
+
+
+@dataclass(frozen=True)
+class MujocoSimulator(Simulator):
+    """A machine in an MJCF or URDF `file`, or the example arm; `moving` are the joints that move, all if empty.
+
+    The other joints are held at the positions of the file. Contacts, limits, actuators and equality constraints are
+    switched off: the recorded torque is that of the joints. `values` are those that were changed.
+    """
+
+    file: str = ""
+    moving: tuple[str, ...] = ()
+    values: tuple[tuple[str, float], ...] = ()
+    name: ClassVar[str] = "mujoco"
+    paper: ClassVar[str] = "Todorov, Erez, Tassa, IEEE/RSJ Int. Conf. Intelligent Robots and Systems (2012) 5026-5033"
+
+    @cached_property
+    def _source(self) -> Any:
+        """The model as the file has it."""
+        mujoco = _import_mujoco()
+        try:
+            if self.file:
+                return mujoco.MjModel.from_xml_path(str(Path(self.file)))
+            return mujoco.MjModel.from_xml_string(EXAMPLE)
+        except (ValueError, OSError) as err:
+            raise CaseError(f"{self.file} cannot be read by MuJoCo ({' '.join(str(err).split())[:300]})") from err
+
+    @cached_property
+    def _model(self) -> Any:
+        """The model without damping, friction, armature and springs, with changed values."""
+        mujoco, model = _import_mujoco(), copy.copy(self._source)
+        self._refuse(model)
+        for part in (model.dof_damping, model.dof_frictionloss, model.dof_armature, model.jnt_stiffness):
+            part[:] = 0.0
+        off = mujoco.mjtDisableBit
+        names = ("CONTACT", "LIMIT", "ACTUATION", "FRICTIONLOSS", "EQUALITY", "CONSTRAINT")
+        for name in names:
+            model.opt.disableflags |= int(getattr(off, f"mjDSBL_{name}", 0))
+        for name, value in self.values:
+            if name.endswith(_PAYLOAD):
+                _add_mass(model, *self._find_point(name.removesuffix(_PAYLOAD)), value)
+            else:
+                body = self._bodies[name.removesuffix(".mass")]
+                model.body_inertia[body] *= value / model.body_mass[body]
+                model.body_mass[body] = value
+        return model
+
+    @staticmethod
+    def _refuse(model: Any) -> None:
+        """Raise `CaseError` for a machine that a tape cannot describe."""
+        kinds = set(np.asarray(model.jnt_type).tolist())
+        if not kinds <= set(_MOTIONS):
+            raise CaseError(
+                "the model has a free or a ball joint, so its base floats or a joint has no single encoder: only hinge"
+                " and slide joints can be diagnosed; fix the base in the file"
+            )
+        if model.ntendon:
+            raise CaseError("the model has tendons, which cannot be diagnosed yet: use a model without them")
+
+    @cached_property
+    def _names(self) -> dict[str, int]:
+        """The joints of the file with their numbers."""
+        return {self._source.joint(i).name or f"joint{i + 1}": i for i in range(self._source.njnt)}
+
+    @cached_property
+    def _bodies(self) -> dict[str, int]:
+        return {self._source.body(i).name or f"body{i}": i for i in range(1, self._source.nbody)}
+
+    @cached_property
+    def _moved(self) -> list[int]:
+        """The numbers of the joints that move."""
+        for name in self.moving:
+            if name not in self._names:
+                raise CaseError(
+                    f"the model has no joint {name!r}{nearest(name, self._names)}: it has {', '.join(self._names)}"
+                )
+        return [self._names[name] for name in self.moving or self._names]
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        return self.moving or tuple(self._names)
+
+    @property
+    def moves(self) -> tuple[str, ...]:
+        return tuple(_MOTIONS.get(int(self._source.jnt_type[i]), "rotation") for i in self._moved)
+
+    @property
+    def taken(self) -> Mapping[str, float]:
+        source = self._source
+        found: dict[str, float] = {}
+        for name, i in zip(self.joints, self._moved, strict=True):
+            dof, at = int(source.jnt_dofadr[i]), int(source.jnt_qposadr[i])
+            own = {
+                "damping": source.dof_damping[dof],
+                "frictionloss": source.dof_frictionloss[dof],
+                "armature": source.dof_armature[dof],
+                "stiffness": source.jnt_stiffness[i],
+                "rest": source.qpos_spring[at],
+            }
+            found |= {f"{name}.{key}": float(np.ravel(value)[0]) for key, value in own.items()}
+        return found
+
+    @property
+    def linear(self) -> Mapping[str, float]:
+        """The masses of the bodies that the joints move; the inertia about the centre changes in proportion."""
+        model, moved = self._source, {int(self._source.jnt_bodyid[i]) for i in self._moved}
+        found = dict(self.values)
+        for name, body in self._bodies.items():
+            at, carried = body, False
+            while at > 0:
+                carried |= at in moved
+                at = int(model.body_parentid[at])
+            if carried and model.body_mass[body] > 0.0:
+                found.setdefault(f"{name}.mass", float(model.body_mass[body]))
+        return {key: value for key, value in found.items() if key.endswith(".mass")}
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        sites = tuple(self._source.site(i).name for i in range(self._source.nsite) if self._source.site(i).name)
+        return sites or (list(self._bodies)[-1],)
+
+    @property
+    def step(self) -> float | None:
+        return float(self._source.opt.timestep)
+
+    def _find_point(self, name: str) -> tuple[int, Array]:
+        """Return the body of a site or a body by name, and the position of the point in its frame."""
+        model = self._source
+        for i in range(model.nsite):
+            if model.site(i).name == name:
+                return int(model.site_bodyid[i]), np.array(model.site_pos[i])
+        body = self._bodies[name]
+        return body, np.array(model.body_ipos[body])
+
+    def inverse(self, q: Array, v: Array, a: Array) -> Array:
+        mujoco, model = _import_mujoco(), self._model
+        data = mujoco.MjData(model)
+        rest, found = np.array(model.qpos0), np.zeros_like(q)
+        at = [int(model.jnt_qposadr[i]) for i in self._moved]
+        dof = [int(model.jnt_dofadr[i]) for i in self._moved]
+        position, speed, pull = np.tile(rest, (len(q), 1)), np.zeros((len(q), model.nv)), np.zeros((len(q), model.nv))
+        position[:, at], speed[:, dof], pull[:, dof] = q, v, a
+        for k in range(len(q)):
+            data.qpos[:], data.qvel[:], data.qacc[:] = position[k], speed[k], pull[k]
+            mujoco.mj_inverse(model, data)
+            found[k] = data.qfrc_inverse[dof]
+        return found
+
+    def write_found(self, found: Sequence[FoundMechanism], known: Mapping[str, float]) -> tuple[str, tuple[str, ...]]:
+        """Return the MJCF with what was found, and notes; a URDF becomes an MJCF."""
+        mujoco = _import_mujoco()
+        spec = mujoco.MjSpec.from_file(self.file) if self.file else mujoco.MjSpec.from_string(EXAMPLE)
+        return write_findings(mujoco, spec, found, known)
+
+    def changed(self, values: Mapping[str, float]) -> MujocoSimulator:
+        """Return the machine with other masses (kg) of bodies, `fore.mass`, or a payload (kg) at a site or a body."""
+        known = {*self.linear, *(f"{point}{_PAYLOAD}" for point in self.points)}
+        for name in values:
+            if name not in known:
+                raise CaseError(f"the model has no value {name!r}{nearest(name, known)}: it has {', '.join(known)}")
+        return replace(self, values=tuple((dict(self.values) | dict(values)).items()))
+
+
+@dataclass(frozen=True)
+class UrdfSimulator(MujocoSimulator):
+    """A machine in a URDF `file`, read by MuJoCo's loader; without a file it is the example arm."""
+
+    name: ClassVar[str] = "urdf"
+
+
+def _add_mass(model: Any, body: int, point: Array, mass: float) -> None:
+    """Add a point mass (kg) to a body, at a point (m) in the frame of the body."""
+    own, centre = float(model.body_mass[body]), np.array(model.body_ipos[body])
+    total = own + mass
+    middle = (own * centre + mass * point) / total
+    turn = np.zeros(9)
+    mujoco = _import_mujoco()
+    mujoco.mju_quat2Mat(turn, model.body_iquat[body])
+    frame = turn.reshape(3, 3)
+    inertia = frame @ np.diag(model.body_inertia[body]) @ frame.T
+    for weight, arm in ((own, centre - middle), (mass, point - middle)):
+        inertia += weight * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+    values, axes = np.linalg.eigh(inertia)
+    axes[:, 2] *= np.sign(np.linalg.det(axes))
+    turned = np.zeros(4)
+    mujoco.mju_mat2Quat(turned, axes.reshape(-1))
+    model.body_mass[body], model.body_ipos[body] = total, middle
+    model.body_inertia[body], model.body_iquat[body] = values, turned

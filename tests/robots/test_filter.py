@@ -1,0 +1,129 @@
+"""The filter of a chain: against plain matrices, differences, and sticking friction."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from lostmotion.robots.arm import Column
+from lostmotion.robots.gears import Gear
+from lostmotion.robots.prepare import make_arm
+from lostmotion_plugins.terms.friction import CoulombFriction
+from lostmotion_trials.integrators.arm import Arm
+
+LEVELS = (np.array([0.1, 0.03]) ** 2 * 0.002, np.array([3e-5, 3e-5]) ** 2)
+KEY = "coulomb_friction@elbow.force"
+
+
+def plain_filter(arm, levels, last):
+    """Return the log-likelihood of a Kalman filter with matrices, written after the equations of the tape."""
+    log, tape, n = arm.log, arm.tape, 2
+    mid = lambda x: np.concatenate([0.5 * (x[:-1] + x[1:]), x[-1:]])  # noqa: E731
+    loss, armature = np.diag(arm.get({}, "damping")), np.diag(arm.get({}, "armature"))
+    mass, kq, kv = mid(tape.mass) + armature, mid(tape.stiffness), mid(tape.damping)
+    bias, q0, v0 = mid(tape.bias), mid(tape.path.q), mid(tape.path.v)
+    x = np.concatenate([tape.path.q[0], tape.path.v[0]])
+    cov = np.diag([1e-6, 1e-6, 1e-2, 1e-2])
+    see, dt, total = np.eye(2, 4), log.dt, 0.0
+    for k in range(last):
+        spread = see @ cov @ see.T + np.diag(levels[1])
+        error = log.readings[k] - see @ x
+        if k >= arm.settling:
+            total -= 0.5 * (error @ np.linalg.solve(spread, error) + np.linalg.slogdet(2.0 * np.pi * spread)[1])
+        gain = cov @ see.T @ np.linalg.inv(spread)
+        x, cov = x + gain @ error, cov - gain @ see @ cov
+        if k == last - 1:
+            break
+        full = kv[k] + loss
+        w = np.linalg.inv(mass[k] + 0.5 * dt * full)
+        middle = x[:n] + 0.5 * dt * x[n:]
+        pull = log.torque[k] - bias[k] + kv[k] @ v0[k] - kq[k] @ (middle - q0[k]) - full @ x[n:]
+        dv = np.hstack([-dt * w @ kq[k], np.eye(n) - dt * w @ (full + 0.5 * dt * kq[k])])
+        move = np.vstack([np.hstack([np.eye(n), 0.5 * dt * np.eye(n)]) + 0.5 * dt * dv, dv])
+        speed = x[n:] + dt * w @ pull
+        x = np.concatenate([x[:n] + 0.5 * dt * (x[n:] + speed), speed])
+        force = w @ np.diag(levels[0] * dt) @ w.T
+        noise = np.block([[force * dt * dt / 3.0, force * dt / 2.0], [force * dt / 2.0, force]])
+        cov = move @ cov @ move.T + noise
+    return total
+
+
+@pytest.fixture(scope="module")
+def empty(make):
+    return make(Arm())
+
+
+@pytest.fixture(scope="module")
+def make(helpers):
+    return lambda machine, seed=0: make_arm(helpers.make_simulator(), helpers.record(machine, seed))
+
+
+def test_it_is_a_kalman_filter(empty):
+    last = 400
+    found = empty.filter({}, (), LEVELS, last=last).seen.log_likelihood
+    assert found == pytest.approx(plain_filter(empty, LEVELS, last), abs=1e-6 * abs(found))
+
+
+def test_one_step_errors_of_the_true_model_are_honest(empty):
+    noise = np.array([3e-5, 3e-5]) ** 2
+    force = (0.0166 * np.std(empty.log.torque, axis=0)) ** 2 * empty.log.dt
+    seen = empty.filter({}, (), (force, noise)).seen
+    z = (seen.errors / np.sqrt(seen.variances))[empty.settling :]
+    assert np.all(np.abs(z.var(axis=0) - 1.0) < 0.15)
+    assert np.all(np.abs([np.corrcoef(z[:-1, j], z[1:, j])[0, 1] for j in range(2)]) < 0.06)
+
+
+def test_derivatives_over_forces_are_those_of_differences(empty):
+    log, last = empty.log, 1500
+    wave = np.sin(np.arange(log.samples) * 0.05)
+    both = np.stack([wave, 0.3 * wave], axis=1)
+    kept = empty.filter({}, (), LEVELS, last=last, keep=True)
+    found = empty.differentiate(kept, [Column("one", 1, wave), Column("both", -1, both)], {})
+    single = np.stack([0.0 * wave, wave], axis=1)
+    for row, force in zip(found, (single, both), strict=True):
+        ends = [empty.filter({}, (), LEVELS, last=last, force=s * force).seen.errors for s in (1e-3, -1e-3)]
+        difference = ((ends[0] - ends[1]) / 2e-3).ravel()
+        assert np.abs(row - difference).max() < 1e-6 * np.abs(difference).max()
+
+
+def test_derivatives_hold_behind_a_gear(empty):
+    gears = {1: Gear(0.0, 2e4)}
+    wave = np.cos(np.arange(empty.log.samples) * 0.03)
+    kept = empty.filter({}, (), LEVELS, last=800, keep=True, gears=gears)
+    row = empty.differentiate(kept, [Column("one", 1, wave)], gears)[0]
+    force = np.stack([0.0 * wave, wave], axis=1)
+    ends = [empty.filter({}, (), LEVELS, last=800, force=s * force, gears=gears).seen.errors for s in (1e-3, -1e-3)]
+    difference = ((ends[0] - ends[1]) / 2e-3).ravel()
+    assert np.abs(row - difference).max() < 1e-6 * np.abs(difference).max()
+
+
+def test_friction_is_most_likely_at_its_true_value(make):
+    machine = Arm(friction=np.array([0.0, 0.3]))
+    arm, term = make(machine), CoulombFriction(at="elbow")
+    told = {f: arm.filter({KEY: f}, (term,), LEVELS).seen.log_likelihood for f in (0.0, 0.27, 0.3, 0.33)}
+    assert max(told, key=told.get) == 0.3
+    assert told[0.3] - told[0.0] > 500.0
+
+
+def test_a_stiff_gear_is_no_gear(empty):
+    plain = empty.filter({}, (), LEVELS, last=1000).seen.log_likelihood
+    stiff = empty.filter({}, (), LEVELS, last=1000, gears={0: Gear(0.0, 5e6, 0.5)}).seen.log_likelihood
+    soft = empty.filter({}, (), LEVELS, last=1000, gears={0: Gear(0.0, 2e3, 0.05)}).seen.log_likelihood
+    assert abs(stiff - plain) < 3.0
+    assert soft < plain - 20.0
+
+
+def test_missing_readings_add_nothing(empty):
+    holes = empty.log.readings.copy()
+    holes[500:600] = math.nan
+    arm = replace(empty, log=replace(empty.log, readings=holes), _cache={})
+    seen = arm.filter({}, (), LEVELS, last=1000).seen
+    assert np.all(seen.errors[500:600] == 0.0)
+    assert math.isfinite(seen.log_likelihood)
+
+
+def test_a_divergence_has_no_likelihood(empty):
+    push = np.full((empty.log.samples, 2), 1e12)
+    seen = empty.filter({}, (), LEVELS, last=1000, force=push).seen
+    assert seen.log_likelihood == -math.inf
