@@ -1,4 +1,4 @@
-"""The eight kinds of plugin. Subclass one of them directly, as a frozen dataclass, and name the class in a hook.
+"""The nine kinds of plugin. Subclass one of them directly, as a frozen dataclass, and name the class in a hook.
 
 `rhs`, `observe`, `force` and `rate` are scalar Python functions on NumPy arrays. The framework compiles them with numba
 into one kernel, so they may use arithmetic, branches and `math`, but no NumPy functions and no objects. A quantity that
@@ -396,6 +396,5 @@ class Engine(ABC):
 
 
 KINDS: Mapping[str, type[Any]] = {
-    kind.__name__.lower(): kind
-    for kind in (Model, Term, Embedder, Quantifier, Surrogate, Denoiser, Engine, Noise, Simulator)
+    c.__name__.lower(): c for c in (Model, Term, Embedder, Quantifier, Surrogate, Denoiser, Engine, Noise, Simulator)
 }

@@ -1,7 +1,7 @@
 """An arm: a tape with the values that were taken out of it, a log, and the filter that joins them.
 
-`TapedArm.filter` returns the one-step errors of the log under a state of knowledge: values by name, terms of the
-library at joints, and forces that are added to the recorded torques.
+`TapedArm.filter` returns the one-step errors of the log for values by name, terms of the library at joints, and forces
+that are added to the recorded torques.
 """
 
 from __future__ import annotations

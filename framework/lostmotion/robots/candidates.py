@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lostmotion.contracts import DriveTerm, Term
+from lostmotion.defaults import INERTIA_CHANGE
 from lostmotion.evidence.expansion import compute_log_evidence
 from lostmotion.parts import Array
 from lostmotion.robots.arm import Column, FilteredLog, TapedArm, can_act
@@ -54,7 +55,7 @@ def list_effects(
             found.append(LawEffect(replace(term, at=at), arm, j, scales[j], pitches))  # type: ignore[type-var]
         armature = arm.values.get(f"{joint}.armature", 0.0)
         unit = TYPICAL_MASS * max(armature, float(arm.tape.mass[:, j, j].mean()))
-        found.append(MassEffect("inertia_change", joint, f"{joint}.armature", arm, unit))
+        found.append(MassEffect(INERTIA_CHANGE, joint, f"{joint}.armature", arm, unit))
         if armature > 0.0:
             found += [GearEffect(law, arm, j) for law in GEARS]
     for name in arm.parts:
@@ -63,7 +64,7 @@ def list_effects(
             heaviest = max((abs(v) for k, v in arm.values.items() if k.endswith(".mass")), default=1.0)
             found.append(MassEffect("payload", at, name, arm, TYPICAL_MASS * heaviest))
         elif kind == "mass":
-            found.append(MassEffect("inertia_change", at, name, arm, TYPICAL_MASS * abs(arm.values[name])))
+            found.append(MassEffect(INERTIA_CHANGE, at, name, arm, TYPICAL_MASS * abs(arm.values[name])))
     return found
 
 

@@ -14,6 +14,7 @@ from typing import Protocol
 import numpy as np
 
 from lostmotion.contracts import DriveTerm, Term
+from lostmotion.defaults import RARE_IN_JOINTS
 from lostmotion.kernels.chain import evaluate_law
 from lostmotion.likelihood.compose import compile_law
 from lostmotion.parts import Array, Param
@@ -30,14 +31,6 @@ PITCH = "pitch"
 """The parameter whose values are found by a scan of waves over the position of the joint."""
 NUDGE = 1e-3
 """The amplitude at which the force of a unit amplitude is found, in units of its scale."""
-RARE: Mapping[str, float] = {
-    "bilinear_stiffness": 2.0, "cubic_stiffness": 1.0, "quadratic_stiffness": 1.5,  # a joint rarely has any spring
-    "gravity_pendulum": 1.0,  # a wrong mass shows as inertia too
-    "damping_drift": 1.0, "friction_drift": 1.0, "friction_drift_twice": 2.0,  # minutes, where logs take seconds
-    "directional_damping": 1.0, "end_stop": 1.0, "position_dependent_friction": 1.0,  # special mechanisms
-    "drive_saturation": 1.0, "drive_dead_zone": 1.0,  # a recorded torque is limited already
-}  # fmt: skip
-"""The log odds against laws that are rarer in the joints of robots than friction, damping, ripple or a delay."""
 FURTHER = 0.5
 """The log prior odds against each parameter of a law beyond the first."""
 USUAL_GAP, USUAL_MESH = 1e-3, 60.0
@@ -165,7 +158,7 @@ class LawEffect:
         """The log odds against it."""
         further = len(self.term.params) - len([q for q in self.term.params if q.choices]) - 1
         tried = sum(math.log(len(q.choices)) for q in self.term.params if q.choices)
-        return self.term.unlikely + RARE.get(self.term.name, 0.0) + FURTHER * further + tried
+        return self.term.unlikely + RARE_IN_JOINTS.get(self.term.name, 0.0) + FURTHER * further + tried
 
     @property
     def coordinates(self) -> tuple[ArmCoordinate, ...]:

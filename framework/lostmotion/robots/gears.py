@@ -10,6 +10,8 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from lostmotion.defaults import PLAY
+
 USUAL_DAMPING = 0.05
 """Usual damping ratio of the motor on the stiffness of its gear."""
 AT = ".gear"
@@ -39,11 +41,11 @@ class GearLaw(NamedTuple):
 
     def make(self, values: tuple[float, ...]) -> Gear:
         """Return the gear for values of `params`."""
-        return Gear(values[0] if self.name == "backlash" else 0.0, *values[-2:])
+        return Gear(values[0] if self.name == PLAY else 0.0, *values[-2:])
 
 
 BACKLASH = GearLaw(
-    "backlash",
+    PLAY,
     ("gap", "stiffness", "damping_ratio"),
     "The gear has play: motor and link are free over {gap} to either side, then meet with a stiffness of {stiffness}",
     "Nordin, Gutman, Automatica 38 (2002) 1633-1649, section 2.1",

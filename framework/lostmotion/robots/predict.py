@@ -15,7 +15,7 @@ HORIZON = 0.2
 
 
 @dataclass(frozen=True, eq=False)
-class FreeRuns:
+class HeldOutRuns:
     """Free runs over held-out data: errors over the standard deviation of each position, (n,), and what they show.
 
     `log_score` is the mean log density of a sample, `white` (n,) the variance of standardised one-step errors, `shown`
@@ -30,7 +30,7 @@ class FreeRuns:
     first: int
 
 
-def predict_heldout(found: ArmHypothesis) -> FreeRuns:
+def predict_heldout(found: ArmHypothesis) -> HeldOutRuns:
     """Return the predictions of a hypothesis for the samples that no fit has seen."""
     frame = found.frame
     log, first = frame.arm.log, frame.last
@@ -53,4 +53,4 @@ def predict_heldout(found: ArmHypothesis) -> FreeRuns:
     density = -0.5 * (e**2 / v + np.log(2.0 * math.pi * v))
     white = np.mean((e**2 / v)[:, places], axis=0)
     noise = np.array([found.values[c.key] for c in frame.own if c.key.endswith(".position_noise")])
-    return FreeRuns(nrmse, float(density.sum() / len(e)), white, shown, noise / spread, first)
+    return HeldOutRuns(nrmse, float(density.sum() / len(e)), white, shown, noise / spread, first)

@@ -25,7 +25,7 @@ from lostmotion.robots.case import RobotCase, load_robot_case
 from lostmotion.robots.checks import average, check_log, predict_torque
 from lostmotion.robots.hypothesis import ArmHypothesis
 from lostmotion.robots.page import write_robot_report
-from lostmotion.robots.predict import HORIZON, FreeRuns, predict_heldout
+from lostmotion.robots.predict import HORIZON, HeldOutRuns, predict_heldout
 from lostmotion.robots.prepare import SECONDS, SearchOptions, make_arm, prepare_search
 from lostmotion.robots.search import ArmSearch
 from lostmotion.robots.tape import Path as RobotPath
@@ -147,7 +147,9 @@ def _average_path(path: RobotPath, dt: float) -> RobotPath:
     return RobotPath(*(average(x, dt) for x in (path.q, path.v, path.a)))
 
 
-def _summarise(found: Sequence[Mechanism], before: FreeRuns, after: FreeRuns, joints: Sequence[str]) -> tuple[str, ...]:
+def _summarise(
+    found: Sequence[Mechanism], before: HeldOutRuns, after: HeldOutRuns, joints: Sequence[str]
+) -> tuple[str, ...]:
     """Return the result in sentences."""
     if not found:
         return (
@@ -162,7 +164,7 @@ def _summarise(found: Sequence[Mechanism], before: FreeRuns, after: FreeRuns, jo
     return tuple(told)
 
 
-def _score(told: FreeRuns, joints: Sequence[str]) -> HeldOutScore:
+def _score(told: HeldOutRuns, joints: Sequence[str]) -> HeldOutScore:
     by_joint = {joint: float(x) for joint, x in zip(joints, told.nrmse, strict=True)}
     return HeldOutScore(told.log_score, float(np.mean(told.nrmse)), by_joint, HORIZON)
 
@@ -227,7 +229,7 @@ def _make_origin(case: RobotCase, search: ArmSearch) -> Origin:
 
 
 def _list_arrays(
-    case: RobotCase, seen: TapedArm, missing: Array, both: tuple[FreeRuns, FreeRuns]
+    case: RobotCase, seen: TapedArm, missing: Array, both: tuple[HeldOutRuns, HeldOutRuns]
 ) -> tuple[dict[str, StoredArray], dict[str, StoredArray]]:
     """Return the arrays of the page: the missing torque over the path, and held-out predictions."""
     log, first = case.log, both[0].first

@@ -15,7 +15,7 @@ from lostmotion.results.robots import Dependence, JointRow
 from lostmotion.robots.arm import TapedArm
 from lostmotion.robots.effects import ArmCoordinate, ArmEffect, GearEffect, LawEffect, MassEffect
 from lostmotion.robots.hypothesis import ArmHypothesis
-from lostmotion.robots.predict import FreeRuns
+from lostmotion.robots.predict import HeldOutRuns
 from lostmotion.robots.search import UNKNOWN, ArmSearch, compute_probabilities, find_probabilities
 
 SURE, LIKELY = 0.95, 0.5
@@ -186,7 +186,7 @@ def list_confusions(search: ArmSearch) -> tuple[Confusion, ...]:
 
 
 def list_joints(
-    search: ArmSearch, before: tuple[ArmHypothesis, FreeRuns], after: tuple[ArmHypothesis, FreeRuns],
+    search: ArmSearch, before: tuple[ArmHypothesis, HeldOutRuns], after: tuple[ArmHypothesis, HeldOutRuns],
     found: Sequence[Mechanism], motions: Mapping[str, str],
 ) -> tuple[JointRow, ...]:  # fmt: skip
     """Return each joint, before and after."""
