@@ -243,9 +243,8 @@ class NameSettings:
     remains: float = threshold(
         0.5,
         (
-            "A finding is at most likely where the discrepancy adds more than this share of the log evidence that the"
-            " finding adds. It is open where the model does not predict held-out data and the remaining random"
-            " force exceeds this share of the missing force."
+            "A finding with doubts is open where the model does not predict held-out data and the random force that"
+            " remains exceeds this share of the missing force."
         ),
         most=1.0,
     )
