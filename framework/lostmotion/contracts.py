@@ -22,7 +22,7 @@ from lostmotion.recording.arrays import table_of_arrays
 from lostmotion.recording.table import Table
 from lostmotion.results import Embedding, Estimate
 from lostmotion.simulators import Simulator
-from lostmotion.subjects import Attractors, Data, Flow, Orbit, Series
+from lostmotion.subjects import Attractors, Data, Flow, Motions, Orbit, Series
 
 if TYPE_CHECKING:
     from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Smoothed
@@ -30,9 +30,9 @@ if TYPE_CHECKING:
 
 __all__ = [
     "KINDS", "PSEUDO_NEEDS", "Array", "Assembly", "Attractors", "Data", "Denoiser", "Drive", "DriveTerm", "Embedder",
-    "Engine", "Flow", "Group", "Input", "Interface", "Model", "Motion", "Noise", "NoiseBlock", "NoiseParameter",
-    "Orbit", "Param", "Quantifier", "SensorScales", "SensorTerm", "Series", "Simulator", "Surrogate", "Table", "Term",
-    "Values", "place_of", "table_of_arrays"]  # fmt: skip
+    "Engine", "Flow", "Group", "Input", "Interface", "Model", "Motion", "Motions", "Noise", "NoiseBlock",
+    "NoiseParameter", "Orbit", "Param", "Quantifier", "SensorScales", "SensorTerm", "Series", "Simulator",
+    "Surrogate", "Table", "Term", "Values", "place_of", "table_of_arrays"]  # fmt: skip
 
 _NOWHERE = Interface("", -1, "", lambda y, u: (0.0, 0.0))
 
