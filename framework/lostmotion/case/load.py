@@ -157,14 +157,14 @@ def _rename_channels(spec: RecordingSpec, coordinate: str) -> RecordingSpec:
 
 def _parse(path: Path) -> dict[str, Any]:
     try:
-        return tomllib.loads(_read_text(path))
+        return tomllib.loads(read_text_of_case(path))
     except (tomllib.TOMLDecodeError, ValueError) as err:  # ValueError is raised for a number with thousands of digits
         raise CaseError(f"{path.name} is not valid TOML ({err}): correct this place") from err
     except RecursionError as err:
         raise CaseError(f"{path.name} nests lists or tables hundreds deep: a case needs three levels") from err
 
 
-def _read_text(path: Path) -> str:
+def read_text_of_case(path: Path) -> str:
     """Return the text of a case file; raise `CaseError` if it is too large or is no text."""
     try:
         if path.exists() and not (path.is_file() or path.is_dir()):

@@ -19,7 +19,7 @@ from lostmotion.diagnosis.findings import (
 )
 from lostmotion.diagnosis.notes import note_large_noise
 from lostmotion.diagnosis.search import SearchResult, list_fitted_keys
-from lostmotion.diagnosis.states import LIKELY, OPEN, is_uncertain
+from lostmotion.diagnosis.states import LIKELY, NAMED, is_uncertain
 from lostmotion.diagnosis.unknowns import compute_unknown_odds
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.natural import find_term
@@ -300,7 +300,7 @@ def summarise(outcome: Outcome, found: Sequence[Mechanism], rest: Sequence[OpenT
     opening = list(_list_finding_sentences(found))
     if len(found) == 1 and not is_uncertain(found[0]):
         opening[0] = f"{opening[0][:-1]}, and the model leaves it out."
-    elif len(found) > 1 and not any(entry.state == OPEN and is_uncertain(entry) for entry in found):
+    elif len(found) > 1 and all(entry.state == NAMED for entry in found):
         opening.append(f"The model leaves out {'both' if len(found) == 2 else f'all {len(found)} of them'}.")
     opening.append(_describe_improvement(outcome, len(found), time, floor))
     opening += note_large_noise(outcome)

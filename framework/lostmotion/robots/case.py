@@ -12,7 +12,7 @@ import numpy as np
 
 from lostmotion.case import Prior
 from lostmotion.case.fields import Fields
-from lostmotion.case.load import read_prior
+from lostmotion.case.load import read_prior, read_text_of_case
 from lostmotion.errors import nearest
 from lostmotion.parts import Array
 from lostmotion.provenance import digest
@@ -62,7 +62,7 @@ class RobotCase:
 def names_robot(path: Path, registry: Registry) -> bool:
     """Return whether a case file has a simulator in place of the name of a model; False where it is not valid TOML."""
     try:
-        model = tomllib.loads(path.read_text(encoding="utf-8-sig")).get("model", {})
+        model = tomllib.loads(read_text_of_case(path)).get("model", {})
     except (OSError, ValueError, RecursionError):
         return False
     return isinstance(model, dict) and bool({INVERSE, *registry.names("simulator")} & model.keys())
@@ -70,7 +70,7 @@ def names_robot(path: Path, registry: Registry) -> bool:
 
 def load_robot_case(path: Path, registry: Registry) -> RobotCase:
     """Return the case of a robot at `path`; raise `CaseError` or `DataError` for anything that cannot be used."""
-    values = tomllib.loads(path.read_text(encoding="utf-8-sig"))
+    values = tomllib.loads(read_text_of_case(path))
     top = Fields(path.name, "the case", values).only(TOP)
     for plugin in top.texts("plugins"):
         registry.add_file(path.parent / plugin)
