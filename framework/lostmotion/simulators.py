@@ -8,6 +8,9 @@ from typing import ClassVar, NamedTuple
 
 from lostmotion.parts import Array
 
+INVERSE = "inverse"
+"""The key of a simulation that is a function of the user, in `[model]` of a case."""
+
 
 class FoundMechanism(NamedTuple):
     """A mechanism that a machine lacks: its name, its place, its parameters (SI), and what it is in a sentence."""

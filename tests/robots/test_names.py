@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from lostmotion.robots.search import compute_probabilities, find_probabilities
+from lostmotion.evidence.search import compute_probabilities
+from lostmotion.robots.search import find_probabilities
 from lostmotion_trials.integrators.arm import Arm
 
 NAMES = ("coulomb_friction", "stribeck_friction", "viscous_damping", "cogging", "excitation_delay", "offset_force")
@@ -32,7 +33,7 @@ def test_nothing_is_named_where_nothing_is_hidden(search_of, helpers):
     search = search_of(helpers.record(Arm(), seed=4), NAMES)
     key, share = lead(search)
     assert (key, share > 0.9) == ("nothing_missing", True)
-    assert sum(compute_probabilities(search).values()) == pytest.approx(1.0)
+    assert sum(compute_probabilities(search.found.values(), search.temper).values()) == pytest.approx(1.0)
 
 
 @pytest.mark.slow

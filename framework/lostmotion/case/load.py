@@ -93,7 +93,7 @@ class CaseFile:
 def load_case(path: Path) -> CaseFile:
     """Return the case in the TOML file `path`; raise `CaseError` for anything that cannot be valid."""
     path = Path(path)
-    top = Fields(path.name, "the case", _parse(path)).only(TOP)
+    top = Fields(path.name, "the case", parse_case(path)).only(TOP)
     model = top.table("model").only(MODEL)
     known = model.maybe_table("known").numbers()
     motion = cast(Motion, model.choice("motion", get_args(Motion))) if "motion" in model.values else None
@@ -155,16 +155,17 @@ def _rename_channels(spec: RecordingSpec, coordinate: str) -> RecordingSpec:
     return replace(spec, sensors=tuple(replace(s, of=same.get(s.of, s.of)) for s in spec.sensors))
 
 
-def _parse(path: Path) -> dict[str, Any]:
+def parse_case(path: Path) -> dict[str, Any]:
+    """Return the content of a case file; raise `CaseError` if it is too large, or is no valid TOML."""
     try:
-        return tomllib.loads(read_text_of_case(path))
+        return tomllib.loads(_read_text(path))
     except (tomllib.TOMLDecodeError, ValueError) as err:  # ValueError is raised for a number with thousands of digits
         raise CaseError(f"{path.name} is not valid TOML ({err}): correct this place") from err
     except RecursionError as err:
         raise CaseError(f"{path.name} nests lists or tables hundreds deep: a case needs three levels") from err
 
 
-def read_text_of_case(path: Path) -> str:
+def _read_text(path: Path) -> str:
     """Return the text of a case file; raise `CaseError` if it is too large or is no text."""
     try:
         if path.exists() and not (path.is_file() or path.is_dir()):

@@ -67,9 +67,11 @@ def command(
 def _diagnose_one(
     ctx: click.Context, case: Path, out: Path, *, quiet: bool, seed: int, jobs: int, settings: Settings
 ) -> None:
-    from lostmotion.robots.case import names_robot
+    from lostmotion.case.load import parse_case
+    from lostmotion.simulators import INVERSE
 
-    if names_robot(case, registry_of(ctx)):
+    model = parse_case(case).get("model")
+    if isinstance(model, dict) and {INVERSE, *registry_of(ctx).names("simulator")} & model.keys():
         _diagnose_robot(ctx, case, out, quiet=quiet, settings=settings)
         return
     from lostmotion.case import GUESSED

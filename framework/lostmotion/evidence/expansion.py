@@ -83,7 +83,10 @@ class Expansion:
         It is the median over the coordinates of the blocks, at least 1: 1 for independent one-step errors (Huber 1967;
         White, Econometrica 50 (1982) 1-25).
         """
-        rows = self.list_indices(*names)
+        return self.measure_scatter_of(self.list_indices(*names))
+
+    def measure_scatter_of(self, rows: NDArray[np.intp]) -> float:
+        """Return the same for the coordinates with some indices."""
         sums = np.array([part.sum(axis=1) for part in np.array_split(self.scores[rows], BLOCKS, axis=1)])
         stated = np.diag(self.information)[rows]
         told = stated > 0.0

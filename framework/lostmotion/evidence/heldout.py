@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lostmotion.contracts import Array
 from lostmotion.evidence.discrepancy import JointFrame
@@ -19,10 +20,7 @@ from lostmotion.likelihood.observation import Observation
 def score_heldout(found: Hypothesis, pieces: Sequence[tuple[Observation, int]]) -> float:
     """Return the log density of the held-out samples, averaged over the posterior of the fitted data.
 
-    `pieces` are recordings and the first held-out sample of each. With g and H the gradient and the information of the
-    held-out data at the maximum of the fitted data, and Q the precision of the posterior there, it is
-    log p + g' s / 2 - log det(I + Q^-1 H) / 2 with the step s = (Q + H)^-1 g: the closed form for errors that are
-    linear in the parameters. Where they are not, the step gains less than g' s / 2, and the gain of the step counts.
+    `pieces` are recordings and the first held-out sample of each.
     """
     return sum(_score_piece(found, observation, begin) for observation, begin in pieces)
 
@@ -32,17 +30,31 @@ def _score_piece(found: Hypothesis, observation: Observation, begin: int) -> flo
     one = replace(frame, problem=fitted.on((observation,)))
     steps = choose_first_steps(replace(fitted, free=fitted.free[: frame.own]))
     first = begin * len(observation.sensors)
-    seen = cut_before(one.expand(found.at, steps, found.choice), first)
-    value, kept, precision = float(seen.here.log_likelihood), found.used, found.precision
-    both = precision + seen.information[np.ix_(kept, kept)]
+    held = cut_before(one.expand(found.at, steps, found.choice), first)
+    return average_over_posterior(
+        held, found.used, found.precision, lambda step: _score_point(one, found, found.at + step, first)
+    )
+
+
+def average_over_posterior(
+    held: Expansion, used: NDArray[np.intp], precision: Array, score: Callable[[Array], float]
+) -> float:
+    """Return the log density of held-out data, averaged over a posterior of `precision` (used, used).
+
+    With g and H the gradient and the information of the held-out data at the maximum of the fitted data, and Q the
+    precision of the posterior there, it is log p + g' s / 2 - log det(I + Q^-1 H) / 2 with the step s = (Q + H)^-1 g:
+    the closed form for errors that are linear in the coordinates `used`. Where they are not, the step gains less than
+    g' s / 2, and the gain of the step counts; `score` returns the log density after a step (count,).
+    """
+    value = float(held.here.log_likelihood)
+    both = precision + held.information[np.ix_(used, used)]
     sign, more = np.linalg.slogdet(both)
     if sign <= 0 or not math.isfinite(value):
         return -math.inf
-    step = np.zeros(frame.count)
-    step[kept] = np.linalg.solve(both, seen.gradient[kept])
-    gained = _score_point(one, found, found.at + step, first) - value
-    gained -= 0.5 * float(step[kept] @ precision @ step[kept])
-    gain = max(min(0.5 * float(seen.gradient @ step), gained), 0.0)
+    step = np.zeros(len(held.at))
+    step[used] = np.linalg.solve(both, held.gradient[used])
+    gained = score(step) - value - 0.5 * float(step[used] @ precision @ step[used])
+    gain = max(min(0.5 * float(held.gradient @ step), gained), 0.0)
     return value + gain - 0.5 * float(more - np.linalg.slogdet(precision)[1])
 
 

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
+from typing import Protocol
 
 import numpy as np
 
@@ -235,7 +236,18 @@ def measure_temper(found: Iterable[Hypothesis], share: float = 1.0) -> float:
     return share * max(found, key=lambda one: one.score(share)).scatter
 
 
-def compute_probabilities(found: Iterable[Hypothesis], temper: float) -> dict[Terms, float]:
+class Scored(Protocol):
+    """A set of terms with a score."""
+
+    @property
+    def terms(self) -> Terms:
+        """The keys of the terms."""
+
+    def score(self, temper: float = 1.0) -> float:
+        """Return the log posterior weight."""
+
+
+def compute_probabilities(found: Iterable[Scored], temper: float) -> dict[Terms, float]:
     """Return the posterior probability of each set: the softmax of the scores."""
     scores = {h.terms: h.score(temper) for h in found}
     top = max(scores.values())

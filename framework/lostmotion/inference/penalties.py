@@ -26,14 +26,13 @@ def compute_penalty(term: Term, many: int, settings: Settings = DEFAULT) -> floa
 
     Uncommon causes have an additional penalty (`Term.unlikely`).
     """
+    return compute_unknown_price(many) + compute_own_penalty(term, settings.select.further)
+
+
+def compute_own_penalty(term: Term, further: float) -> float:
+    """Return the log prior penalty of a term beyond that of any law; `further` is that of each further parameter."""
     choices = [len(q.choices) for q in term.params if q.choices]
-    further = len(term.params) - len(choices) - 1
-    return (
-        compute_unknown_price(many)
-        + term.unlikely
-        + settings.select.further * further
-        + sum(math.log(count) for count in choices)
-    )
+    return term.unlikely + further * (len(term.params) - len(choices) - 1) + sum(math.log(count) for count in choices)
 
 
 def compute_price(problem: Problem, many: int) -> float:

@@ -17,7 +17,7 @@ from lostmotion.contracts import Array, Interface, Model
 from lostmotion.errors import CaseError, nearest
 from lostmotion.likelihood.drive import SILENT, Drive, DriveHarmonic
 from lostmotion.likelihood.input_curve import InputCurve
-from lostmotion.likelihood.sensors import Sensor
+from lostmotion.likelihood.sensors import Sensor, measure_white_noise
 from lostmotion.likelihood.space import make_level_name
 from lostmotion.likelihood.splines import fit_smoothing_spline
 from lostmotion.noises import Noise, White, make_basic
@@ -247,10 +247,8 @@ def _estimate_start(z: Array, dt: float) -> tuple[float, float]:
 
 
 def _estimate_noise(z: Array) -> float:
-    """Return the standard deviation of white noise in readings (samples,), from fourth differences."""
-    fourth = np.diff(z[np.isfinite(z)], 4)
-    size = float(np.median(np.abs(fourth)) / 0.6745 / math.sqrt(70.0)) if len(fourth) else 0.0
-    return max(size, 1e-7 * math.sqrt(2.0) * float(np.nanstd(z)))
+    """Return the standard deviation of white noise in readings (samples,), at least what rounding of numbers leaves."""
+    return max(measure_white_noise(z), 1e-7 * math.sqrt(2.0) * float(np.nanstd(z)))
 
 
 def find_static_equilibrium(observation: Observation, model: Model, p: Array) -> tuple[float, float]:

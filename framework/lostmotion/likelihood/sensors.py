@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -64,3 +65,9 @@ class SensorChange(NamedTuple):
         gain = max(abs(self.gain), FLATTEST) * (-1.0 if self.gain < 0.0 else 1.0)
         before = time < self.since
         return np.where(before, readings, (readings - self.offset) / gain), np.where(before, 1.0, 1.0 / abs(gain))
+
+
+def measure_white_noise(z: Array) -> float:
+    """Return the standard deviation of white noise in readings (samples,), from fourth differences."""
+    fourth = np.diff(z[np.isfinite(z)], 4)
+    return float(np.median(np.abs(fourth)) / 0.6745 / math.sqrt(70.0)) if len(fourth) else 0.0

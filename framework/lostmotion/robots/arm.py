@@ -24,7 +24,7 @@ from lostmotion.likelihood.plan import Law
 from lostmotion.parts import Array, Param, Values
 from lostmotion.quantities import FORCE
 from lostmotion.robots.gears import Gear
-from lostmotion.robots.log import RobotLog
+from lostmotion.robots.log import RobotLog, average_neighbours
 from lostmotion.robots.tape import Part, Tape
 
 Whole = NDArray[np.int64]
@@ -110,7 +110,9 @@ class TapedArm:
     def _middle(self) -> tuple[Array, ...]:
         """Stiffness, damping, bias and mass of the tape, position and velocity, in the middle of each interval."""
         tape, path = self.tape, self.tape.path
-        return tuple(_average(x) for x in (tape.stiffness, tape.damping, tape.bias, tape.mass, path.q, path.v))
+        return tuple(
+            average_neighbours(x) for x in (tape.stiffness, tape.damping, tape.bias, tape.mass, path.q, path.v)
+        )
 
     def get(self, values: Mapping[str, float], kind: str) -> Array:
         """Return a value of each joint (n,), from `values` or else from the machine itself."""
@@ -133,7 +135,7 @@ class TapedArm:
         for name, value in changed:
             more = value - self.values.get(name, 0.0)
             part = self.parts[name]
-            mass, bias = mass + more * _average(part.mass), bias + more * _average(part.bias)
+            mass, bias = mass + more * average_neighbours(part.mass), bias + more * average_neighbours(part.bias)
         kv, kq = damping + eye * loss, np.ascontiguousarray(stiffness + eye * spring)
         made = {count: np.linalg.inv(mass + 0.5 * self.log.dt / count * kv) for count in dict.fromkeys(steps)}
         inverse = np.stack([made[count] for count in steps])
@@ -295,11 +297,6 @@ class Column:
     name: str
     joint: int
     force: Array
-
-
-def _average(x: Array) -> Array:
-    """Return the values (samples, ...) in the middle of each interval; the last one is held."""
-    return np.concatenate([0.5 * (x[:-1] + x[1:]), x[-1:]])
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import tomllib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,7 +11,7 @@ import numpy as np
 
 from lostmotion.case import Prior
 from lostmotion.case.fields import Fields
-from lostmotion.case.load import read_prior, read_text_of_case
+from lostmotion.case.load import parse_case, read_prior
 from lostmotion.errors import nearest
 from lostmotion.parts import Array
 from lostmotion.provenance import digest
@@ -24,12 +23,11 @@ from lostmotion.registry import Registry
 from lostmotion.robots.effects import ArmCoordinate
 from lostmotion.robots.log import RobotLog, find_stale, measure_clock, resample
 from lostmotion.robots.user import FunctionSimulator
-from lostmotion.simulators import Simulator
+from lostmotion.simulators import INVERSE, Simulator
 
 TOP = ("title", "plugins", "recordings", "model", "truth")
 RECORDING = ("file", "time", "rate", "inputs", "sensors", "hold", "t_start", "t_end", "name")
 MODEL = ("joints", "torque", "tolerance", "known", "estimate")
-INVERSE = "inverse"
 ENTRY = ("column", "unit", "factor")
 ORDERS = {"position": 0, "velocity": 1}
 KINDS: Mapping[str, Dimension] = {
@@ -59,19 +57,9 @@ class RobotCase:
     file: str
 
 
-def names_robot(path: Path, registry: Registry) -> bool:
-    """Return whether a case file has a simulator in place of the name of a model; False where it is not valid TOML."""
-    try:
-        model = tomllib.loads(read_text_of_case(path)).get("model", {})
-    except (OSError, ValueError, RecursionError):
-        return False
-    return isinstance(model, dict) and bool({INVERSE, *registry.names("simulator")} & model.keys())
-
-
 def load_robot_case(path: Path, registry: Registry) -> RobotCase:
     """Return the case of a robot at `path`; raise `CaseError` or `DataError` for anything that cannot be used."""
-    values = tomllib.loads(read_text_of_case(path))
-    top = Fields(path.name, "the case", values).only(TOP)
+    top = Fields(path.name, "the case", parse_case(path)).only(TOP)
     for plugin in top.texts("plugins"):
         registry.add_file(path.parent / plugin)
     kinds = (INVERSE, *registry.names("simulator"))

@@ -16,7 +16,7 @@ from lostmotion.parts import Array
 from lostmotion.results.robots import Check
 from lostmotion.robots.arm import TapedArm
 from lostmotion.robots.log import RobotLog
-from lostmotion.robots.prepare import make_arm
+from lostmotion.robots.prepare import estimate_noise, make_arm
 from lostmotion.simulators import Simulator
 
 WINDOW = 0.05
@@ -94,7 +94,7 @@ def _compare(arm: TapedArm, torque: Array, model: Array | None = None) -> _Fit:
     left, correlation, slope = np.zeros(n), np.zeros(n), np.zeros(n)
     for j in range(n):
         speed = v[:, j]
-        rubbing = np.column_stack([np.ones_like(speed), speed, np.tanh(speed / (0.05 * np.std(speed) + 1e-12))])
+        rubbing = _list_friction(speed)
         rest = torque[:, j] - model[:, j]
         rest = rest - rubbing @ np.linalg.lstsq(rubbing, rest, rcond=None)[0]
         left[j] = np.std(rest) / max(float(np.std(torque[:, j])), 1e-12)
@@ -104,10 +104,13 @@ def _compare(arm: TapedArm, torque: Array, model: Array | None = None) -> _Fit:
     return _Fit(left, np.nan_to_num(correlation), slope)
 
 
+def _list_friction(speed: Array) -> Array:
+    """Return a constant, viscous friction and dry friction (windows, 3) of unit size at a speed (windows,)."""
+    return np.column_stack([np.ones_like(speed), speed, np.tanh(speed / (0.05 * np.std(speed) + 1e-12))])
+
+
 def _check_motion(arm: TapedArm) -> Iterator[Check]:
     """Yield a check for each joint that hardly moves."""
-    from lostmotion.robots.prepare import estimate_noise
-
     noise = estimate_noise(arm.log.positions)
     for j, joint in enumerate(arm.joints):
         travel = float(np.ptp(arm.log.positions[:, j]))
@@ -219,8 +222,7 @@ def _check_side(arm: TapedArm) -> Iterator[Check]:
         if armature[j] <= 0.0:
             continue
         speed = v[:, j]
-        rubbing = [np.ones_like(speed), speed, np.tanh(speed / (0.05 * np.std(speed) + 1e-12))]
-        full = np.column_stack([armature[j] * motor[:, j], link[:, j], *rubbing])
+        full = np.column_stack([armature[j] * motor[:, j], link[:, j], _list_friction(speed)])
         found, *_ = np.linalg.lstsq(full, torque[:, j], rcond=None)
         rest = torque[:, j] - full @ found
         error = math.sqrt(float(np.linalg.inv(full.T @ full)[0, 0]) * float(rest @ rest) / max(len(rest) - 5, 1))

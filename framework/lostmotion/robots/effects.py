@@ -15,6 +15,7 @@ import numpy as np
 
 from lostmotion.contracts import DriveTerm, Term
 from lostmotion.defaults import RARE_IN_JOINTS
+from lostmotion.inference.penalties import compute_own_penalty
 from lostmotion.kernels.chain import evaluate_law
 from lostmotion.likelihood.compose import compile_law
 from lostmotion.parts import Array, Param
@@ -156,9 +157,7 @@ class LawEffect:
     @property
     def price(self) -> float:
         """The log odds against it."""
-        further = len(self.term.params) - len([q for q in self.term.params if q.choices]) - 1
-        tried = sum(math.log(len(q.choices)) for q in self.term.params if q.choices)
-        return self.term.unlikely + RARE_IN_JOINTS.get(self.term.name, 0.0) + FURTHER * further + tried
+        return RARE_IN_JOINTS.get(self.term.name, 0.0) + compute_own_penalty(self.term, FURTHER)
 
     @property
     def coordinates(self) -> tuple[ArmCoordinate, ...]:

@@ -18,6 +18,8 @@ from numpy.typing import NDArray
 
 from lostmotion.contracts import Term
 from lostmotion.evidence.expansion import Expansion
+from lostmotion.evidence.heldout import average_over_posterior, cut_before
+from lostmotion.evidence.hypothesis import UNKNOWN
 from lostmotion.likelihood.engine import Innovations
 from lostmotion.parts import Array
 from lostmotion.robots.arm import FilteredLog, TapedArm
@@ -30,7 +32,6 @@ NUDGE = 1e-3
 SHARE = 0.02
 ROUNDS, CLOSE = 25, 0.05
 """The largest number of rounds of a fit, and the gain of a round after which it ends."""
-BLOCKS = 40
 
 
 @dataclass(frozen=True, eq=False)
@@ -154,8 +155,8 @@ class ArmHypothesis:
 
     @property
     def terms(self) -> frozenset[str]:
-        """The keys of the effects; "unknown" stands for a larger smooth force."""
-        return self.frame.terms | ({"unknown"} if self.unknown else set())
+        """The keys of the effects, and `UNKNOWN` for a larger smooth force."""
+        return self.frame.terms | ({UNKNOWN} if self.unknown else set())
 
     @property
     def values(self) -> dict[str, float]:
@@ -213,7 +214,7 @@ def fit_hypothesis(frame: ArmFrame, start: Array, price: float, choice: Choice |
     if sign <= 0 or not math.isfinite(target):
         return None
     evidence = target + 0.5 * len(used) * math.log(2.0 * math.pi) - 0.5 * float(size)
-    scatter = _measure_scatter(seen, used, own)
+    scatter = seen.measure_scatter_of(used[used >= own])
     return ArmHypothesis(frame, at, chosen, evidence, 0.0, price, scatter, seen, kept, used, precision)
 
 
@@ -233,40 +234,16 @@ def _find_precision(frame: ArmFrame, seen: Expansion, choice: Choice) -> tuple[N
     return np.asarray(used), seen.information[np.ix_(used, used)] + np.diag(weights[used])
 
 
-def _measure_scatter(seen: Expansion, used: NDArray[np.intp], own: int) -> float:
-    """Return by how much the scores of the coefficients in use scatter beyond their information; at least 1."""
-    rows = used[used >= own]
-    sums = np.array([part.sum(axis=1) for part in np.array_split(seen.scores[rows], BLOCKS, axis=1)])
-    stated = np.diag(seen.information)[rows]
-    told = stated > 0.0
-    return max(1.0, float(np.median(sums.var(axis=0)[told] * BLOCKS / stated[told]))) if told.any() else 1.0
-
-
 def score_heldout(found: ArmHypothesis, first: int, last: int) -> float:
-    """Return the log density of the samples from `first` to `last`, averaged over the posterior of the fitted ones.
+    """Return the log density of the samples from `first` to `last`, averaged over the posterior of the fitted ones."""
+    frame, picks = found.frame, len(found.frame.arm.log.picks)
+    held = cut_before(frame.expand(found.at, found.choice, last=last)[0], first * picks)
 
-    It is the closed form for errors that are linear in the coordinates, as in `evidence.heldout`; where they are not,
-    the gain of its step counts.
-    """
-    frame = found.frame
-    cut = first * len(frame.arm.log.picks)
-    seen = frame.expand(found.at, found.choice, last=last)[0]
-    here = replace(seen.here, errors=seen.here.errors[cut:], variances=seen.here.variances[cut:])
-    held = replace(seen, here=here, errors=seen.errors[:, cut:], variances=seen.variances[:, cut:])
-    value, used = float(held.here.log_likelihood), found.used
-    both = found.precision + held.information[np.ix_(used, used)]
-    sign, size = np.linalg.slogdet(both)
-    if sign <= 0 or not math.isfinite(value):
-        return -math.inf
-    step = np.zeros(len(found.at))
-    step[used] = np.linalg.solve(both, held.gradient[used])
-    moved = frame.run(frame.clip(found.at + step), last=last).seen
-    gained = (
-        float(replace(moved, errors=moved.errors[first:], variances=moved.variances[first:]).log_likelihood) - value
-    )
-    gained -= 0.5 * float(step[used] @ found.precision @ step[used])
-    gain = max(min(0.5 * float(held.gradient[used] @ step[used]), gained), 0.0)
-    return value + gain - 0.5 * float(size - np.linalg.slogdet(found.precision)[1])
+    def score(step: Array) -> float:
+        moved = frame.run(frame.clip(found.at + step), last=last).seen
+        return float(replace(moved, errors=moved.errors[first:], variances=moved.variances[first:]).log_likelihood)
+
+    return average_over_posterior(held, found.used, found.precision, score)
 
 
 def list_base(

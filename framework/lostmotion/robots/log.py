@@ -59,7 +59,7 @@ class RobotLog:
     def drive(self, terms: Sequence[DriveTerm], values: Mapping[str, float]) -> Array:
         """Return the torque (samples, n) that acts from each sample to the next, changed by the terms of the drive."""
         time = np.asarray(self.dt * np.arange(self.samples), dtype=float)
-        found = np.array(self.torque) if self.hold == "step" else _halfway(self.torque)
+        found = np.array(self.torque) if self.hold == "step" else average_neighbours(self.torque)
         for j, joint in enumerate(self.joints):
             own = [term for term in terms if term.at == f"{joint}.torque"]
             if not own:
@@ -81,7 +81,8 @@ def _chain(term: DriveTerm, source: Input, p: tuple[float, ...]) -> Input:
     return lambda t, order: term.true(source, t, p, order)
 
 
-def _halfway(x: Array) -> Array:
+def average_neighbours(x: Array) -> Array:
+    """Return the values (samples, ...) in the middle of each interval; the last one is held."""
     return np.concatenate([0.5 * (x[:-1] + x[1:]), x[-1:]])
 
 

@@ -9,6 +9,8 @@ import numpy as np
 
 from lostmotion.contracts import Term
 from lostmotion.errors import DataError
+from lostmotion.evidence.bare import Budget
+from lostmotion.likelihood.sensors import measure_white_noise
 from lostmotion.parts import Array
 from lostmotion.robots.arm import TapedArm
 from lostmotion.robots.candidates import list_effects, make_screen, relinearise
@@ -71,11 +73,7 @@ def renew_tape(arm: TapedArm, simulator: Simulator, path: Path) -> TapedArm:
 
 def estimate_noise(readings: Array) -> Array:
     """Return the noise (sd) of each column of readings, from its fourth differences."""
-    found = []
-    for column in readings.T:
-        good = column[np.isfinite(column)]
-        found.append(float(np.median(np.abs(np.diff(good, 4)))) / (0.6745 * np.sqrt(70.0)))
-    return np.maximum(found, 1e-9)
+    return np.maximum([measure_white_noise(column) for column in readings.T], 1e-9)
 
 
 def prepare_search(
@@ -102,7 +100,7 @@ def prepare_search(
     effects = list_effects(arm, scales, terms, simulator.points, plain)
     screen = make_screen(arm, effects, arm.tape.path.a)
     frame = ArmFrame(arm, (), base, both[0], last)
-    search = ArmSearch(frame, screen, both[1], arm.log.samples, options.most, options.budget, say)
+    search = ArmSearch(frame, screen, both[1], arm.log.samples, options.most, Budget(seconds=options.budget), say)
     return search, np.concatenate([[c.mean for c in base], np.zeros(len(both[0].columns))])
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from lostmotion.codec import to_plain
 from lostmotion.contracts import Term
 from lostmotion.errors import CaseError
+from lostmotion.evidence.hypothesis import UNKNOWN
 from lostmotion.kernels.threads import hold_linear_algebra
 from lostmotion.parts import Array
 from lostmotion.provenance import origin_of
@@ -223,7 +224,7 @@ def _write_notes(case: RobotCase, search: ArmSearch, terms: Sequence[Term]) -> t
 def _make_origin(case: RobotCase, search: ArmSearch) -> Origin:
     settings = {
         "simulator": case.kind, "joints": list(case.simulator.joints), "torque": case.side, "hold": case.log.hold,
-        "tolerance": case.tolerance, "known": dict(case.known), "most": search.most, "budget": search.budget,
+        "tolerance": case.tolerance, "known": dict(case.known), "most": search.most, "budget": search.budget.seconds,
     }  # fmt: skip
     return origin_of("diagnose", settings, None, case.inputs)
 
@@ -258,5 +259,5 @@ def list_changes(output: RobotOutput) -> tuple[FoundMechanism, ...]:
     return tuple(
         FoundMechanism(m.mechanism, m.at, {name: x.median for name, x in m.parameters.items()}, m.says)
         for m in output.result.found
-        if m.mechanism != "unknown"
+        if m.mechanism != UNKNOWN
     )

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from lostmotion.evidence.bare import Budget
+from lostmotion.evidence.search import compute_probabilities
+from lostmotion.inference.penalties import compute_unknown_price
 from lostmotion.parts import Array
 from lostmotion.robots.candidates import ArmPromise, Screen, list_gear_promises, list_promises
 from lostmotion.robots.discrepancy import Discrepancy
@@ -26,7 +28,6 @@ SMALL = 0.1
 """The random force of a second start, as a share of the fitted one: a gap is else taken for noise."""
 UNKNOWN_PRICE = 1.0
 """The log odds of an unknown force against those of one effect of the library."""
-UNKNOWN = "unknown"
 
 
 @dataclass
@@ -34,7 +35,7 @@ class ArmSearch:
     """A search from the fit of the nominal model; `found` has the best hypothesis of each set of effects.
 
     `samples` is the length of the log, of which the `frame` fits the first part. `large` is the discrepancy with a
-    larger smooth force. `budget` is processor time in s.
+    larger smooth force.
     """
 
     frame: ArmFrame
@@ -42,18 +43,17 @@ class ArmSearch:
     large: Discrepancy
     samples: int
     most: int
-    budget: float
+    budget: Budget
     say: Say = lambda _: None
     found: dict[Terms, ArmHypothesis] = field(default_factory=dict)
     extended: set[Terms] = field(default_factory=set)
     dropped: set[tuple[Terms, Terms]] = field(default_factory=set)
     skipped: bool = False
-    begun: float = field(default_factory=time.process_time)
 
     @property
     def price(self) -> float:
         """The log odds against any one effect."""
-        return math.log(len(self.screen.effects)) + 1.0
+        return compute_unknown_price(len(self.screen.effects))
 
     @property
     def temper(self) -> float:
@@ -66,18 +66,13 @@ class ArmSearch:
         """The hypothesis of the largest score."""
         return max(self.found.values(), key=lambda one: one.score(self.temper))
 
-    @property
-    def spent(self) -> bool:
-        """Whether the processor time is used up."""
-        return time.process_time() - self.begun > self.budget
-
     def run(self, nominal: Array) -> ArmSearch:
         """Return the search after it has ended, started at coordinates of the nominal model."""
         self.weigh((), self._vary_levels(nominal))
         if not self.found:
             return self
         while (target := self._choose_next()) is not None:
-            if self.spent:
+            if self.budget.spent:
                 self.skipped = True
                 break
             self.extended.add(target.terms)
@@ -110,7 +105,7 @@ class ArmSearch:
         wanted += [(p, (0.0, math.log(SMALL))) for p in gears if p.gain > 0.0]
         self.say(f"fits beside {name_set(target.terms)}: {', '.join(p.effect.key for p, _ in wanted) or 'none'}")
         for promise, shifts in wanted:
-            if self.spent:
+            if self.budget.spent:
                 self.skipped = True
                 return
             self._weigh_beside(target, promise, shifts)
@@ -210,20 +205,10 @@ def name_set(terms: Terms) -> str:
     return " and ".join(sorted(terms)) or "no effect"
 
 
-def compute_probabilities(search: ArmSearch) -> dict[Terms, float]:
-    """Return the posterior probability of each set: the softmax of the scores."""
-    temper = search.temper
-    scores = {terms: one.score(temper) for terms, one in search.found.items()}
-    top = max(scores.values())
-    weights = {terms: math.exp(score - top) for terms, score in scores.items()}
-    total = sum(weights.values())
-    return {terms: weight / total for terms, weight in weights.items()}
-
-
 def find_probabilities(search: ArmSearch) -> dict[str, float]:
     """Return the posterior probability of each effect: the sum over the sets that contain it."""
     shares: dict[str, float] = {}
-    for terms, share in compute_probabilities(search).items():
+    for terms, share in compute_probabilities(search.found.values(), search.temper).items():
         for key in terms or {"nothing_missing"}:
             shares[key] = shares.get(key, 0.0) + share
     return dict(sorted(shares.items(), key=lambda pair: -pair[1]))

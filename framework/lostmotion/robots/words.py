@@ -8,6 +8,8 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from lostmotion.contracts import Term
+from lostmotion.evidence.hypothesis import UNKNOWN
+from lostmotion.evidence.search import compute_probabilities
 from lostmotion.parts import Array
 from lostmotion.results import Interval, attach_unit, percent
 from lostmotion.results.diagnosis import Candidate, Confusion, Mechanism
@@ -16,7 +18,7 @@ from lostmotion.robots.arm import TapedArm
 from lostmotion.robots.effects import ArmCoordinate, ArmEffect, GearEffect, LawEffect, MassEffect
 from lostmotion.robots.hypothesis import ArmHypothesis
 from lostmotion.robots.predict import HeldOutRuns
-from lostmotion.robots.search import UNKNOWN, ArmSearch, compute_probabilities, find_probabilities
+from lostmotion.robots.search import ArmSearch, find_probabilities
 
 SURE, LIKELY = 0.95, 0.5
 """The posterior probability above which an effect is named, and is told as likely."""
@@ -143,7 +145,7 @@ def measure_forces(found: ArmHypothesis) -> dict[tuple[str, str], float]:
 def rank_sets(search: ArmSearch) -> tuple[Candidate, ...]:
     """Return every set that was fitted, the most probable first."""
     plain = search.found[frozenset()]
-    temper, shares = search.temper, compute_probabilities(search)
+    temper, shares = search.temper, compute_probabilities(search.found.values(), search.temper)
     rows = []
     for terms, one in sorted(search.found.items(), key=lambda pair: -pair[1].score(temper)):
         names = sorted(terms) or ["nothing_missing"]
