@@ -1,5 +1,7 @@
 """The errors that callers may catch; each is a `LostMotionError`.
 
+They derive from each other as follows::
+
     LostMotionError
     ├── DataError       the recording cannot be used as it is
     │   └── PlaceError  a file cannot be written, or its disk is full: the same work can be repeated elsewhere

@@ -46,7 +46,7 @@ class SensorScales(NamedTuple):
 
 
 class NoiseParameter(NamedTuple):
-    """A parameter of a noise: `name` begins with "log_noise_"; all numbers are natural logarithms.
+    """A parameter of a noise: `name` begins with `log_noise` and an underscore; all numbers are natural logarithms.
 
     `low` and `high` are bounds. The prior is uniform between them, or normal with `mean` and `sd`. `unit` is that of
     the number itself, empty for the unit of the channel.

@@ -13,6 +13,9 @@ SURE = 1e-9
 """A state that is known better than this share of its largest value is not corrected: of sliding friction with an
 elastic part, the filter knows the deflection to 1e-18 of itself, and rounding errors divided by that are forces of
 several hundred times the drive."""
+ROUNDING = 1e-14
+"""The share of its variance to which a state is computed: where a large random force correlates all states, their
+covariance is singular to rounding."""
 
 
 def smooth(seen_states: Array, seen_cov: Array, ahead_states: Array, ahead_cov: Array, steps: Array) -> Any:
@@ -22,7 +25,8 @@ def smooth(seen_states: Array, seen_cov: Array, ahead_states: Array, ahead_cov: 
     """
     states, cov, n = seen_states.copy(), seen_cov.copy(), seen_states.shape[1]
     least = np.diag((SURE * np.max(np.abs(seen_states), axis=0)) ** 2 + 1e-300)
-    gains = np.linalg.solve(ahead_cov[1:] + least, steps[:-1] @ seen_cov[:-1])
+    rounded = ROUNDING * ahead_cov[1:] * np.eye(n)
+    gains = np.linalg.solve(ahead_cov[1:] + rounded + least, steps[:-1] @ seen_cov[:-1])
     _sweep_back(states, cov, ahead_states, ahead_cov, gains, np.zeros((n, n)))
     return states, cov
 
