@@ -41,8 +41,8 @@ class ExplanationSearch:
     """A search beside a `nominal` fit among terms `keys`; `pieces` are held-out data with their first samples.
 
     `found` has the hypothesis of each set that was weighed, `skipped` the sets that were not extended for lack of time,
-    and `cancelled` tells whether the user ended it. On a part of the samples, `temper` is its share of all: scores then
-    predict those of all samples.
+    and `cancelled` tells whether the user ended it. Smooth forces over the time reach to `until` (s). On a part of the
+    samples, `temper` is its share of all: scores then predict those of all samples.
     """
 
     nominal: Fit
@@ -50,6 +50,7 @@ class ExplanationSearch:
     pieces: Sequence[tuple[Observation, int]]
     budget: Budget
     temper: float = 1.0
+    until: float = 0.0
     say: Say = lambda _: None
     errors: tuple[ChannelError, ...] = ()
     recordings: Sequence[Observation] = ()
@@ -63,7 +64,7 @@ class ExplanationSearch:
         """Prepare the system with every curve, and the usual errors of the channels if they are not given."""
         whole = {o.name: o for o in (*self.nominal.problem.observations, *(o for o, _ in self.pieces))}
         self.errors = self.errors or list_channel_errors(self.nominal, list(whole.values()))
-        wide, plain = add_all_curves(self.nominal), self.nominal.problem.system
+        wide, plain = add_all_curves(self.nominal, self.until), self.nominal.problem.system
         recordings = self.recordings or self.nominal.problem.observations
         self.bare = BareFits(wide, plain, self.keys, self.errors, self.budget, recordings, self.temper, self.say)
 

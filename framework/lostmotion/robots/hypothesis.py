@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from lostmotion.contracts import Term
 from lostmotion.evidence.expansion import Expansion
-from lostmotion.evidence.heldout import average_over_posterior, cut_before
+from lostmotion.evidence.heldout import Posterior, average_over_posterior, cut_before
 from lostmotion.evidence.hypothesis import UNKNOWN
 from lostmotion.likelihood.engine import Innovations
 from lostmotion.parts import Array
@@ -237,13 +237,16 @@ def _find_precision(frame: ArmFrame, seen: Expansion, choice: Choice) -> tuple[N
 def score_heldout(found: ArmHypothesis, first: int, last: int) -> float:
     """Return the log density of the samples from `first` to `last`, averaged over the posterior of the fitted ones."""
     frame, picks = found.frame, len(found.frame.arm.log.picks)
-    held = cut_before(frame.expand(found.at, found.choice, last=last)[0], first * picks)
+
+    def expand(step: Array) -> Expansion:
+        return cut_before(frame.expand(frame.clip(found.at + step), found.choice, last=last)[0], first * picks)
 
     def score(step: Array) -> float:
         moved = frame.run(frame.clip(found.at + step), last=last).seen
         return float(replace(moved, errors=moved.errors[first:], variances=moved.variances[first:]).log_likelihood)
 
-    return average_over_posterior(held, found.used, found.precision, score)
+    levels = np.arange(len(found.at)) < len(frame.arm.joints) + picks
+    return average_over_posterior(Posterior(found.used, found.precision, levels), expand, score)
 
 
 def list_base(
