@@ -64,7 +64,7 @@ def list_warnings(d: SearchResult, key: str) -> list[str]:
     imitates = term.unlikely > 0.0 or term.acts != "motion"
     steady = warn_of_moved_amplitudes(d, key) if imitates else ()
     weak = [*_warn_of_probability(d, key), *_warn_of_vague_size(d, key), *_warn_of_rest(d, key)]
-    return [*weak, *steady, *_warn_of_long_delay(d, key), *_warn_of_early_change(d, key)]
+    return [*weak, *steady, *_warn_of_early_change(d, key)]
 
 
 def measure_remains(d: SearchResult) -> float:
@@ -162,21 +162,6 @@ def warn_of_moved_amplitudes(d: SearchResult, key: str) -> Iterator[str]:
 def _name_law(d: SearchResult, key: str) -> str:
     """Return the name of a term in words."""
     return to_words(find_term(d.before.problem, key)[0].name)
-
-
-def _warn_of_long_delay(d: SearchResult, key: str) -> Iterator[str]:
-    """Yield a warning if a delay is longer than acquisition systems usually have."""
-    term, slots = find_term(d.after.problem, key)
-    late = [s for s in slots if s.param.dimension == TIME and s.key in d.after.values]
-    if term.acts == "motion" or not late:
-        return
-    period = 2.0 * math.pi * d.after.problem.scales.time
-    share = abs(d.after.values[late[0].key]) / period
-    if share > d.settings.name.late:
-        yield (
-            f"A delay of {percent(share)} of a natural period is unusual: measure the delay between"
-            " the channels directly."
-        )
 
 
 def warn_of_short_delay(d: SearchResult, key: str) -> Iterator[str]:

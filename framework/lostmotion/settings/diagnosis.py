@@ -248,11 +248,6 @@ class NameSettings:
         ),
         most=1.0,
     )
-    late: float = threshold(
-        0.05,
-        "A delay of more than this share of a natural period is unusual: acquisition systems are faster.",
-        most=1.0,
-    )
     early: float = threshold(
         0.04,
         "A change that is complete within this share of the recording is at most likely: a known value that is wrong"
