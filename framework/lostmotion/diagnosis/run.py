@@ -209,12 +209,12 @@ def check_heldout(diagnosis: SearchResult, rng: np.random.Generator, say: Say = 
     """Return the diagnosis with its predictions, by the most probable set that free runs do not refute.
 
     One-step predictions of held-out data are a part of the score already. Free runs test the model in another way: a
-    set is refuted if they are worse with it than with the nominal model, or if the missing force is larger.
+    set is refuted if they are worse with it than with the nominal model.
     """
     outcome = compare_heldout(diagnosis)
     for _ in range(MOST_REFUTED):
         found = outcome.diagnosis
-        if not found.found or (not is_worse(outcome.before, outcome.after, found.settings.heldout) and found.explains):
+        if not found.found or not is_worse(outcome.before, outcome.after, found.settings.heldout):
             break
         say(f"held-out predictions without {name_terms(found.explained.terms)}")
         less = explain_by(found.explained.refute(), found, rng.spawn(1)[0], say)

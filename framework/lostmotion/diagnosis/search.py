@@ -142,14 +142,6 @@ class SearchResult:
         return tuple(map(self.corrections.correct, self.recordings))
 
     @property
-    def explains(self) -> bool:
-        """Whether the missing force is no larger with the found terms, or is within the noise with them."""
-        if self.left is None or not self.unexplained:
-            return True
-        most = self.settings.heldout.missing * float(np.std(self.located.missing.force))
-        return float(np.std(self.left.missing.force)) <= most
-
-    @property
     def unexplained(self) -> bool:
         """Whether a random force beyond the usual noise of the drive remains."""
         return self.random_gain > self.settings.locate.significant

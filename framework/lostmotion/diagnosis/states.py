@@ -104,26 +104,21 @@ def _warn_of_vague_size(d: SearchResult, key: str) -> Iterator[str]:
 
 
 def _warn_of_rest(d: SearchResult, key: str) -> Iterator[str]:
-    """Yield a warning if much is unexplained beside a term: an unknown force, or a large random force."""
+    """Yield a warning beside an unknown force, and if one of several terms adds less than the discrepancy does.
+
+    A further term takes a share of the discrepancy more easily than the first one.
+    """
     unknown = d.explained.inclusion(UNKNOWN)
     if unknown > d.settings.name.rival:
         yield (
             "Beside the term, an unknown force that is larger than the usual errors of a model has the probability"
             f" {rounded(unknown)}: the term may be a part of it."
         )
-    elif (left := d.explained.leftover) > (gain := compute_gain(d, key)):
+    elif len(d.explained.terms) > 1 and (left := d.explained.leftover) > (gain := compute_gain(d, key)):
         yield (
-            f"Beside the term, small errors of the model without a name add {rounded(left)} to the log evidence, the"
-            f" term {rounded(max(gain, 0.0))}: the term may be a part of them."
+            f"Beside the terms, small errors of the model without a name add {rounded(left)} to the log evidence, this"
+            f" term {rounded(max(gain, 0.0))}: it may be a part of them."
         )
-    elif d.unexplained and d.left and (more := _measure_rest(d, key)) > 1.0:
-        yield f"The random force that remains is {rounded(more)} times as large as that of the term (rms)."
-
-
-def _measure_rest(d: SearchResult, key: str) -> float:
-    """Return the random force that remains in units of that of a term (rms); 0 for a term that is no force."""
-    size = float(np.sqrt(np.mean(d.laws[key] ** 2)))
-    return float(np.std(d.left.missing.force)) / size if d.left and size > 0.0 else 0.0
 
 
 def compute_gain(d: SearchResult, key: str) -> float:

@@ -193,11 +193,6 @@ class HeldOutSettings:
         "A free prediction is valid until its error exceeds this share of the standard deviation of the response.",
     )
     rise: float = threshold(0.01, "An error of free runs that rises by a smaller share than this counts as unchanged.")
-    missing: float = threshold(
-        1.02,
-        "A missing force that rises by more than this factor on held-out data is not explained by the found terms.",
-        least=1.0,
-    )
     fall: float = threshold(
         0.01,
         (
