@@ -1,4 +1,4 @@
-"""The built-in models, terms, engines and readers: names only, so that listing them imports neither NumPy nor numba."""
+"""The built-in models, terms, noises, simulators and readers: names only, so that listing them imports no NumPy."""
 
 from lostmotion.hookspecs import hookimpl
 
@@ -88,13 +88,6 @@ def lostmotion_noises() -> dict[str, str]:
         "hum60": f"{at}.hum:Hum60",
         "jitter": f"{at}.jitter:Jitter",
     }
-
-
-@hookimpl
-def lostmotion_engines() -> dict[str, str]:
-    """Return the built-in engines, which are parts of the framework itself."""
-    at = "lostmotion.likelihood"
-    return {"lanes": f"{at}.lanes:Lanes", "reference": f"{at}.reference:Reference"}
 
 
 @hookimpl

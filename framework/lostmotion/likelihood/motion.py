@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,9 +14,7 @@ from lostmotion.kernels.vector import STRIDE, WIDTH
 from lostmotion.likelihood.compose import FIRST, SENSOR, STATES, X, compile_law
 from lostmotion.likelihood.drive import Drive, pad_inputs
 from lostmotion.likelihood.kernels import build_motion
-
-if TYPE_CHECKING:
-    from lostmotion.likelihood.system import System
+from lostmotion.likelihood.layout import Layout
 
 
 def make_block(rows: int) -> Array:
@@ -38,7 +36,7 @@ def spread_points(values: Array) -> Array:
     return made
 
 
-def make_model_block(system: System, packed: Array) -> Array:
+def make_model_block(system: Layout, packed: Array) -> Array:
     """Return the block of a model with its parameters, packed by `System.pack`, (points, params)."""
     rows = system.blueprint.rows
     made = make_block(rows.total)
@@ -47,7 +45,7 @@ def make_model_block(system: System, packed: Array) -> Array:
 
 
 def make_model_wires(
-    system: System,
+    system: Layout,
     active: frozenset[str],
     latent: tuple[int, ...] = (),
     *,
@@ -71,7 +69,7 @@ def make_model_wires(
     return np.array([*head, *forces, *offsets, *(n for table in tables for n in table)], dtype=np.int64)
 
 
-def _make_law_table(system: System, number: int, at: int, compiled: bool) -> list[int]:
+def _make_law_table(system: Layout, number: int, at: int, compiled: bool) -> list[int]:
     """Return the table of a law: its address, and the rows that are copied to its desk and back.
 
     `at` is the index of its first state among those of the model.
@@ -90,7 +88,7 @@ def _make_law_table(system: System, number: int, at: int, compiled: bool) -> lis
     return [*head, *(row for pair in (*copies, *returns) for row in pair)]
 
 
-def require_no_failure(failed: int, system: System, made: Array, wires: NDArray[np.int64]) -> None:
+def require_no_failure(failed: int, system: Layout, made: Array, wires: NDArray[np.int64]) -> None:
     """Raise a `ContractError` where a law raised an error: the law's own error, at the points of the block."""
     if failed:
         plain = system.functions(compiled=False)
@@ -100,7 +98,7 @@ def require_no_failure(failed: int, system: System, made: Array, wires: NDArray[
 
 
 def run_freely(
-    system: System,
+    system: Layout,
     active: frozenset[str],
     packed: Array,
     start: Array,
@@ -143,7 +141,7 @@ def run_freely(
 
 
 def compute_derivatives(
-    system: System,
+    system: Layout,
     active: frozenset[str],
     packed: Array,
     states: Array,
@@ -162,7 +160,7 @@ def compute_derivatives(
 
 
 def compute_each(
-    system: System,
+    system: Layout,
     active: frozenset[str],
     packed: Array,
     states: Array,

@@ -1,7 +1,8 @@
 """Rules for engines: agreement with plain matrices, and independence of points and calls.
 
-They are checked on a small machine with a gap, sticking friction and a Maxwell element, with channels of each kind: a
-state, a nonlinear function of the states, and an acceleration, which depends on the present random force.
+Each rule returns what is wrong, or an empty text. The rules use a small machine with a gap, sticking friction and a
+Maxwell element, with channels of each kind: a state, a nonlinear function of the states, and an acceleration, which
+depends on the present random force.
 """
 
 from __future__ import annotations
@@ -16,16 +17,15 @@ from typing import Any
 
 import numpy as np
 
-from lostmotion.contracts import Array, Engine, Interface, Model, Param, Term, Values
+from lostmotion.contracts import Array, Interface, Model, Param, Term, Values
 from lostmotion.likelihood.drive import Drive
-from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Random, SensorNoises
+from lostmotion.likelihood.engine import Dynamics, Engine, Innovations, Points, Random, SensorNoises
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.reference import Reference
 from lostmotion.likelihood.sensors import Sensor
 from lostmotion.likelihood.system import System
 from lostmotion.noises import AR1, Noise, NoiseBlock, NoiseParameter, SensorScales, White
 from lostmotion.quantities import DAMPING, FORCE, INERTIA, LENGTH, STIFFNESS
-from lostmotion.testing.rules import rule
 
 TOLERANCE = 1e-7
 """The largest accepted difference from the matrices, in standard deviations."""
@@ -234,7 +234,6 @@ def _are_equal(one: Any, other: Any) -> bool:
     return all(np.array_equal(getattr(one, n), getattr(other, n), equal_nan=True) for n in names)
 
 
-@rule("engine")
 def filter_agrees_with_matrices(engine: Engine) -> str:
     """Return the one-step errors and variances that the engine `reference` returns, for sensors of every kind."""
     for what, given in _list_cases():
@@ -246,7 +245,6 @@ def filter_agrees_with_matrices(engine: Engine) -> str:
     return ""
 
 
-@rule("engine")
 def smoother_agrees_with_matrices(engine: Engine) -> str:
     """Return filtered and smoothed states, with their covariances, as the engine `reference` does."""
     for what, given in _list_cases():
@@ -263,7 +261,6 @@ def smoother_agrees_with_matrices(engine: Engine) -> str:
     return ""
 
 
-@rule("engine")
 def free_run_agrees_with_matrices(engine: Engine) -> str:
     """Return the free motion by RK4 with the given steps from the start of each run, as `reference` does."""
     dynamics, _, points = make_arguments(SENSORS["a state"], count=3)
@@ -277,7 +274,6 @@ def free_run_agrees_with_matrices(engine: Engine) -> str:
     return ""
 
 
-@rule("engine")
 def points_do_not_know_each_other(engine: Engine) -> str:
     """Make the result of a point independent of the number and order of points, to the last bit."""
     for sensors, random in ((SENSORS["a state"], "white"), (SENSORS["a nonlinear channel"], "held")):
@@ -294,7 +290,6 @@ def points_do_not_know_each_other(engine: Engine) -> str:
     return ""
 
 
-@rule("engine")
 def missing_readings_add_nothing(engine: Engine) -> str:
     """For a reading that is NaN, return the error 0 and the variance 1 / (2 pi), and continue."""
     dynamics, observation, points = make_arguments(SENSORS["several sensors, two of them with noise of their own"])
@@ -307,7 +302,6 @@ def missing_readings_add_nothing(engine: Engine) -> str:
     return "" if good else "a recording without readings has a likelihood other than one"
 
 
-@rule("engine")
 def divergence_is_a_status(engine: Engine) -> str:
     """For a point that diverges, return `finite` false for this point only, and raise no error."""
     dynamics, observation, points = make_arguments(SENSORS["a state"], count=3)
@@ -324,7 +318,6 @@ def divergence_is_a_status(engine: Engine) -> str:
     return "" if _are_equal(found[[0, 2]], wanted[[0, 2]]) else "a point that diverges changes the results of others"
 
 
-@rule("engine")
 def threads_do_not_disturb_each_other(engine: Engine) -> str:
     """Store nothing between calls: parallel calls from several threads must give the same results as single calls."""
     given = [make_arguments(sensors, count=count) for sensors, count in itertools.product(SENSORS.values(), (1, 5))]
@@ -336,3 +329,14 @@ def threads_do_not_disturb_each_other(engine: Engine) -> str:
             ):
                 return "parallel calls from several threads gave other numbers"
     return ""
+
+
+RULES = (
+    filter_agrees_with_matrices,
+    smoother_agrees_with_matrices,
+    free_run_agrees_with_matrices,
+    points_do_not_know_each_other,
+    missing_readings_add_nothing,
+    divergence_is_a_status,
+    threads_do_not_disturb_each_other,
+)
