@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from lostmotion.contracts import Term
 from lostmotion.evidence.expansion import Expansion
-from lostmotion.evidence.heldout import Posterior, average_over_posterior, cut_before
+from lostmotion.evidence.heldout import NormalPosterior, average_over_posterior, cut_before
 from lostmotion.evidence.hypothesis import UNKNOWN
 from lostmotion.likelihood.engine import Innovations
 from lostmotion.parts import Array
@@ -246,7 +246,7 @@ def score_heldout(found: ArmHypothesis, first: int, last: int) -> float:
         return float(replace(moved, errors=moved.errors[first:], variances=moved.variances[first:]).log_likelihood)
 
     levels = np.arange(len(found.at)) < len(frame.arm.joints) + picks
-    return average_over_posterior(Posterior(found.used, found.precision, levels), expand, score)
+    return average_over_posterior(NormalPosterior(found.used, found.precision, levels), expand, score)
 
 
 def list_base(
