@@ -46,7 +46,7 @@ def track_for(study):
 
 def run(study):
     """Return what a diagnosis says of a study, as numbers and names."""
-    from lostmotion.diagnosis.search import diagnose
+    from lostmotion.diagnosis.stages import diagnose
 
     observation, start = track_for(study), time.perf_counter()
     d = diagnose(case_of(study.unknown), [observation], system_of(), rng=np.random.default_rng(0), jobs=1)

@@ -101,7 +101,7 @@ def lostmotion_simulators() -> dict[str, str]:
 def lostmotion_readers() -> dict[str, tuple[str, str]]:
     """Return the readers of formats whose libraries are extras; they are parts of the framework itself."""
     at = "lostmotion.recording.readers"
-    sheet = (f"{at}.sheets:read_sheet", "lostmotion[xlsx]")
+    sheet = (f"{at}.spreadsheets:read_sheet", "lostmotion[xlsx]")
     bag = (f"{at}.bags:read_bag", "lostmotion[rosbag]")
     mdf = (f"{at}.mdf:read_mdf", "lostmotion[mf4]")
     uff = (f"{at}.uff:read_uff", "lostmotion[uff]")

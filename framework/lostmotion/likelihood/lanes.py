@@ -14,8 +14,7 @@ from lostmotion.kernels.inputs import DRAWN, DRIVES, SOURCES
 from lostmotion.kernels.smooth import smooth
 from lostmotion.kernels.vector import STRIDE
 from lostmotion.likelihood.engine import Dynamics, Engine, Innovations, Points, Smoothed
-from lostmotion.likelihood.kernels import build_filter
-from lostmotion.likelihood.motion import (
+from lostmotion.likelihood.kernel_calls import (
     count_lanes,
     make_block,
     make_model_block,
@@ -24,6 +23,7 @@ from lostmotion.likelihood.motion import (
     run_freely,
     spread_points,
 )
+from lostmotion.likelihood.kernels import build_filter
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.work import add_work
 

@@ -13,14 +13,14 @@ from numpy.typing import NDArray
 
 from lostmotion.contracts import Array
 from lostmotion.kernels.threads import each
-from lostmotion.likelihood.batches import find_distinct, group_rows, join_innovations, realign
 from lostmotion.likelihood.bends import SensorCorrections, correct_twice, filter_corrected, list_corrections
 from lostmotion.likelihood.drive import Drive, pad_inputs
 from lostmotion.likelihood.engine import Dynamics, Engine, Innovations, Points, Random, SensorNoises, Smoothed
 from lostmotion.likelihood.initial import compute_initial
+from lostmotion.likelihood.kernel_calls import count_lanes
 from lostmotion.likelihood.lanes import Lanes
-from lostmotion.likelihood.motion import count_lanes
 from lostmotion.likelihood.observation import Observation, shift_sensors
+from lostmotion.likelihood.point_groups import find_distinct, group_rows, join_innovations, realign
 from lostmotion.likelihood.sensor_noise import compute_blocks, compute_variance, read_values
 from lostmotion.likelihood.sensors import Sensor
 from lostmotion.likelihood.space import (

@@ -17,8 +17,8 @@ from lostmotion.contracts import Array, Assembly, DriveTerm, Input, Model, Senso
 from lostmotion.errors import ContractError, nearest
 from lostmotion.likelihood.acting import Column, Recorded, apply_term, evaluate_order
 from lostmotion.likelihood.drive import SILENT, Drive, DriveHarmonic
+from lostmotion.likelihood.kernel_calls import compute_derivatives, run_freely
 from lostmotion.likelihood.layout import ALWAYS, NUMB, Layout, Slot, key_of, onset_key
-from lostmotion.likelihood.motion import compute_derivatives, run_freely
 from lostmotion.likelihood.sensors import Sensor, SensorChange
 
 __all__ = ["ALWAYS", "Clock", "Motion", "Slot", "System", "key_of", "onset_key"]

@@ -20,7 +20,7 @@ from lostmotion.recording.load import make_recording
 from lostmotion.recording.made import RecordingLayout, collect_columns
 from lostmotion.registry import Registry
 from lostmotion.results.background import FittedMachine
-from lostmotion.simulation.simulate import FreeMotion, run_free_motion
+from lostmotion.simulation.simulated_machine import FreeMotion, run_free_motion
 from lostmotion.written import model_of
 
 Signal = ArrayLike | Callable[[Array], Array]

@@ -15,11 +15,11 @@ from lostmotion.errors import DataError, nearest
 from lostmotion.quantities import names_quantity, quantity_of, si_factor
 from lostmotion.recording.arrays import table_of_arrays
 from lostmotion.recording.clock import find_time
+from lostmotion.recording.column_names import names_time
 from lostmotion.recording.folders import digest_recording
 from lostmotion.recording.formats import read_table
 from lostmotion.recording.spec import Channel, Hold, RecordingSpec
 from lostmotion.recording.table import Table
-from lostmotion.recording.words import names_time
 
 if TYPE_CHECKING:
     import xarray as xr
