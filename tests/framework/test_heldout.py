@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from lostmotion.diagnosis import run as ways
+from lostmotion.diagnosis import diagnosis_run as ways
 from lostmotion.diagnosis.compare import PARTS, is_better, is_worse
 from lostmotion.settings import DEFAULT
 

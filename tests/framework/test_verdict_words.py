@@ -7,10 +7,10 @@ import pytest
 import report_fixture as made
 
 from lostmotion.diagnosis import verdict
+from lostmotion.diagnosis.diagnosis_run import note_unused
 from lostmotion.diagnosis.notes import note_large_noise
 from lostmotion.diagnosis.report.opening import make_badge
-from lostmotion.diagnosis.run import note_unused
-from lostmotion.diagnosis.search import _check_moving
+from lostmotion.diagnosis.stages import _check_moving
 from lostmotion.errors import DataError
 from lostmotion.inference.setup import count_lasting_samples
 from lostmotion.likelihood.observation import Observation, Sensor

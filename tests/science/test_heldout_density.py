@@ -5,7 +5,7 @@ import pytest
 from scipy.stats import multivariate_normal
 
 from lostmotion.evidence.expansion import Expansion
-from lostmotion.evidence.heldout import Posterior, average_over_posterior
+from lostmotion.evidence.heldout import NormalPosterior, average_over_posterior
 from lostmotion.likelihood.engine import Innovations
 
 READINGS, FORCES = 400, 6
@@ -36,7 +36,7 @@ def _make(rng, shift):
 def test_the_average_over_a_free_force_is_the_exact_integral(shift):
     basis, errors, expand, score = _make(np.random.default_rng(3), shift)
     precision = np.diag([*np.ones(FORCES), 1e8])  # the noise level is known
-    posterior = Posterior(np.arange(FORCES + 1), precision, np.arange(FORCES + 1) == FORCES)
+    posterior = NormalPosterior(np.arange(FORCES + 1), precision, np.arange(FORCES + 1) == FORCES)
     found = average_over_posterior(posterior, expand, score)
     exact = multivariate_normal.logpdf(errors, np.zeros(READINGS), basis.T @ basis + 0.01 * np.eye(READINGS))
     assert found == pytest.approx(exact, abs=0.05)
@@ -47,7 +47,7 @@ def test_a_force_that_is_free_is_not_taken_for_noise():
     rng = np.random.default_rng(4)
     basis, errors, expand, score = _make(rng, 2.0)
     precision = np.diag([*np.ones(FORCES), 600.0])
-    posterior = Posterior(np.arange(FORCES + 1), precision, np.arange(FORCES + 1) == FORCES)
+    posterior = NormalPosterior(np.arange(FORCES + 1), precision, np.arange(FORCES + 1) == FORCES)
     levels = np.linspace(-0.25, 0.25, 101)
     prior = 0.5 * np.log(600.0 / (2.0 * np.pi)) - 300.0 * levels**2
     noises = (0.01 * np.exp(2.0 * level) * np.eye(READINGS) for level in levels)
@@ -58,5 +58,5 @@ def test_a_force_that_is_free_is_not_taken_for_noise():
 
 def test_data_that_cannot_be_predicted_have_no_density():
     _, _, expand, score = _make(np.random.default_rng(5), np.nan)
-    posterior = Posterior(np.arange(FORCES + 1), np.eye(FORCES + 1), np.arange(FORCES + 1) == FORCES)
+    posterior = NormalPosterior(np.arange(FORCES + 1), np.eye(FORCES + 1), np.arange(FORCES + 1) == FORCES)
     assert average_over_posterior(posterior, expand, score) == -np.inf

@@ -10,7 +10,7 @@ import numpy as np
 
 from lostmotion.contracts import Term
 from lostmotion.diagnosis.compare import Prediction
-from lostmotion.diagnosis.search import SearchResult
+from lostmotion.diagnosis.stages import SearchResult
 from lostmotion.evidence.hypothesis import UNKNOWN, list_vague
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.natural import find_term

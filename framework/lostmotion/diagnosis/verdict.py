@@ -18,7 +18,7 @@ from lostmotion.diagnosis.findings import (
     withhold_intervals,
 )
 from lostmotion.diagnosis.notes import note_large_noise
-from lostmotion.diagnosis.search import SearchResult, list_fitted_keys
+from lostmotion.diagnosis.stages import SearchResult, list_fitted_keys
 from lostmotion.diagnosis.states import LIKELY, NAMED, is_uncertain
 from lostmotion.diagnosis.unknowns import compute_unknown_odds
 from lostmotion.inference.fit import Fit

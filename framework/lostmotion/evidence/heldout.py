@@ -43,11 +43,11 @@ def _score_piece(found: Hypothesis, observation: Observation, begin: int) -> flo
         return _score_point(one, found, found.at + step, first)
 
     levels = np.array([name.startswith("log_") for name in frame.names])
-    return average_over_posterior(Posterior(found.used, found.precision, levels), expand, score)
+    return average_over_posterior(NormalPosterior(found.used, found.precision, levels), expand, score)
 
 
 @dataclass(frozen=True)
-class Posterior:
+class NormalPosterior:
     """A normal posterior of coordinates `used`, of `precision` (used, used); `levels` (count,) tells noise levels."""
 
     used: NDArray[np.intp]
@@ -75,7 +75,7 @@ class Posterior:
 
 
 def average_over_posterior(
-    posterior: Posterior, expand: Callable[[Array], Expansion], score: Callable[[Array], float]
+    posterior: NormalPosterior, expand: Callable[[Array], Expansion], score: Callable[[Array], float]
 ) -> float:
     """Return the log density of held-out data, averaged over a posterior of the fitted data with precision Q.
 

@@ -11,7 +11,7 @@ from typing import Protocol
 import numpy as np
 
 from lostmotion.evidence.bare import MOST_TERMS, BareFits, Budget, Say, Terms, name_terms
-from lostmotion.evidence.channels import ChannelError, list_channel_errors
+from lostmotion.evidence.channel_errors import ChannelError, list_channel_errors
 from lostmotion.evidence.discrepancy import LARGE, LENGTHS, SIZES, Choice, make_frame
 from lostmotion.evidence.effects import Promise
 from lostmotion.evidence.heldout import score_heldout
