@@ -55,18 +55,16 @@ def test_a_change_at_the_very_beginning_may_be_a_wrong_known_value(time, sure):
 
 
 @pytest.mark.parametrize(("more", "sure"), [(12.0, False), (8.0, True)])
-def test_a_name_beside_a_discrepancy_that_explains_more_is_likely(more, sure):
-    doubts = list_warnings(diagnosis(explanations(hypothesis(RUB, 10.0), discrepancy=more)), FRICTION)
-    said = ["errors of the model without a name add 12 to the log evidence, the term 10" in d for d in doubts]
+def test_a_further_name_beside_a_discrepancy_that_explains_more_is_likely(more, sure):
+    both = hypothesis({**RUB, **LATE}, 30.0)
+    told = explanations(hypothesis(RUB, 20.0), hypothesis(LATE, 1.0), both, discrepancy=more)
+    said = ["add 12 to the log evidence, this term 10" in d for d in list_warnings(diagnosis(told), DELAY)]
     assert said == ([] if sure else [True])
+    assert list_warnings(diagnosis(told), FRICTION) == []
 
 
-@pytest.mark.parametrize(("left", "sure"), [(1.5, False), (0.9, True)])
-def test_a_term_that_is_smaller_than_the_random_force_beside_it_is_likely(left, sure):
-    doubts = list_warnings(rubbing(left=missing(left)), FRICTION)
-    assert doubts == (
-        [] if sure else ["The random force that remains is 1.5 times as large as that of the term (rms)."]
-    )
+def test_a_single_name_needs_its_probability_only():
+    assert list_warnings(diagnosis(explanations(hypothesis(RUB, 10.0), discrepancy=300.0)), FRICTION) == []
 
 
 @pytest.mark.parametrize(("error", "shared"), [(10.1, True), (10.4, False)])
