@@ -104,9 +104,9 @@ def _warn_of_vague_size(d: SearchResult, key: str) -> Iterator[str]:
 
 
 def _warn_of_rest(d: SearchResult, key: str) -> Iterator[str]:
-    """Yield a warning beside an unknown force, and if one of several terms adds less than the discrepancy does.
+    """Yield a warning beside an unknown force, and if a further term adds less than the discrepancy does.
 
-    A further term takes a share of the discrepancy more easily than the first one.
+    A further term takes a share of the discrepancy more easily than the one that adds most.
     """
     unknown = d.explained.inclusion(UNKNOWN)
     if unknown > d.settings.name.rival:
@@ -114,11 +114,16 @@ def _warn_of_rest(d: SearchResult, key: str) -> Iterator[str]:
             "Beside the term, an unknown force that is larger than the usual errors of a model has the probability"
             f" {rounded(unknown)}: the term may be a part of it."
         )
-    elif len(d.explained.terms) > 1 and (left := d.explained.leftover) > (gain := compute_gain(d, key)):
+    elif key != _find_first(d) and (left := d.explained.leftover) > (gain := compute_gain(d, key)):
         yield (
             f"Beside the terms, small errors of the model without a name add {rounded(left)} to the log evidence, this"
             f" term {rounded(max(gain, 0.0))}: it may be a part of them."
         )
+
+
+def _find_first(d: SearchResult) -> str:
+    """Return the found term that adds most to the others; empty without any."""
+    return max(sorted(d.explained.terms), key=lambda key: compute_gain(d, key), default="")
 
 
 def compute_gain(d: SearchResult, key: str) -> float:
