@@ -75,11 +75,13 @@ def _diagnose_one(
         _diagnose_robot(ctx, case, out, quiet=quiet, settings=settings)
         return
     from lostmotion.case import GUESSED
+    from lostmotion.diagnosis.absent import summarise_absent
     from lostmotion.diagnosis.run import run_diagnosis
 
     with show_progress("diagnose", quiet=quiet) as say:
         found = run_diagnosis(case, out, registry_of(ctx), seed=seed, jobs=jobs, say=say, settings=settings)
-    for sentence in (*found.says, *(note for note in found.notes if note.startswith(GUESSED))):
+    guesses = (note for note in found.notes if note.startswith(GUESSED))
+    for sentence in filter(None, (*found.says, summarise_absent(found.absent), *guesses)):
         click.echo(sentence)
     click.echo(str(out / "report.html"))
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from lostmotion.case import CaseFile
 from lostmotion.codec import to_plain
+from lostmotion.diagnosis.absent import list_absent
 from lostmotion.diagnosis.arrays import list_arrays
 from lostmotion.diagnosis.compare import (
     average_exponent,
@@ -231,6 +232,8 @@ def _make_result(prepared: Prepared, outcome: Outcome, seed: int, proposals: Pro
     d, case = outcome.diagnosis, prepared.case
     found, sharing = add_sharing(d, list_findings(outcome))
     found, rest = sort_findings([limit_confidence(entry, d.settings.name.sure) for entry in found]), list_open_terms(d)
+    failed = bool(explain_withheld(outcome))
+    absent, unlimited = ((), ()) if failed else list_absent(d, found, rest, outcome.angle)
     over_time, by_recording = describe_disagreement(d, np.random.default_rng([seed, WHEN]))
     before = replace(
         describe_dependence(d.located, d.learned),
@@ -244,8 +247,10 @@ def _make_result(prepared: Prepared, outcome: Outcome, seed: int, proposals: Pro
         says=(*(() if _explains_scale(found) else d.scale), *summarise(outcome, found, rest)),
         found=found,
         open=rest,
-        ranking=rank_candidates(d, found, failed=bool(explain_withheld(outcome))),
+        ranking=rank_candidates(d, found, failed=failed),
         confused_with=describe_confusions(d, list_confusions(d), proposals),
+        absent=absent,
+        unlimited=unlimited,
         unexplained=measure_unexplained(d, after=True),
         unexplained_before=measure_unexplained(d, after=False),
         where=before,

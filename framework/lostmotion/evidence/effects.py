@@ -74,9 +74,7 @@ def list_promises(
     """
     problem = found.frame.bare(found.at, found.choice)
     theta = found.at[: len(problem.free)]
-    tangents = [linearise_filter(problem, theta[None], i) for i in range(len(problem.observations))]
-    filtered = [one[0] for one in tangents if one is not None]
-    filtered = filtered if len(filtered) == len(tangents) else []
+    filtered = linearise_all(problem, theta)
     before = Quadratic.of(found.frame, found.expansion).evaluate(found.choice)
 
     def test(key: str) -> tuple[Promise, TermEffect] | None:
@@ -113,21 +111,57 @@ def _list_effects(
     problem: Problem, theta: Array, filtered: Sequence[Tangents], key: str, more: Sequence[Mapping[str, float]]
 ) -> Iterator[TermEffect]:
     """Yield the effect of a term at each shape."""
-    amplitudes, shapes = sort_slots(problem, key)
-    grids = [list_tried_values(s.param, problem.scales) for s in shapes]
-    usual = [dict(zip((s.key for s in shapes), values, strict=True)) for values in list_star_points(grids)]
+    shapes = sort_slots(problem, key)[1]
+    usual = _list_star_shapes(problem, shapes)
     tried = drop_rounding(problem, key, (*usual, *more)) if shapes else usual
+    yield from differentiate_term(problem, theta, filtered, key, tried)
+
+
+def get_usual_shape(problem: Problem, key: str) -> Mapping[str, float] | None:
+    """Return the values of the shapes of a term in the middle of their ranges; None where rounding hides it."""
+    shapes = sort_slots(problem, key)[1]
+    grids = [list_tried_values(s.param, problem.scales) for s in shapes]
+    usual = {s.key: grid[len(grid) // 2] for s, grid in zip(shapes, grids, strict=True)}
+    return usual if not shapes or drop_rounding(problem, key, (usual,)) else None
+
+
+def _list_star_shapes(problem: Problem, shapes: Sequence[Slot]) -> list[dict[str, float]]:
+    """Return the values of shapes that are tried: each over its grid while the others are in their middle."""
+    grids = [list_tried_values(s.param, problem.scales) for s in shapes]
+    return [dict(zip((s.key for s in shapes), values, strict=True)) for values in list_star_points(grids)]
+
+
+def linearise_all(problem: Problem, theta: Array) -> list[Tangents]:
+    """Return the linearised filter of each recording; none where that of one recording does not exist."""
+    made = [linearise_filter(problem, theta[None], i) for i in range(len(problem.observations))]
+    filtered = [one[0] for one in made if one is not None]
+    return filtered if len(filtered) == len(made) else []
+
+
+def differentiate_term(
+    problem: Problem,
+    theta: Array,
+    filtered: Sequence[Tangents],
+    key: str,
+    tried: Sequence[Mapping[str, float]],
+    sizes: Array | None = None,
+) -> Iterator[TermEffect]:
+    """Yield the effect of a term at each of some shapes, where it is finite.
+
+    Derivatives are secants over `sizes` (amplitudes,), by default a small share of the typical ones. `filtered` has the
+    linearised filter of each recording; without it, and for terms with states, the filter runs again.
+    """
     if not tried:
         return
-    term = find_term(problem, key)[0]
+    term, amplitudes = find_term(problem, key)[0], sort_slots(problem, key)[0]
     widths = np.array([f.sd for f in make_term_parameters(problem, key, amplitudes, {})])
-    sizes = np.array([compute_size(s.param, problem.scales) for s in amplitudes])
-    static = filtered and not term.states and term.acts in ("motion", "drive")
-    if static:
-        errors = np.concatenate([_respond(one, key, tried, amplitudes, SMALL * sizes) for one in filtered], axis=2)
+    if sizes is None:
+        sizes = SMALL * np.array([compute_size(s.param, problem.scales) for s in amplitudes])
+    if filtered and not term.states and term.acts in ("motion", "drive"):
+        errors = np.concatenate([_respond(one, key, tried, amplitudes, sizes) for one in filtered], axis=2)
         variances = np.zeros_like(errors)
     else:
-        errors, variances = _compute_differences(problem, theta, key, tried, SMALL * sizes)
+        errors, variances = _compute_differences(problem, theta, key, tried, sizes)
     for shape, e, v in zip(tried, errors, variances, strict=True):
         if np.all(np.isfinite(e)) and np.all(np.isfinite(v)):
             yield TermEffect(key, shape, tuple(amplitudes), widths, e, v)
@@ -137,15 +171,9 @@ def _respond(
     filtered: Tangents, key: str, shapes: Sequence[Mapping[str, float]], amplitudes: Sequence[Slot], sizes: Array
 ) -> Array:
     """Return the derivatives (shapes, amplitudes, readings) of the errors over the amplitudes of a static term."""
-    problem, index = filtered.problem, filtered.problem.system.index
-    fulls = np.tile(filtered.full, (len(shapes) * len(sizes), 1))
+    problem = filtered.problem
     rows = [(shape, a) for shape in shapes for a in range(len(sizes))]
-    for full, (shape, a) in zip(fulls, rows, strict=True):
-        for slot in amplitudes:
-            full[index[slot.key]] = float(slot.param.null or 0.0)
-        for name, value in shape.items():
-            full[index[name]] = value
-        full[index[amplitudes[a].key]] += sizes[a]
+    fulls = np.array([set_amplitude(filtered, shape, amplitudes, a, sizes[a]) for shape, a in rows])
     scale = np.array([sizes[a] for _, a in rows])
     if find_term(problem, key)[0].acts == "drive":
         acting = replace(problem, active=problem.active | {key})
@@ -158,6 +186,19 @@ def _respond(
             (rates - here[0]) / scale[:, None, None], (channels - here[1]) / scale[:, None, None]
         )
     return np.asarray(found.reshape(len(shapes), len(sizes), -1))
+
+
+def set_amplitude(
+    filtered: Tangents, shape: Mapping[str, float], amplitudes: Sequence[Slot], which: int, size: float
+) -> Array:
+    """Return the full parameter vector with one amplitude of a term at a distance `size` from its null."""
+    index, full = filtered.problem.system.index, filtered.full.copy()
+    for slot in amplitudes:
+        full[index[slot.key]] = float(slot.param.null or 0.0)
+    for name, value in shape.items():
+        full[index[name]] = value
+    full[index[amplitudes[which].key]] += size
+    return full
 
 
 def _compute_differences(
