@@ -73,12 +73,11 @@ def write_small_case(rig: BlindMachine, motion: np.ndarray, folder: Path, rng: n
         return
     folder.mkdir(parents=True, exist_ok=True)
     write_table(folder / "recording.csv", columns)
-    column = {"quantity": "position", "unit": "rad"}
     recording = {
         "file": "recording.csv",
         "time": "time",
-        "excitation": {"column": "force", **column},
-        "response": {"column": "position", **column},
+        "excitation": {"column": "force", "quantity": "base_position", "unit": "rad"},
+        "response": {"column": "position", "quantity": "position", "unit": "rad"},
     }
     dump_case({"title": "Machine", "recordings": [recording], "model": model}, folder / "case.toml")
 

@@ -75,7 +75,7 @@ def _diagnose_one(
         _diagnose_robot(ctx, case, out, quiet=quiet, settings=settings)
         return
     from lostmotion.case import GUESSED
-    from lostmotion.diagnosis.absent import summarise_absent
+    from lostmotion.diagnosis.report.absent import summarise_absent
     from lostmotion.diagnosis.run import run_diagnosis
 
     with show_progress("diagnose", quiet=quiet) as say:

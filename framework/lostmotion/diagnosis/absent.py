@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 
 from lostmotion.contracts import place_of
 from lostmotion.diagnosis.search import SearchResult, list_fitted_keys
@@ -15,14 +15,6 @@ from lostmotion.report.words import angles_in, format_size, sentence, to_words
 from lostmotion.results import percent
 from lostmotion.results.absent import AbsentTerm, UnlimitedTerm
 from lostmotion.results.diagnosis import Mechanism, OpenTerm
-
-USUAL = (
-    "coulomb_friction", "backlash", "linear_stiffness", "excitation_delay", "viscous_damping", "cubic_stiffness",
-    "offset_force", "quadratic_damping", "stribeck_friction", "asymmetric_gap", "cogging", "gap_drift",
-)  # fmt: skip
-"""The terms that engineers ask for first: those of most machines, the most common first."""
-MOST = 5
-"""The number of bounds in a summary."""
 
 Absence = tuple[tuple[AbsentTerm, ...], tuple[UnlimitedTerm, ...]]
 
@@ -107,12 +99,3 @@ def _make_unlimited(d: SearchResult, bound: SizeBound) -> UnlimitedTerm:
     }.get(bound.why, "it would hardly show in this recording")
     name = f"{to_words(term.name)}{_name_place(d, bound.key)}"
     return UnlimitedTerm(term.name, term.at, f"{sentence(name)} has no bound: {why}.")
-
-
-def summarise_absent(absent: Sequence[AbsentTerm]) -> str:
-    """Return a sentence on the most usual absent terms; empty where there are none."""
-    usual = [one for name in USUAL for one in absent if one.mechanism == name]
-    first = list({one.mechanism: one for one in reversed(usual)}.values())[::-1][:MOST]
-    if not first:
-        return ""
-    return f"Not missing, with 95 % probability: {'; '.join(one.says for one in first)}."

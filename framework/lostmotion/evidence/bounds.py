@@ -24,6 +24,7 @@ from lostmotion.evidence.effects import (
     set_amplitude,
 )
 from lostmotion.evidence.hypothesis import WAVE, Hypothesis
+from lostmotion.inference.fit import solve_scaled
 from lostmotion.inference.natural import compute_size, find_term, sort_slots
 from lostmotion.inference.penalties import is_simpler
 from lostmotion.kernels.threads import each
@@ -34,12 +35,12 @@ from lostmotion.quantities import FORCE
 
 LEVEL = 0.95
 """The probability that an amplitude is below its bound."""
-FIRST, ROUNDS, SETTLED = 0.01, 4, 0.1
+FIRST, ROUNDS, SETTLED = 0.01, 3, 0.1
 """The first secant in typical sizes, the largest number of secants, and the relative change of a bound that settled."""
 DRAWS = 4000
 """The number of fixed normal draws from which the bound of a wave, of two amplitudes, is found."""
-DISTINCT = 1e-5
-"""The share of the information on an amplitude that the coordinates of the hypothesis leave, at least."""
+DISTINCT = 1e-3
+"""The share of the information on an amplitude that own coordinates leave, at least: derivatives are not more exact."""
 UNSEEN, ALIKE, NONLINEAR = "unseen", "alike", "nonlinear"
 """Why a term has no bound: the recording does not limit it, the model imitates it, its effect is far from linear."""
 
@@ -64,7 +65,7 @@ class SizeBound:
 class AmplitudePosterior:
     """The normal posterior of the amplitudes of a term beside a hypothesis: `mean` (k,) and `covariance` (k, k).
 
-    `alike` (k,) tells which amplitudes the coordinates of the hypothesis imitate.
+    `alike` (k,) tells which amplitudes other amplitudes or the own coordinates of the hypothesis imitate.
     """
 
     mean: Array
@@ -91,12 +92,19 @@ def compute_amplitudes(found: Hypothesis, effect: TermEffect) -> AmplitudePoster
     gradient = effect.errors @ (-e / v) + effect.variances @ (0.5 * (e * e / v - 1.0) / v)
     told = np.diag(own)
     scale = 1.0 / np.sqrt(np.where(told > 0.0, told, 1.0))
-    left = own - cross @ found.joint_covariance @ cross.T
-    values, vectors = np.linalg.eigh(left * np.outer(scale, scale))
-    covariance = (vectors / np.maximum(values, 1e-12)) @ vectors.T * np.outer(scale, scale)
+    covariance = _invert(own - cross @ found.joint_covariance @ cross.T, scale)
     mean = covariance @ (gradient - cross @ found.joint_covariance @ found.pull)
-    alike = told * np.diag(covariance) > 1.0 / DISTINCT
+    mine = cross[:, : found.frame.own]
+    beside = expansion.information[: found.frame.own, : found.frame.own]
+    alone = _invert(own - mine @ solve_scaled(beside, mine.T), scale)
+    alike = told * np.diag(alone) > 1.0 / DISTINCT
     return AmplitudePosterior(mean, found.scatter * covariance, alike)
+
+
+def _invert(left: Array, scale: Array) -> Array:
+    """Return the inverse (k, k) of what is left of an information, whose rows times `scale` are of the order of one."""
+    values, vectors = np.linalg.eigh(left * np.outer(scale, scale))
+    return np.asarray((vectors / np.maximum(values, 1e-12)) @ vectors.T * np.outer(scale, scale))
 
 
 def _bound_term(found: Hypothesis, problem: Problem, filtered: Sequence[Tangents], key: str) -> Iterator[SizeBound]:
@@ -108,7 +116,7 @@ def _bound_term(found: Hypothesis, problem: Problem, filtered: Sequence[Tangents
     theta = found.at[: len(problem.free)]
     typical = np.array([compute_size(s.param, problem.scales) for s in amplitudes])
     most = np.array([float(np.max(typical[group])) for group in groups])
-    sizes, last = FIRST * typical, np.full(len(groups), math.inf)
+    sizes, last = FIRST * typical, np.zeros(len(groups))
     uppers, why = last, [NONLINEAR] * len(groups)
     for _ in range(ROUNDS):
         effect = next(differentiate_term(problem, theta, filtered, key, (shape,), sizes), None)
@@ -117,14 +125,14 @@ def _bound_term(found: Hypothesis, problem: Problem, filtered: Sequence[Tangents
         posterior = compute_amplitudes(found, effect)
         uppers = np.array([_bound_group(posterior, amplitudes, group) for group in groups])
         why = [
-            "" if abs(upper - before) < SETTLED * min(upper, limit) else NONLINEAR if upper < limit
+            "" if abs(upper - before) < SETTLED * before else NONLINEAR if upper < limit
             else ALIKE if np.any(posterior.alike[group]) else UNSEEN
             for group, upper, before, limit in zip(groups, uppers, last, most, strict=True)
         ]  # fmt: skip
         if NONLINEAR not in why:
             break
-        last = uppers
-        for group, upper in zip(groups, np.minimum(uppers, most), strict=True):
+        last = np.minimum(uppers, most)
+        for group, upper in zip(groups, last, strict=True):
             sizes[group] = upper / math.sqrt(len(group))
     for group, upper, reason in zip(groups, uppers, why, strict=True):
         slots = tuple(amplitudes[k] for k in group)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from lostmotion.codec import to_plain
 from lostmotion.diagnosis.report import (
+    absent,
     decay,
     growth,
     learned,
@@ -37,6 +38,7 @@ SECTIONS: tuple[PageSection[Evidence], ...] = (
     PageSection("learned", "The learned force", learned.draw, learned.caption),
     PageSection("levels", "Friction over the time", levels.draw, levels.caption),
     PageSection("ranking", "Ranking of the candidates", ranking.draw, ranking.caption),
+    PageSection("absent", "What is not missing", absent.draw, absent.caption, absent.make_table, absent.write_words),
     PageSection("parameters", "Parameters", posteriors.draw, posteriors.caption, posteriors.make_table),
     PageSection("sharing", "Parameters in each recording", table=sharing.make_table, words=sharing.write_words),
     PageSection("portraits", portraits.make_title, portraits.draw, portraits.caption),
