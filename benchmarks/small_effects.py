@@ -52,6 +52,11 @@ class SmallMachine:
         """The amplitude of the effect."""
         return AMPLITUDES[self.mechanism]
 
+    @property
+    def signed(self) -> bool:
+        """Whether the amplitude can be negative."""
+        return TABLE[self.mechanism].signed
+
     def write(self, folder: Path, size: float, rng: np.random.Generator) -> None:
         """Write the case of the machine with the effect at a size (SI units) into a folder; noise comes from `rng`."""
         effects = (Effect(self.mechanism, self.at, {self.parameter: size}),) if size else ()

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from lostmotion.errors import LostMotionError
     from lostmotion.errors import LostMotionError as LostmotionError
     from lostmotion.notebook.case import Case, model
-    from lostmotion.notebook.doors import diagnose, identify, load
+    from lostmotion.notebook.doors import check, diagnose, identify, load
     from lostmotion.notebook.models import simulate
     from lostmotion.notebook.priors import HalfNormal, LogNormal, LogUniform, Normal, Uniform
     from lostmotion.recording import Recording
@@ -31,11 +31,11 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 __all__ = [
     "Case", "HalfNormal", "LogNormal", "LogUniform", "LostMotionError", "LostmotionError", "Normal", "Recording",
-    "Settings", "Uniform", "analyse", "denoise", "diagnose", "embed", "identify", "load", "map", "model", "quantify",
-    "simulate", "surrogate_test",
+    "Settings", "Uniform", "analyse", "check", "denoise", "diagnose", "embed", "identify", "load", "map", "model",
+    "quantify", "simulate", "surrogate_test",
 ]  # fmt: skip
 _TARGETS = {
-    **{name: f"notebook.doors:{name}" for name in ("diagnose", "identify", "load")},
+    **{name: f"notebook.doors:{name}" for name in ("check", "diagnose", "identify", "load")},
     **{name: f"notebook.case:{name}" for name in ("Case", "model")},
     **{name: f"notebook.priors:{name}" for name in ("HalfNormal", "LogNormal", "LogUniform", "Normal", "Uniform")},
     "LostMotionError": "errors:LostMotionError",

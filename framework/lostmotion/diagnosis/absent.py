@@ -5,13 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
-from lostmotion.contracts import place_of
+from lostmotion.diagnosis.expectation import describe_place, describe_shape, describe_term, list_shape, name_amplitude
 from lostmotion.diagnosis.search import SearchResult, list_fitted_keys
 from lostmotion.evidence.bounds import ALIKE, NONLINEAR, SizeBound, bound_absent
-from lostmotion.evidence.hypothesis import WAVE
 from lostmotion.inference.natural import find_term
 from lostmotion.likelihood.system import key_of
-from lostmotion.report.words import angles_in, format_size, sentence, to_words
+from lostmotion.report.words import angles_in, format_size, sentence
 from lostmotion.results import percent
 from lostmotion.results.absent import AbsentTerm, UnlimitedTerm
 from lostmotion.results.diagnosis import Mechanism, OpenTerm
@@ -53,49 +52,29 @@ def _get_name(d: SearchResult, key: str) -> tuple[str, str]:
 
 
 def _make_absent(d: SearchResult, bound: SizeBound) -> AbsentTerm:
-    term, slots = find_term(d.before.problem, bound.key)
-    slot = bound.slots[0]
-    wave = slot.param.name in WAVE
-    words = {s.param.name: s for s in slots if s.key in bound.shape and not s.param.words}
-    given = {name: bound.shape[s.key] for name, s in words.items()}
-    shown = ", ".join(f"{to_words(name)} {format_size(given[name], s.unit)}" for name, s in words.items())
-    alone = sum(s.param.null is not None for s in slots) == len(bound.slots)
-    name = "" if alone else f" with {_add_article('amplitude' if wave else to_words(slot.param.name))}"
+    problem = d.before.problem
+    term, slots = find_term(problem, bound.key)
+    shape, unit = list_shape(slots, bound.shape), bound.slots[0].unit
     share = bound.force if math.isfinite(bound.force) else None
     drive = f" ({percent(share)} of {d.yardstick})" if share is not None else ""
     return AbsentTerm(
         mechanism=term.name,
         at=term.at,
-        parameter="amplitude" if wave else slot.param.name,
+        parameter=name_amplitude(bound.slots),
         upper=bound.upper,
-        unit=slot.unit,
+        unit=unit,
         share_of_drive=share,
-        given=given,
-        says=f"no {to_words(term.name)}{_name_place(d, bound.key)}{name} above"
-        f" {format_size(bound.upper, slot.unit)}{drive}" + (f", for {shown}" if shown else ""),
+        given={slot.param.name: bound.shape[slot.key] for slot in shape},
+        says=f"no {describe_term(problem, bound.key, bound.slots)} above {format_size(bound.upper, unit)}{drive}"
+        f"{describe_shape(shape, bound.shape)}",
     )
 
 
-def _add_article(text: str) -> str:
-    """Return words with the indefinite article."""
-    return f"{'an' if text[0] in 'aeiou' else 'a'} {text}"
-
-
-def _name_place(d: SearchResult, key: str) -> str:
-    """Return the place of a term, where the machine has several of its kind."""
-    term, _ = find_term(d.before.problem, key)
-    model, first = d.before.problem.system.model, d.shown
-    places = {"sensor": len(first.sensors), "drive": len(first.driven or ("",))}
-    if places.get(term.acts, len(model.interfaces)) < 2:
-        return ""
-    return f" at the {place_of(model, term).name if term.acts == 'motion' else term.at}"
-
-
 def _make_unlimited(d: SearchResult, bound: SizeBound) -> UnlimitedTerm:
-    term, _ = find_term(d.before.problem, bound.key)
+    problem = d.before.problem
+    term, _ = find_term(problem, bound.key)
     why = {
         ALIKE: "what is in the model has the same effect on this recording",
         NONLINEAR: "its effect is not proportional to its size where it is small",
     }.get(bound.why, "it would hardly show in this recording")
-    name = f"{to_words(term.name)}{_name_place(d, bound.key)}"
-    return UnlimitedTerm(term.name, term.at, f"{sentence(name)} has no bound: {why}.")
+    return UnlimitedTerm(term.name, term.at, f"{sentence(describe_place(problem, bound.key))} has no bound: {why}.")

@@ -25,6 +25,7 @@ from lostmotion.diagnosis.compare import (
 from lostmotion.diagnosis.decays import describe_decays
 from lostmotion.diagnosis.disagreements import describe_disagreement
 from lostmotion.diagnosis.evidences import check_evidence
+from lostmotion.diagnosis.expectation import describe_expectation, forecast_recordings
 from lostmotion.diagnosis.findings import Outcome, draw_parameters, explain_withheld, list_findings
 from lostmotion.diagnosis.mixed import draw_mixture
 from lostmotion.diagnosis.motions import list_motions
@@ -74,6 +75,7 @@ from lostmotion.registry import Registry
 from lostmotion.results.background import FittedMachine, Origin, RecordingFacts, SensorChannel, TermFacts
 from lostmotion.results.behaviour import Behaviour
 from lostmotion.results.diagnosis import Diagnosis, Mechanism, Response
+from lostmotion.results.expectation import Expectation
 from lostmotion.settings import DEFAULT, Settings
 from lostmotion.storage import dataset_of, folder_for, save_datasets, save_json
 
@@ -249,6 +251,7 @@ def _make_result(prepared: Prepared, outcome: Outcome, seed: int, proposals: Pro
         open=rest,
         ranking=rank_candidates(d, found, failed=failed),
         confused_with=describe_confusions(d, list_confusions(d), proposals),
+        expected=_expect(d, outcome.angle),
         absent=absent,
         unlimited=unlimited,
         unexplained=measure_unexplained(d, after=True),
@@ -275,6 +278,12 @@ def _make_result(prepared: Prepared, outcome: Outcome, seed: int, proposals: Pro
         notes=tuple(write_notes(outcome, _list_remarks(prepared, d))),
         provenance=_make_origin(prepared, d, seed),
     )
+
+
+def _expect(d: SearchResult, angle: str) -> Expectation | None:
+    """Return what the recordings can tell, from the nominal fit of the search; None where it cannot follow them."""
+    forecast = forecast_recordings(d.explained.nominal, d.recordings)
+    return describe_expectation(forecast, d.yardstick, angle) if forecast.valid else None
 
 
 def _list_remarks(prepared: Prepared, d: SearchResult) -> list[str]:

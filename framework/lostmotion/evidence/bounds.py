@@ -39,7 +39,7 @@ FIRST, ROUNDS, SETTLED = 0.01, 3, 0.1
 """The first secant in typical sizes, the largest number of secants, and the relative change of a bound that settled."""
 DRAWS = 4000
 """The number of fixed normal draws from which the bound of a wave, of two amplitudes, is found."""
-DISTINCT = 1e-3
+DISTINCT = 0.007
 """The share of the information on an amplitude that own coordinates leave, at least: derivatives are not more exact."""
 UNSEEN, ALIKE, NONLINEAR = "unseen", "alike", "nonlinear"
 """Why a term has no bound: the recording does not limit it, the model imitates it, its effect is far from linear."""
@@ -110,7 +110,7 @@ def _invert(left: Array, scale: Array) -> Array:
 def _bound_term(found: Hypothesis, problem: Problem, filtered: Sequence[Tangents], key: str) -> Iterator[SizeBound]:
     """Yield the bounds of the amplitudes of a term at its usual shape."""
     shape, (amplitudes, _) = get_usual_shape(problem, key), sort_slots(problem, key)
-    groups = _group_amplitudes(problem, key, amplitudes)
+    groups = group_amplitudes(problem, key, amplitudes)
     if shape is None or not groups:
         return
     theta = found.at[: len(problem.free)]
@@ -136,11 +136,11 @@ def _bound_term(found: Hypothesis, problem: Problem, filtered: Sequence[Tangents
             sizes[group] = upper / math.sqrt(len(group))
     for group, upper, reason in zip(groups, uppers, why, strict=True):
         slots = tuple(amplitudes[k] for k in group)
-        share = math.nan if reason else _measure_share(problem, filtered, key, (shape, amplitudes, group), upper)
+        share = math.nan if reason else measure_share(problem, filtered, key, (shape, amplitudes, group), upper)
         yield SizeBound(key, slots, shape, math.inf if reason else float(upper), share, reason)
 
 
-def _group_amplitudes(problem: Problem, key: str, amplitudes: Sequence[Slot]) -> list[list[int]]:
+def group_amplitudes(problem: Problem, key: str, amplitudes: Sequence[Slot]) -> list[list[int]]:
     """Return the indices of the amplitudes that are bounded: each alone, those of a wave together.
 
     An amplitude that a simpler law has too is that law's, not this one's. Beside a law of the model that it contains, a
@@ -192,9 +192,7 @@ Amplitudes = tuple[Mapping[str, float], Sequence[Slot], Sequence[int]]
 """The shape of a term, its amplitudes, and the indices of those that are bounded."""
 
 
-def _measure_share(
-    problem: Problem, filtered: Sequence[Tangents], key: str, bounded: Amplitudes, upper: float
-) -> float:
+def measure_share(problem: Problem, filtered: Sequence[Tangents], key: str, bounded: Amplitudes, upper: float) -> float:
     """Return the largest force of a term at its bound over that of the drive; NaN for a sensor, or where none is known.
 
     That of a drive term is the largest change of the input over its amplitude.

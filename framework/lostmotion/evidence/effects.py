@@ -222,34 +222,40 @@ def _compute_differences(
     return slopes[0], slopes[1]
 
 
-def _join(found: Hypothesis, effect: TermEffect) -> Expansion:
-    """Return the expansion of a hypothesis with the amplitudes of a term as its last coordinates."""
-    expansion, count = found.expansion, len(effect.amplitudes)
+def join_effects(expansion: Expansion, effects: Sequence[TermEffect]) -> Expansion:
+    """Return an expansion with the amplitudes of terms as its last coordinates, in blocks with their keys."""
+    first = len(expansion.at)
+    ends = first + np.cumsum([0, *(len(effect.amplitudes) for effect in effects)])
+    count = int(ends[-1]) - first
+    errors = np.vstack([effect.errors for effect in effects]) if effects else expansion.errors[:0]
+    variances = np.vstack([effect.variances for effect in effects]) if effects else expansion.variances[:0]
+    widths = np.concatenate([effect.widths for effect in effects]) if effects else np.zeros(0)
+    blocks = {effect.key: slice(int(a), int(b)) for effect, a, b in zip(effects, ends[:-1], ends[1:], strict=True)}
     joined = replace(
         expansion,
         at=np.append(expansion.at, np.zeros(count)),
-        errors=np.vstack([expansion.errors, effect.errors]),
-        variances=np.vstack([expansion.variances, effect.variances]),
+        errors=np.vstack([expansion.errors, errors]),
+        variances=np.vstack([expansion.variances, variances]),
         middle=np.append(expansion.middle, np.zeros(count)),
-        precision=np.append(expansion.precision, 1.0 / effect.widths**2),
-        blocks={**expansion.blocks, effect.key: slice(len(expansion.at), len(expansion.at) + count)},
+        precision=np.append(expansion.precision, 1.0 / widths**2),
+        blocks={**expansion.blocks, **blocks},
     )
-    # the large block is known already: only the rows of the term are computed
-    new, v = slice(len(expansion.at), None), expansion.here.variances
-    cross = (effect.errors / v) @ joined.errors.T + 0.5 * (effect.variances / v**2) @ joined.variances.T
+    # the large block is known already: only the rows of the terms are computed
+    new, v = slice(first, None), expansion.here.variances
+    cross = (errors / v) @ joined.errors.T + 0.5 * (variances / v**2) @ joined.variances.T
     information = np.zeros((len(joined.at), len(joined.at)))
-    information[: len(expansion.at), : len(expansion.at)] = expansion.information
+    information[:first, :first] = expansion.information
     information[new], information[:, new] = cross, cross.T
     joined.__dict__["information"] = information
     e = expansion.here.errors
-    scores = effect.errors @ (-e / v) + effect.variances @ (0.5 * (e * e / v - 1.0) / v)
+    scores = errors @ (-e / v) + variances @ (0.5 * (e * e / v - 1.0) / v)
     joined.__dict__["gradient"] = np.append(expansion.gradient, scores)
     return joined
 
 
 def _predict(found: Hypothesis, effect: TermEffect, less: float) -> Promise:
     """Return what a term promises at one shape, beside the present smooth forces or in their place; `less` is paid."""
-    joined, frame, n = _join(found, effect), found.frame, len(found.at)
+    joined, frame, n = join_effects(found.expansion, (effect,)), found.frame, len(found.at)
     told = np.diag(joined.information)[n:] * effect.widths**2
     lost = Promise(effect.key, -math.inf, effect.shape, np.zeros(n), found.choice)
     if not np.any(told > MUTE):

@@ -10,6 +10,7 @@ from lostmotion.results import Interval
 from lostmotion.results.absent import AbsentTerm, UnlimitedTerm
 from lostmotion.results.background import FittedMachine, Origin, RecordingFacts
 from lostmotion.results.behaviour import Behaviour, Decays
+from lostmotion.results.expectation import Expectation
 from lostmotion.results.mismatch import ForceDependence, UnexplainedForce
 from lostmotion.results.sharing import Comparison, OwnParameters, Sharing
 
@@ -310,6 +311,9 @@ class Diagnosis:
     ranking: tuple[Candidate, ...] = described("every candidate, the most probable first")
     confused_with: tuple[Confusion, ...] = described(
         "mechanisms that this recording cannot distinguish from the found ones"
+    )
+    expected: Expectation | None = described(
+        "what the recording can tell, from the nominal model; null where that cannot follow it", default=None
     )
     absent: tuple[AbsentTerm, ...] = described(
         "upper bounds of the terms that are not in the model; empty where the model does not predict held-out data",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 from matplotlib.figure import Figure
 
@@ -11,6 +12,7 @@ from lostmotion.report import style
 from lostmotion.report.pages import Grid
 from lostmotion.report.words import DASH, format_size, percent, sentence, to_words
 from lostmotion.results.absent import AbsentTerm
+from lostmotion.results.expectation import Detection
 
 USUAL = (
     "coulomb_friction", "backlash", "linear_stiffness", "excitation_delay", "viscous_damping", "cubic_stiffness",
@@ -26,26 +28,26 @@ def draw(evidence: Evidence) -> Figure | None:
     rows = [one for one in evidence.result.absent if one.share_of_drive]
     if not rows:
         return None
+    told = [(label_absent(one, rows), one.share_of_drive or 0.0, format_size(one.upper, one.unit)) for one in rows]
+    return draw_shares(told, f"largest force at the bound, in % of {evidence.result.drive.of}")
+
+
+def draw_shares(rows: Sequence[tuple[str, float, str]], label: str, colour: str = style.QUIET) -> Figure:
+    """Return one bar for each row of name, share of the drive and words beside it; the axis has the label."""
     figure = style.make_figure(0.9 + 0.24 * len(rows))
     axes = figure.subplots()
-    shares = [100.0 * (one.share_of_drive or 0.0) for one in rows]
+    shares = [100.0 * share for _, share, _ in rows]
     least = 0.5 * min(shares)
-    axes.barh(range(len(rows)), [share - least for share in shares], left=least, color=style.QUIET, height=0.66)
-    for row, (one, share) in enumerate(zip(rows, shares, strict=True)):
-        axes.annotate(
-            format_size(one.upper, one.unit),
-            (share, row),
-            (4, 0),
-            textcoords="offset points",
-            va="center",
-            fontsize=8.5,
-        )
+    axes.barh(range(len(rows)), [share - least for share in shares], left=least, color=colour, height=0.66)
+    beside: dict[str, Any] = {"xytext": (4, 0), "textcoords": "offset points", "va": "center", "fontsize": 8.5}
+    for row, (_, _, words) in enumerate(rows):
+        axes.annotate(words, (shares[row], row), **beside)
     axes.set_xscale("log")
     axes.set_xlim(least, 4.0 * max(shares))
     style.log_ticks(axes.xaxis)
-    axes.set_yticks(range(len(rows)), [label_absent(one, rows) for one in rows])
-    axes.invert_yaxis()
-    axes.set_xlabel(f"largest force at the bound, in % of {evidence.result.drive.of}")
+    axes.set_ylim(len(rows) - 0.4, -0.6)
+    axes.set_yticks(range(len(rows)), [name for name, _, _ in rows])
+    axes.set_xlabel(label)
     axes.grid(visible=False, axis="y")
     axes.tick_params(axis="y", length=0)
     return figure
@@ -82,8 +84,8 @@ def write_words(evidence: Evidence) -> str:
     return " ".join(filter(None, [summarise_absent(result.absent), *(one.says for one in result.unlimited)]))
 
 
-def label_absent(one: AbsentTerm, rows: Sequence[AbsentTerm]) -> str:
-    """Return the name of an absent term, with its parameter and its place where there are several of them."""
+def label_absent(one: AbsentTerm | Detection, rows: Sequence[AbsentTerm | Detection]) -> str:
+    """Return the name of a term, with its parameter and its place where there are several of them."""
     same = [row for row in rows if row.mechanism == one.mechanism]
     parameter = f": {to_words(one.parameter)}" if len({row.parameter for row in same}) > 1 else ""
     place = f" ({one.at})" if len({row.at for row in same}) > 1 else ""

@@ -8,6 +8,7 @@ from pathlib import Path
 from lostmotion.codec import to_plain
 from lostmotion.diagnosis.report import (
     absent,
+    check,
     decay,
     growth,
     learned,
@@ -30,6 +31,14 @@ from lostmotion.report.pages import PageSection, draw_sections, load_template, w
 from lostmotion.report.words import split_headline, typeset
 
 SECTIONS: tuple[PageSection[Evidence], ...] = (
+    PageSection(
+        "expected",
+        "What this recording can tell",
+        check.draw_expected,
+        check.caption_expected,
+        check.make_expected_table,
+        check.write_expected,
+    ),
     PageSection("prediction", "Recording and prediction", prediction.draw, prediction.caption),
     PageSection("decay", "Free decay", decay.draw, decay.caption, words=decay.write_words),
     PageSection("sensors", "All sensors", sensors.draw, sensors.caption, sensors.make_table),
