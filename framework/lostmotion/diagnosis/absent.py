@@ -24,7 +24,7 @@ def list_absent(d: SearchResult, found: Iterable[Mechanism], rest: Iterable[Open
     Terms that were `found` or remain open (`rest`), terms that no recording can tell from them, and alternatives with a
     probability are left out: they are not absent.
     """
-    present = {(one.mechanism, one.at) for one in (*found, *rest)}
+    present = {(one.mechanism, one.at) for one in found} | {(one.mechanism, one.at) for one in rest}
     same = {name for key in d.named for name in find_term(d.after.problem, key)[0].equals}
     problem = d.explained.best.frame.problem
     keys = [

@@ -12,6 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.optimize import brentq
 from scipy.stats import norm
 
@@ -70,7 +71,7 @@ class AmplitudePosterior:
 
     mean: Array
     covariance: Array
-    alike: Array
+    alike: NDArray[np.bool_]
 
 
 def bound_absent(found: Hypothesis, keys: Sequence[str]) -> list[SizeBound]:

@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.stats import norm
 
 from lostmotion.contracts import Array
@@ -152,7 +153,7 @@ class Forecast:
         far = tuple(name for name, size in others.items() if size > FAR * least)
         return max([least, *(size for name, size in others.items() if name not in far)]), far
 
-    def _weigh(self, key: str, places: Array, widths: Array, columns: Array) -> _Rival:
+    def _weigh(self, key: str, places: NDArray[np.intp], widths: Array, columns: Array) -> _Rival:
         """Return what normal coefficients at `places` with prior `widths` explain of an effect, and their Occam factor.
 
         `columns` (n, amplitudes) is the gradient of an effect of unit size: of a wave the mean over its two amplitudes.
