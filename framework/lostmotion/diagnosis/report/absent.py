@@ -7,6 +7,7 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
+from lostmotion.defaults import USUAL
 from lostmotion.diagnosis.report.evidence import Evidence
 from lostmotion.report import style
 from lostmotion.report.pages import Grid
@@ -14,11 +15,6 @@ from lostmotion.report.words import DASH, format_size, percent, sentence, to_wor
 from lostmotion.results.absent import AbsentTerm
 from lostmotion.results.expectation import Detection
 
-USUAL = (
-    "coulomb_friction", "backlash", "linear_stiffness", "excitation_delay", "viscous_damping", "cubic_stiffness",
-    "offset_force", "quadratic_damping", "stribeck_friction", "asymmetric_gap", "cogging", "gap_drift",
-)  # fmt: skip
-"""The terms that engineers ask for first: those of most machines, the most common first."""
 MOST = 5
 """The number of bounds in a summary."""
 

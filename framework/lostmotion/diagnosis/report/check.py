@@ -9,7 +9,8 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from lostmotion.codec import to_plain
-from lostmotion.diagnosis.report.absent import USUAL, draw_shares, label_absent
+from lostmotion.defaults import USUAL
+from lostmotion.diagnosis.report.absent import draw_shares, label_absent
 from lostmotion.diagnosis.report.evidence import Evidence
 from lostmotion.report import style
 from lostmotion.report.pages import Grid, PageSection, draw_sections, load_template, write_page
