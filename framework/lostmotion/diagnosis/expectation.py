@@ -8,12 +8,12 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from lostmotion.contracts import Model, place_of
+from lostmotion.contracts import place_of
 from lostmotion.diagnosis.search import list_fitted_keys
 from lostmotion.evidence.forecast import Detectable, Forecast, make_forecast
 from lostmotion.evidence.hypothesis import WAVE
 from lostmotion.inference.curves import add_all_curves
-from lostmotion.inference.fit import Fit
+from lostmotion.inference.fit import Fit, solve_scaled
 from lostmotion.inference.natural import find_term
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem
@@ -67,11 +67,15 @@ def _list_intervals(forecast: Forecast) -> Mapping[str, Interval]:
 
 
 def _list_pairs(forecast: Forecast) -> tuple[ParameterPair, ...]:
-    """Return the pairs of physical parameters whose expected correlation is large, the largest first."""
-    found = forecast.found
-    sds = np.sqrt(np.maximum(np.diag(found.covariance), 1e-300))
-    correlation = found.covariance / np.outer(sds, sds)
-    own = [(i, f.key) for i, f in enumerate(found.frame.problem.free[: found.frame.own]) if f.physical]
+    """Return the pairs of physical parameters whose expected correlation is large, the largest first.
+
+    Known values and channels are taken as exact: their errors scale all parameters together.
+    """
+    found, own_count = forecast.found, forecast.found.frame.own
+    covariance = solve_scaled(found.precision[:own_count, :own_count], np.eye(own_count))
+    sds = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
+    correlation = covariance / np.outer(sds, sds)
+    own = [(i, f.key) for i, f in enumerate(found.frame.problem.free[:own_count]) if f.physical]
     rows = [
         ParameterPair(one, other, float(np.clip(correlation[i, j], -1.0, 1.0)))
         for (i, one), (j, other) in itertools.combinations(own, 2)
@@ -145,11 +149,6 @@ def describe_place(problem: Problem, key: str) -> str:
     term, _ = find_term(problem, key)
     model, first = problem.system.model, problem.observations[0]
     counts = {"sensor": len(first.sensors), "drive": len(first.driven or ("",))}
-    several = counts.get(term.acts, _count_places(model)) > 1
+    several = counts.get(term.acts, len(model.interfaces)) > 1
     place = place_of(model, term).name if term.acts == "motion" else term.at
     return f"{to_words(term.name)} at the {place}" if several else to_words(term.name)
-
-
-def _count_places(model: Model) -> int:
-    """Return the number of places of a model."""
-    return len(model.interfaces)
