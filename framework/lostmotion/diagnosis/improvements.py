@@ -32,6 +32,7 @@ from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import observe_states
 from lostmotion.likelihood.problem import NOISE, Problem
 from lostmotion.quantities import quantity_of, unit_of
+from lostmotion.report.words import to_words
 from lostmotion.results import rounded
 from lostmotion.results.expectation import Improvement
 
@@ -81,7 +82,7 @@ def list_improvements(
         for one in _choose_excitations(observation, samples, limits, rng)
     ]
     tried += [
-        (f"Add a sensor of the {quantity_of(channel)}", first, _measure(model, first, static, rng, channel))
+        (f"Add a sensor of the {to_words(channel)}", first, _measure(model, first, static, rng, channel))
         for channel in _list_further_channels(nominal.problem)
     ]
     rows = [_make_improvement(nominal.problem, words, one, seen.compare(base)) for words, one, seen in tried if seen]

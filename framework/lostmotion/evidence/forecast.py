@@ -91,11 +91,11 @@ class Forecast:
     @cached_property
     def information(self) -> Array:
         """The information (n, n) of all samples on smooth forces and effects, the rest integrated; zero elsewhere."""
-        frame, whole = self.found.frame, self.repeated * self.joined.information
+        whole = self.repeated * self.joined.information
         base = self.found.used
         inner = whole[np.ix_(base, base)] + self.found.precision - self.found.expansion.information[np.ix_(base, base)]
         left = whole - whole[:, base] @ solve_scaled(inner, whole[base])
-        left[:, : frame.own], left[: frame.own] = 0.0, 0.0
+        left[:, base], left[base] = 0.0, 0.0
         return np.asarray(0.5 * (left + left.T))
 
     @property
