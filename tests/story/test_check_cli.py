@@ -57,7 +57,9 @@ def test_the_command_says_what_the_recording_can_tell(case):
     lines = done.stdout.splitlines()
     assert lines[0].startswith("Expected 95 % intervals: c ")
     assert lines[1].startswith("Named with a probability of 90 %: Coulomb friction from ")
-    assert any(line.startswith("Viscous damping would not be named: the parameter c has") for line in lines)
+    assert any(
+        line.startswith("Viscous damping has no size from which it is named: the parameter c has") for line in lines
+    )
     assert lines[-1] == str(case.parent / "out" / "check.html")
     page = (case.parent / "out" / "check.html").read_text(encoding="utf-8")
     assert "Coulomb friction" in page

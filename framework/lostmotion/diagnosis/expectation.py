@@ -112,11 +112,13 @@ def _make_detection(problem: Problem, row: Detectable, yardstick: str) -> Detect
 
 def _make_unseen(problem: Problem, row: Detectable) -> UnlimitedTerm:
     term, _ = find_term(problem, row.key)
-    why = (
-        f"the parameter {row.alike} has the same effect" if row.alike else "it would hardly show, or as something else"
-    )
+    why = "it would hardly show, or as something else"
+    if row.alike:
+        why = f"the parameter {row.alike} has the same effect"
+    elif not row.linear:
+        why = "its effect is not proportional to its size where it is small, so no size can be predicted"
     name = sentence(describe_place(problem, row.key))
-    return UnlimitedTerm(term.name, term.at, f"{name} would not be named: {why}.")
+    return UnlimitedTerm(term.name, term.at, f"{name} has no size from which it is named: {why}.")
 
 
 def name_amplitude(slots: Sequence[Slot]) -> str:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from scipy.stats import norm
 
 from lostmotion.contracts import Array
-from lostmotion.evidence.bounds import DISTINCT, Amplitudes, group_amplitudes, measure_share
+from lostmotion.evidence.bounds import DISTINCT, FIRST, Amplitudes, group_amplitudes, measure_share
 from lostmotion.evidence.channels import list_channel_errors
 from lostmotion.evidence.discrepancy import make_frame
 from lostmotion.evidence.effects import (
@@ -42,6 +42,10 @@ from lostmotion.likelihood.tangents import Tangents
 
 CHANCE, SURE = 0.9, 0.95
 """The chance of a name at the stated size, and the probability from which a term is named."""
+LINEAR = 1.4
+"""The secant and the derivative of an effect that is linear agree within this factor."""
+MOST_SHARE = 1.0
+"""A term whose force would have to be a larger share of the drive is not named at any usual size."""
 FAR = 3.0
 """Terms that are told apart only at this many times the smallest size, or more, are those that cannot be told apart."""
 
@@ -52,7 +56,7 @@ class Detectable:
 
     It holds at the values of `shape`. `share` is its largest force as a share of the drive; NaN where that is not
     known. `rivals` are the keys of terms from which this recording cannot tell it, `alike` is an estimated parameter
-    that has the same effect, or empty.
+    that has the same effect, or empty. `linear` tells whether the effect is proportional to a small size.
     """
 
     key: str
@@ -62,6 +66,7 @@ class Detectable:
     share: float = math.nan
     rivals: tuple[str, ...] = ()
     alike: str = ""
+    linear: bool = True
 
 
 @dataclass(frozen=True)
@@ -105,7 +110,8 @@ class Forecast:
 
     def list_detectable(self) -> list[Detectable]:
         """Return the smallest size of each amplitude of each term."""
-        rows = [self._find_sizes(key) for key in self.effects]
+        jobs = self.found.frame.problem.jobs if np.any(self.information) else 1  # computed once, before threads
+        rows = each(self._find_sizes, list(self.effects), jobs)
         return [one for row in rows for one in row]
 
     def _find_sizes(self, key: str) -> list[Detectable]:
@@ -119,10 +125,28 @@ class Forecast:
             size, rivals = self._find_size(key, group)
             limit = max(compute_size(slot.param, problem.scales) for slot in slots)
             size = size if size < limit else math.inf
+            if math.isfinite(size) and not self._is_linear(key, group, size):
+                found.append(Detectable(key, slots, effect.shape, math.inf, linear=False))
+                continue
             bounded: Amplitudes = (effect.shape, effect.amplitudes, group)
             share = measure_share(problem, self.filtered, key, bounded, size) if math.isfinite(size) else math.nan
+            size = math.inf if share > MOST_SHARE else size
             found.append(Detectable(key, slots, effect.shape, size, share, rivals))
         return found
+
+    def _is_linear(self, key: str, group: Sequence[int], size: float) -> bool:
+        """Return whether the secant to a size changes one-step errors as much as the derivative does."""
+        frame, effect = self.found.frame, self.effects[key]
+        problem = frame.bare(frame.start, frame.none)
+        sizes = np.array([compute_size(slot.param, problem.scales) for slot in effect.amplitudes]) * FIRST
+        sizes[list(group)] = size / math.sqrt(len(group))
+        at = frame.start[: len(problem.free)]
+        secant = next(differentiate_term(problem, at, self.filtered, key, (effect.shape,), sizes), None)
+        if secant is None:
+            return False
+        v = self.joined.here.variances
+        told = [float(np.sum(one.errors[list(group)] ** 2 / v)) for one in (secant, effect)]
+        return max(told) < LINEAR**2 * min(told)
 
     def _find_alike(self, key: str, group: Sequence[int]) -> str:
         """Return the estimated parameter that has the same effect as an amplitude; empty where there is none."""
