@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -79,6 +79,24 @@ class _Rival:
 
 
 @dataclass(frozen=True, eq=False)
+class _Explainer:
+    """Normal coefficients at `places` as an explanation of effects: the `metric` (k, k) of gradients, and the price."""
+
+    key: str
+    places: NDArray[np.intp]
+    metric: Array
+    paid: float
+
+    def explain(self, columns: Array) -> _Rival:
+        """Return what the coefficients explain of an effect of unit size.
+
+        `columns` (n, amplitudes) is its gradient: of a wave the mean over its two amplitudes counts.
+        """
+        pulled = columns[self.places]
+        return _Rival(self.key, self.paid, 0.5 * float(np.mean(np.einsum("ik,ij,jk->k", pulled, self.metric, pulled))))
+
+
+@dataclass(frozen=True, eq=False)
 class Forecast:
     """The nominal hypothesis at the usual random force, with the effects of terms along the recording.
 
@@ -110,8 +128,7 @@ class Forecast:
 
     def list_detectable(self) -> list[Detectable]:
         """Return the smallest size of each amplitude of each term."""
-        jobs = self.found.frame.problem.jobs if np.any(self.information) else 1  # computed once, before threads
-        rows = each(self._find_sizes, list(self.effects), jobs)
+        rows = each(self._find_sizes, list(self.effects), self.found.frame.problem.jobs)
         return [one for row in rows for one in row]
 
     def _find_sizes(self, key: str) -> list[Detectable]:
@@ -166,49 +183,45 @@ class Forecast:
         return frame.names[int(np.argmax(np.where(physical, np.nan_to_num(cosines), 0.0)))]
 
     def _find_size(self, key: str, group: Sequence[int]) -> tuple[float, tuple[str, ...]]:
-        """Return the size of an amplitude that is named with the chance, and the terms that cannot be told from it."""
-        places = self.joined.list_indices(key)
-        columns = self.information[:, places[list(group)]]
-        own = self._weigh(key, places, self.effects[key].widths, columns)
-        own = replace(own, paid=own.paid + self._price(key))
-        plain = [_Rival("", 0.0, 0.0), *self._list_smooth(columns)]
+        """Return the size of an amplitude that is named with the chance, and the terms that cannot be told from it.
+
+        Terms that contain this law, or that it contains, count as this one.
+        """
+        columns = self.information[:, self.joined.list_indices(key)[list(group)]]
+        own, term = self._terms[key].explain(columns), find_term(self.found.frame.problem, key)[0]
+        plain = [_Rival("", 0.0, 0.0), *(one.explain(columns) for one in self._smooth_forces)]
         least = max(_solve_size(own, rival) for rival in plain)
-        others = {rival.key: _solve_size(own, rival) for rival in self._list_rivals(key, columns)}
+        others = {}
+        for other, explainer in self._terms.items():
+            law = find_term(self.found.frame.problem, other)[0]
+            if not (other == key or is_simpler(term, law) or is_simpler(law, term) or law.name in term.equals):
+                others[other] = _solve_size(own, explainer.explain(columns))
         far = tuple(name for name, size in others.items() if size > FAR * least)
         return max([least, *(size for name, size in others.items() if name not in far)]), far
 
-    def _weigh(self, key: str, places: NDArray[np.intp], widths: Array, columns: Array) -> _Rival:
-        """Return what normal coefficients at `places` with prior `widths` explain of an effect, and their Occam factor.
+    @cached_property
+    def _terms(self) -> Mapping[str, _Explainer]:
+        """Each term as an explanation of effects, by key."""
+        return {
+            key: self._make_explainer(key, self.joined.list_indices(key), effect.widths, self._price(key))
+            for key, effect in self.effects.items()
+        }
 
-        `columns` (n, amplitudes) is the gradient of an effect of unit size: of a wave the mean over its two amplitudes.
-        """
-        inner = self.information[np.ix_(places, places)] * np.outer(widths, widths)
-        inner.flat[:: len(widths) + 1] += 1.0
-        pulled = widths[:, None] * columns[places]
-        explained = 0.5 * float(np.mean(np.einsum("ik,ik->k", pulled, np.linalg.solve(inner, pulled))))
-        return _Rival(key, 0.5 * float(np.linalg.slogdet(inner)[1]), explained)
-
-    def _list_smooth(self, columns: Array) -> list[_Rival]:
-        """Return the smooth forces of the discrepancy, each with each of its sizes and lengths."""
+    @cached_property
+    def _smooth_forces(self) -> Sequence[_Explainer]:
+        """The smooth forces of the discrepancy, each with each of its sizes and lengths, as explanations of effects."""
         return [
-            replace(one, paid=one.paid + math.log(len(force.options)))
+            self._make_explainer(force.key, self.joined.list_indices(force.key), widths, math.log(len(force.options)))
             for force in self.found.frame.forces
             for widths in force.options
-            for one in [self._weigh("", np.arange(force.columns.start, force.columns.stop), widths, columns)]
         ]
 
-    def _list_rivals(self, key: str, columns: Array) -> list[_Rival]:
-        """Return the other terms; those that contain this law, or that it contains, count as this one."""
-        problem = self.found.frame.problem
-        term = find_term(problem, key)[0]
-        rivals = []
-        for other, effect in self.effects.items():
-            law = find_term(problem, other)[0]
-            if other == key or is_simpler(term, law) or is_simpler(law, term) or law.name in term.equals:
-                continue
-            one = self._weigh(other, self.joined.list_indices(other), effect.widths, columns)
-            rivals.append(replace(one, paid=one.paid + self._price(other)))
-        return rivals
+    def _make_explainer(self, key: str, places: NDArray[np.intp], widths: Array, price: float) -> _Explainer:
+        """Return normal coefficients at `places` with prior `widths` as an explanation of effects."""
+        inner = self.information[np.ix_(places, places)] * np.outer(widths, widths)
+        inner.flat[:: len(widths) + 1] += 1.0
+        metric = widths[:, None] * np.linalg.solve(inner, np.diag(widths))
+        return _Explainer(key, places, metric, price + 0.5 * float(np.linalg.slogdet(inner)[1]))
 
     def _price(self, key: str) -> float:
         """Return the log prior odds against a term."""
