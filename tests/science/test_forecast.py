@@ -31,7 +31,9 @@ def fit_nominal(folder, extra):
 def still(tmp_path_factory):
     """Return what a recording of a machine that lacks nothing can tell, and its nominal fit."""
     prepared, _, nominal = fit_nominal(tmp_path_factory.mktemp("still"), rub(0.0))
-    return describe_expectation(forecast_recordings(nominal, prepared.observations), "the drive"), nominal
+    return describe_expectation(
+        forecast_recordings(nominal, prepared.observations, np.random.default_rng(0)), "the drive"
+    ), nominal
 
 
 def test_the_size_has_the_chance_that_is_stated():

@@ -73,7 +73,7 @@ def check_prepared(
     problem = make_problem(system, case, train, jobs=jobs, settings=settings)
     nominal = search_maximum(cut_stretches(problem) if problem.samples > MOST else problem, rng)
     say("what the recording can tell")
-    forecast = forecast_recordings(nominal, recordings)
+    forecast = forecast_recordings(nominal, recordings, rng)
     if not forecast.valid:
         raise DataError(
             f"{recordings[0].name}: the nominal model cannot follow this recording: check the units and columns of"

@@ -5,18 +5,22 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from lostmotion.contracts import place_of
+from lostmotion.diagnosis.excitations import repeat_drive
+from lostmotion.diagnosis.experiment import compute_natural_frequency
+from lostmotion.diagnosis.rehearsal import RehearsedModel, simulate_recording
 from lostmotion.diagnosis.search import list_fitted_keys
-from lostmotion.evidence.forecast import Detectable, Forecast, make_forecast
+from lostmotion.evidence.forecast import Detectable, Forecast, make_forecast, measure_levels
 from lostmotion.evidence.hypothesis import WAVE
 from lostmotion.inference.curves import add_all_curves
 from lostmotion.inference.fit import Fit, solve_scaled
 from lostmotion.inference.natural import find_term
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.problem import RANDOM, Problem
 from lostmotion.likelihood.system import Slot
 from lostmotion.report.words import angles_in, format_size, sentence, to_words
 from lostmotion.results import Interval, percent
@@ -25,18 +29,47 @@ from lostmotion.results.expectation import Detection, Expectation, ParameterPair
 
 CORRELATED = 0.95
 """Two parameters with a larger correlation are hardly told apart."""
+SIMULATED = 2000
+"""The samples of a simulated recording."""
 NORMAL = 1.959964
 """The half width of a 95 % interval in standard deviations."""
 
 
-def forecast_recordings(nominal: Fit, recordings: Sequence[Observation], keys: Sequence[str] = ()) -> Forecast:
-    """Return the forecast for whole `recordings`, of which a nominal fit has a part; for all terms, or those of `keys`.
+def forecast_recordings(nominal: Fit, recordings: Sequence[Observation], rng: np.random.Generator) -> Forecast:
+    """Return the forecast for whole `recordings`, of which a nominal fit has a part, with the usual discrepancy.
 
-    The discrepancy is that of a diagnosis.
+    What a larger random force hides is measured in a simulated recording.
     """
-    repeated = sum(o.samples for o in recordings) / nominal.problem.samples
-    wanted = keys or list_fitted_keys(nominal.problem.system)
-    return make_forecast(add_all_curves(nominal), wanted, recordings, repeated=max(repeated, 1.0))
+    samples = sum(o.samples for o in recordings)
+    keys = list_fitted_keys(nominal.problem.system)
+    repeated = max(samples / nominal.problem.samples, 1.0)
+    forecast = make_forecast(add_all_curves(nominal), keys, recordings, repeated=repeated)
+    if not forecast.valid or (simulated := _simulate(nominal, rng)) is None:
+        return forecast
+    static = [key for key in keys if is_static(nominal.problem, key)]
+    return replace(forecast, levels=measure_levels(simulated, static, samples))
+
+
+def _simulate(nominal: Fit, rng: np.random.Generator) -> Fit | None:
+    """Return the nominal fit on a simulated recording with the usual random force; None where it diverges."""
+    theta = nominal.theta.copy()
+    for i, f in enumerate(nominal.problem.free):
+        if f.parameter == RANDOM:
+            theta[i] = min(theta[i], f.mean)
+    usual = replace(nominal, local=replace(nominal.local, theta=theta))
+    observation, model = nominal.problem.observations[0], RehearsedModel.of(usual)
+    excitation = repeat_drive(observation, min(SIMULATED, observation.samples), compute_natural_frequency(nominal))
+    seen = simulate_recording(model, excitation, rng)
+    if seen is None:
+        return None
+    moved = replace(usual.local, theta=model.get_coordinates(excitation))
+    return replace(usual, problem=model.pose(excitation, seen), local=moved)
+
+
+def is_static(problem: Problem, key: str) -> bool:
+    """Return whether the effect of a term costs no run of the filter."""
+    term, _ = find_term(problem, key)
+    return term.acts in ("motion", "drive") and not term.states
 
 
 def describe_expectation(forecast: Forecast, yardstick: str, angle: str = "rad") -> Expectation:

@@ -22,11 +22,11 @@ from lostmotion.diagnosis.excitations import (
     list_candidates,
     repeat_drive,
 )
+from lostmotion.diagnosis.expectation import is_static
 from lostmotion.diagnosis.experiment import compute_natural_frequency
 from lostmotion.diagnosis.rehearsal import RehearsedModel, simulate_recording
 from lostmotion.evidence.forecast import Forecast, make_forecast
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.natural import find_term
 from lostmotion.likelihood.levels import make_noise_levels
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import observe_states
@@ -71,7 +71,7 @@ def list_improvements(
     natural = compute_natural_frequency(nominal)
     usual = choose_limits(observation, natural)
     limits = Limits(allowed.max_level or usual.level, allowed.max_frequency or usual.frequency)
-    samples, static = min(SAMPLES, observation.samples), [key for key in keys if _is_static(nominal.problem, key)]
+    samples, static = min(SAMPLES, observation.samples), [key for key in keys if is_static(nominal.problem, key)]
     model = RehearsedModel.of(nominal)
     first = repeat_drive(observation, samples, natural)
     base = _measure(model, first, static, rng)
@@ -88,12 +88,6 @@ def list_improvements(
     rows = [_make_improvement(nominal.problem, words, one, seen.compare(base)) for words, one, seen in tried if seen]
     useful = [row for row in rows if min(row.intervals, row.effects) < WORTH and max(row.intervals, row.effects) < 1.0]
     return tuple(sorted(useful, key=lambda row: row.intervals * row.effects)[:MOST])
-
-
-def _is_static(problem: Problem, key: str) -> bool:
-    """Return whether the effect of a term costs no run of the filter."""
-    term, _ = find_term(problem, key)
-    return term.acts in ("motion", "drive") and not term.states
 
 
 def _choose_excitations(

@@ -87,9 +87,9 @@ ABSURD = 10.0
 """The share of the drive from which the force of a law means that a unit, a sign or a ratio is wrong."""
 MOST_REFUTED = 4
 """The largest number of sets that free runs over held-out data may refute."""
-SHOW, NEXT, EVIDENCE, WHEN, DRAWN = 1, 2, 3, 4, 5
-"""Streams of random numbers for attractors, experiments, the check of evidence, disagreement over time and the draws of
-intervals; no finding depends on them."""
+SHOW, NEXT, EVIDENCE, WHEN, DRAWN, EXPECTED = 1, 2, 3, 4, 5, 6
+"""Streams of random numbers for attractors, experiments, the check of evidence, disagreement over time, the draws of
+intervals, and what a recording can tell; no finding depends on them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -251,7 +251,7 @@ def _make_result(prepared: Prepared, outcome: Outcome, seed: int, proposals: Pro
         open=rest,
         ranking=rank_candidates(d, found, failed=failed),
         confused_with=describe_confusions(d, list_confusions(d), proposals),
-        expected=_expect(d, outcome.angle),
+        expected=_expect(d, outcome.angle, np.random.default_rng([seed, EXPECTED])),
         absent=absent,
         unlimited=unlimited,
         unexplained=measure_unexplained(d, after=True),
@@ -280,9 +280,9 @@ def _make_result(prepared: Prepared, outcome: Outcome, seed: int, proposals: Pro
     )
 
 
-def _expect(d: SearchResult, angle: str) -> Expectation | None:
+def _expect(d: SearchResult, angle: str, rng: np.random.Generator) -> Expectation | None:
     """Return what the recordings can tell, from the nominal fit of the search; None where it cannot follow them."""
-    forecast = forecast_recordings(d.explained.nominal, d.recordings)
+    forecast = forecast_recordings(d.explained.nominal, d.recordings, rng)
     return describe_expectation(forecast, d.yardstick, angle) if forecast.valid else None
 
 

@@ -30,6 +30,7 @@ from lostmotion.evidence.effects import (
     linearise_all,
 )
 from lostmotion.evidence.expansion import Expansion
+from lostmotion.evidence.explanations import TIED
 from lostmotion.evidence.hypothesis import Hypothesis
 from lostmotion.inference.fit import Fit, choose_first_steps, solve_scaled
 from lostmotion.inference.natural import compute_size, find_term, sort_slots
@@ -42,6 +43,12 @@ from lostmotion.likelihood.tangents import Tangents
 
 CHANCE, SURE = 0.9, 0.95
 """The chance of a name at the stated size, and the probability from which a term is named."""
+Z = float(norm.ppf(CHANCE))
+"""The standard score of the chance."""
+STEP, MOST_STEPS = 1.1, 40
+"""Sizes are tried in these steps, at most so many."""
+RAISED = (1.5, 3.0, 4.5, 6.0)
+"""The increases of the log random force above the usual that hide a term."""
 LINEAR = 1.4
 """The secant and the derivative of an effect that is linear agree within this factor."""
 MOST_SHARE = 1.0
@@ -77,6 +84,23 @@ class _Rival:
     paid: float
     explained: float
 
+    def hide(self, own: _Rival, cost: float, left: float) -> _Rival:
+        """Return this explanation with a larger random force, which leaves a share of what tells `own` from it."""
+        return _Rival(self.key, self.paid + cost, own.explained - left * (own.explained - self.explained))
+
+
+@dataclass(frozen=True)
+class RandomLevel:
+    """A random force above the usual: its cost in log-likelihood where nothing is missing, and what it hides.
+
+    `left` is the share of the information on each term that remains under it, by key; `usual` that of other terms. The
+    fit of a model that lacks a term raises the random force, which hides the term in part.
+    """
+
+    cost: float
+    left: Mapping[str, float]
+    usual: float
+
 
 @dataclass(frozen=True, eq=False)
 class _Explainer:
@@ -101,7 +125,7 @@ class Forecast:
     """The nominal hypothesis at the usual random force, with the effects of terms along the recording.
 
     `repeated` is the ratio of all samples to those of the expansion. The effects are the last coordinates of `joined`,
-    in blocks with the key of their term.
+    in blocks with the key of their term. `levels` are random forces that the fit without a term may have.
     """
 
     found: Hypothesis
@@ -110,6 +134,7 @@ class Forecast:
     filtered: Sequence[Tangents]
     repeated: float
     many: int
+    levels: Sequence[RandomLevel] = ()
 
     @cached_property
     def information(self) -> Array:
@@ -189,15 +214,69 @@ class Forecast:
         """
         columns = self.information[:, self.joined.list_indices(key)[list(group)]]
         own, term = self._terms[key].explain(columns), find_term(self.found.frame.problem, key)[0]
+        levels = [(0.0, 1.0), *((level.cost, level.left.get(key, level.usual)) for level in self.levels)]
+
+        def solve(rival: _Rival) -> float:
+            return max(_solve_size(own, rival.hide(own, *level)) for level in levels)
+
         plain = [_Rival("", 0.0, 0.0), *(one.explain(columns) for one in self._smooth_forces)]
-        least = max(_solve_size(own, rival) for rival in plain)
+        least = self._propose(own, max(map(solve, plain)), levels)
         others = {}
         for other, explainer in self._terms.items():
             law = find_term(self.found.frame.problem, other)[0]
             if not (other == key or is_simpler(term, law) or is_simpler(law, term) or law.name in term.equals):
-                others[other] = _solve_size(own, explainer.explain(columns))
+                rival = explainer.explain(columns)
+                others[other] = self._part(own, rival, columns, max(solve(rival), least))
         far = tuple(name for name, size in others.items() if size > FAR * least)
         return max([least, *(size for name, size in others.items() if name not in far)]), far
+
+    def _propose(self, own: _Rival, size: float, levels: Sequence[tuple[float, float]]) -> float:
+        """Return the size from which score tests beside the fit without a term propose it, at least `size`."""
+        fitted = own.explained / self.repeated
+        for _ in range(MOST_STEPS if math.isfinite(size) and own.explained > 0.0 else 0):
+            left = min(levels, key=lambda level: level[0] + size**2 * own.explained * level[1])[1]
+            apart = math.sqrt(2.0 * fitted * left) * size
+            if 0.5 * apart**2 - Z * apart > own.paid:
+                break
+            size *= STEP
+        return size
+
+    def _part(self, own: _Rival, rival: _Rival, columns: Array, size: float) -> float:
+        """Return the size from which another law does not predict the same readings, at least `size`.
+
+        Laws that do share their probability (`Explanations`). The other law has the smooth force that explains most.
+        """
+        if rival.explained < 0.5 * own.explained or not math.isfinite(size):
+            return size
+        both = [rival, *(one.explain(columns) for one in self._get_pairs(rival.key))]
+        for _ in range(MOST_STEPS):
+            best = max(both, key=lambda one: size**2 * one.explained - one.paid)
+            apart = max(own.explained - best.explained, 0.0) / self.repeated
+            if math.sqrt(2.0 * apart) * size > math.sqrt(2.0 * TIED) + Z:
+                return size
+            size *= STEP
+        return math.inf
+
+    def _get_pairs(self, key: str) -> Sequence[_Explainer]:
+        """Return a term together with each smooth force, as explanations of effects."""
+        if key not in self._pairs:
+            places, widths = self.joined.list_indices(key), self.effects[key].widths
+            self._pairs[key] = [
+                self._make_explainer(
+                    key,
+                    np.append(places, self.joined.list_indices(force.key)),
+                    np.append(widths, options),
+                    self._price(key) + math.log(len(force.options)),
+                )
+                for force in self.found.frame.forces
+                for options in force.options
+            ]
+        return self._pairs[key]
+
+    @cached_property
+    def _pairs(self) -> dict[str, Sequence[_Explainer]]:
+        """What `_get_pairs` has made."""
+        return {}
 
     @cached_property
     def _terms(self) -> Mapping[str, _Explainer]:
@@ -232,7 +311,7 @@ class Forecast:
 def _solve_size(own: _Rival, rival: _Rival) -> float:
     """Return the size at which an effect has the odds over a rival, with the chance; infinity where it has never."""
     apart = own.explained - rival.explained
-    z = float(norm.ppf(CHANCE))
+    z = Z
     wanted = math.log(SURE / (1.0 - SURE)) + own.paid - rival.paid
     if z * z + 2.0 * wanted <= 0.0:
         return 0.0
@@ -240,18 +319,18 @@ def _solve_size(own: _Rival, rival: _Rival) -> float:
 
 
 def make_forecast(
-    nominal: Fit, keys: Sequence[str], recordings: Sequence[Observation], *, repeated: float = 1.0
+    nominal: Fit, keys: Sequence[str], recordings: Sequence[Observation], *, repeated: float = 1.0, raised: float = 0.0
 ) -> Forecast:
     """Return the forecast of a nominal fit for terms `keys`.
 
     `recordings` are whole ones, `repeated` is their number of samples over that of the fit. The random force is at most
-    the usual noise of the drive: what is missing must not hide itself. Smooth forces are those of the system of the
-    fit, if it has them.
+    the usual noise of the drive, because what is missing must not hide itself; its logarithm is increased by `raised`.
+    Smooth forces are those of the system of the fit, if it has them.
     """
     problem, theta = nominal.problem, nominal.theta.copy()
     for i, f in enumerate(problem.free):
         if f.parameter == RANDOM:
-            theta[i] = min(theta[i], f.mean)
+            theta[i] = min(theta[i], f.mean) + raised
     frame = make_frame(problem, theta, list_channel_errors(nominal, recordings))
     steps = nominal.local.steps if len(nominal.local.steps) == frame.own else choose_first_steps(problem)
     found = Hypothesis(frame, frame.expand(frame.start, steps, frame.none), frame.none, 0.0, 0.0, 0.0)
@@ -267,3 +346,22 @@ def make_forecast(
     made = [one for one in each(differentiate, list(keys), problem.jobs) if one is not None]
     told = {one.key: one for one in made if np.any(one.errors) or np.any(one.variances)}
     return Forecast(found, join_effects(found.expansion, list(told.values())), told, filtered, repeated, len(keys))
+
+
+def measure_levels(simulated: Fit, keys: Sequence[str], samples: int) -> list[RandomLevel]:
+    """Return what larger random forces hide of terms, from a simulated recording in which nothing is missing.
+
+    The fit has the recording and the coordinates with which it was simulated; costs are those of `samples`.
+    """
+    recordings = simulated.problem.observations
+    first, *others = (make_forecast(simulated, keys, recordings, raised=raised) for raised in (0.0, *RAISED))
+    share, levels = samples / max(simulated.problem.samples, 1), []
+    for forecast in others:
+        left = {}
+        for key in first.effects.keys() & forecast.effects.keys():
+            place = first.joined.blocks[key].start
+            before = first.information[place, place]
+            left[key] = float(np.clip(forecast.information[place, place] / before, 0.0, 1.0)) if before > 0.0 else 1.0
+        cost = first.found.expansion.here.log_likelihood - forecast.found.expansion.here.log_likelihood
+        levels.append(RandomLevel(max(share * float(cost), 0.0), left, float(np.median(list(left.values()) or [1.0]))))
+    return levels
