@@ -90,6 +90,9 @@ def is_hidden(machine: SmallMachine, effect: object) -> bool:
 def show(path: Path) -> None:
     """Print how many widths agree, and how many effects are named."""
     rows = [row for row in read_rows(path) if row["status"] == "ok"]
+    if not rows:
+        print("no rows yet")
+        return
     ratios = np.array([row["widths"][name] / row["expected"][name] for row in rows for name in row["expected"]])
     ratios = ratios[np.isfinite(ratios)]
     close = int(np.sum(np.abs(np.log(ratios)) < np.log(FACTOR)))
