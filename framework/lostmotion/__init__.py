@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from lostmotion.errors import LostMotionError as LostmotionError
     from lostmotion.notebook.case import Case, model
     from lostmotion.notebook.distributions import HalfNormal, LogNormal, LogUniform, Normal, Uniform
-    from lostmotion.notebook.doors import diagnose, identify, load
+    from lostmotion.notebook.doors import check, diagnose, identify, load
     from lostmotion.notebook.models import simulate
     from lostmotion.recording import Recording
     from lostmotion.settings import Settings
@@ -31,11 +31,11 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 __all__ = [
     "Case", "HalfNormal", "LogNormal", "LogUniform", "LostMotionError", "LostmotionError", "Normal", "Recording",
-    "Settings", "Uniform", "analyse", "denoise", "diagnose", "embed", "identify", "load", "map", "model", "quantify",
-    "simulate", "surrogate_test",
+    "Settings", "Uniform", "analyse", "check", "denoise", "diagnose", "embed", "identify", "load", "map", "model",
+    "quantify", "simulate", "surrogate_test",
 ]  # fmt: skip
 _TARGETS = {
-    **{name: f"notebook.doors:{name}" for name in ("diagnose", "identify", "load")},
+    **{name: f"notebook.doors:{name}" for name in ("check", "diagnose", "identify", "load")},
     **{name: f"notebook.case:{name}" for name in ("Case", "model")},
     **{
         name: f"notebook.distributions:{name}"

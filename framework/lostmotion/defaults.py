@@ -22,3 +22,8 @@ RARE_IN_JOINTS: Mapping[str, float] = {
     "drive_saturation": 1.0, "drive_dead_zone": 1.0,  # a recorded torque is limited already
 }  # fmt: skip
 """The log odds against laws that are rarer in the joints of robots than friction, damping, ripple or a delay."""
+USUAL = (
+    "coulomb_friction", "backlash", "linear_stiffness", "excitation_delay", "viscous_damping", "cubic_stiffness",
+    "offset_force", "quadratic_damping", "stribeck_friction", "asymmetric_gap", "cogging", "gap_drift",
+)  # fmt: skip
+"""The terms that engineers ask for first: those of most machines, the most common first."""

@@ -114,6 +114,38 @@ def assert_shaped(entry, kinds):
         assert kind is not float or (math.isfinite(entry[key]) and not isinstance(entry[key], bool)), (key, entry[key])
 
 
+def test_what_was_found_is_never_absent(hidden):
+    folder, done = hidden
+    said = said_in(folder)
+    rows = [*said["absent"], *said["unlimited"]]
+    present = {(one["mechanism"], one["at"]) for one in [*said["found"], *said["open"]]}
+    assert ("coulomb_friction", "ground") in present
+    assert not present & {(one["mechanism"], one["at"]) for one in rows}
+    assert len(said["absent"]) > 20
+    for one in said["absent"]:
+        assert_shaped(one, {"mechanism": str, "at": str, "parameter": str, "upper": float, "unit": str, "says": str})
+        assert one["upper"] > 0.0
+    (line,) = [line for line in done.stdout.splitlines() if line.startswith("Not missing")]
+    assert "cubic stiffness above" in line
+    assert "Coulomb friction" not in line
+
+
+def test_bounds_are_in_the_unit_and_as_a_share_of_the_drive(hidden):
+    rows = {one["mechanism"]: one for one in said_in(hidden[0])["absent"]}
+    offset = rows["offset_force"]
+    assert offset["unit"] == "N"
+    assert offset["upper"] < 1.0
+    assert offset["share_of_drive"] == pytest.approx(offset["upper"] / 100.0, rel=0.05)
+    assert rows["stribeck_friction"]["parameter"] == "excess"  # its further amplitude: the level of friction is found
+
+
+def test_the_first_section_is_what_the_recording_can_tell(hidden):
+    page = (hidden[0] / "out" / "report.html").read_text(encoding="utf-8")
+    sections = [part.partition('"')[0] for part in page.split('<section id="')[1:]]
+    assert sections[:2] == ["section-expected", "section-prediction"]
+    assert "section-absent" in sections
+
+
 def test_probabilities_are_probabilities(hidden):
     said = said_in(hidden[0])
     assert all(0.0 <= row["probability"] <= 1.0 for row in [*said["ranking"], *said["found"]])

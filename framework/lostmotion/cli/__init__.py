@@ -20,6 +20,7 @@ __all__ = ["PluginName", "examples", "main", "registry_of"]
 
 class _Commands(LazyGroup):
     table: ClassVar[Mapping[str, tuple[str, str]]] = {
+        "check": ("lostmotion.cli.check:command", "Tell what a recording can tell, before the fit."),
         "diagnose": ("lostmotion.cli.diagnose:command", "Find the physics that the model of a case does not include."),
         "identify": ("lostmotion.cli.identify:command", "Estimate the parameters of a case, with intervals."),
         "init": ("lostmotion.cli.init:command", "Inspect a recording and write a first case for it."),

@@ -76,10 +76,12 @@ def _diagnose_one(
         return
     from lostmotion.case import GUESSED
     from lostmotion.diagnosis.diagnosis_run import run_diagnosis
+    from lostmotion.diagnosis.report.absent import summarise_absent
 
     with show_progress("diagnose", quiet=quiet) as say:
         found = run_diagnosis(case, out, registry_of(ctx), seed=seed, jobs=jobs, say=say, settings=settings)
-    for sentence in (*found.says, *(note for note in found.notes if note.startswith(GUESSED))):
+    guesses = (note for note in found.notes if note.startswith(GUESSED))
+    for sentence in filter(None, (*found.says, summarise_absent(found.absent), *guesses)):
         click.echo(sentence)
     click.echo(str(out / "report.html"))
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from lostmotion.case import CaseFile
 from lostmotion.codec import to_plain
+from lostmotion.diagnosis.absent import list_absent
 from lostmotion.diagnosis.compare import (
     average_exponent,
     choose_heldout_horizon,
@@ -23,6 +24,7 @@ from lostmotion.diagnosis.compare import (
 from lostmotion.diagnosis.compared_motions import list_motions
 from lostmotion.diagnosis.disagreement_times import describe_disagreement
 from lostmotion.diagnosis.evidence_check import check_evidence
+from lostmotion.diagnosis.expectation import describe_expectation, forecast_recordings
 from lostmotion.diagnosis.findings import Outcome, draw_parameters, explain_withheld, list_findings
 from lostmotion.diagnosis.free_decays import describe_decays
 from lostmotion.diagnosis.mixed import draw_mixture
@@ -73,6 +75,7 @@ from lostmotion.registry import Registry
 from lostmotion.results.background import FittedMachine, Origin, RecordingFacts, SensorChannel, TermFacts
 from lostmotion.results.behaviour import Behaviour
 from lostmotion.results.diagnosis import Diagnosis, Mechanism, Response
+from lostmotion.results.expectation import Expectation
 from lostmotion.settings import DEFAULT, Settings
 from lostmotion.storage import dataset_of, folder_for, save_datasets, save_json
 
@@ -84,9 +87,9 @@ ABSURD = 10.0
 """The share of the drive from which the force of a law means that a unit, a sign or a ratio is wrong."""
 MOST_REFUTED = 4
 """The largest number of sets that free runs over held-out data may refute."""
-SHOW, NEXT, EVIDENCE, WHEN, DRAWN = 1, 2, 3, 4, 5
-"""Streams of random numbers for attractors, experiments, the check of evidence, disagreement over time and the draws of
-intervals; no finding depends on them."""
+SHOW, NEXT, EVIDENCE, WHEN, DRAWN, EXPECTED = 1, 2, 3, 4, 5, 6
+"""Streams of random numbers for attractors, experiments, the check of evidence, disagreement over time, the draws of
+intervals, and what a recording can tell; no finding depends on them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -231,6 +234,8 @@ def _make_result(prepared: Prepared, outcome: Outcome, seed: int, proposals: Pro
     d, case = outcome.diagnosis, prepared.case
     found, sharing = add_sharing(d, list_findings(outcome))
     found, rest = sort_findings([limit_confidence(entry, d.settings.name.sure) for entry in found]), list_open_terms(d)
+    failed = bool(explain_withheld(outcome))
+    absent, unlimited = ((), ()) if failed else list_absent(d, found, rest, outcome.angle)
     over_time, by_recording = describe_disagreement(d, np.random.default_rng([seed, WHEN]))
     before = replace(
         describe_dependence(d.located, d.learned),
@@ -244,8 +249,11 @@ def _make_result(prepared: Prepared, outcome: Outcome, seed: int, proposals: Pro
         says=(*(() if _explains_scale(found) else d.scale), *summarise(outcome, found, rest)),
         found=found,
         open=rest,
-        ranking=rank_candidates(d, found, failed=bool(explain_withheld(outcome))),
+        ranking=rank_candidates(d, found, failed=failed),
         confused_with=describe_confusions(d, list_confusions(d), proposals),
+        expected=_expect(d, outcome.angle, np.random.default_rng([seed, EXPECTED])),
+        absent=absent,
+        unlimited=unlimited,
         unexplained=measure_unexplained(d, after=True),
         unexplained_before=measure_unexplained(d, after=False),
         where=before,
@@ -270,6 +278,12 @@ def _make_result(prepared: Prepared, outcome: Outcome, seed: int, proposals: Pro
         notes=tuple(write_notes(outcome, _list_remarks(prepared, d))),
         provenance=_make_origin(prepared, d, seed),
     )
+
+
+def _expect(d: SearchResult, angle: str, rng: np.random.Generator) -> Expectation | None:
+    """Return what the recordings can tell, from the nominal fit of the search; None where it cannot follow them."""
+    forecast = forecast_recordings(d.explained.nominal, d.recordings, rng)
+    return describe_expectation(forecast, d.yardstick, angle) if forecast.valid else None
 
 
 def _list_remarks(prepared: Prepared, d: SearchResult) -> list[str]:

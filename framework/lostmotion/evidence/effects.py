@@ -74,9 +74,7 @@ def list_promises(
     """
     problem = found.frame.bare(found.at, found.choice)
     theta = found.at[: len(problem.free)]
-    tangents = [linearise_filter(problem, theta[None], i) for i in range(len(problem.observations))]
-    filtered = [one[0] for one in tangents if one is not None]
-    filtered = filtered if len(filtered) == len(tangents) else []
+    filtered = linearise_all(problem, theta)
     before = Quadratic.of(found.frame, found.expansion).evaluate(found.choice)
 
     def test(key: str) -> tuple[Promise, TermEffect] | None:
@@ -113,21 +111,57 @@ def _list_effects(
     problem: Problem, theta: Array, filtered: Sequence[Tangents], key: str, more: Sequence[Mapping[str, float]]
 ) -> Iterator[TermEffect]:
     """Yield the effect of a term at each shape."""
-    amplitudes, shapes = sort_slots(problem, key)
-    grids = [list_tried_values(s.param, problem.scales) for s in shapes]
-    usual = [dict(zip((s.key for s in shapes), values, strict=True)) for values in list_star_points(grids)]
+    shapes = sort_slots(problem, key)[1]
+    usual = _list_star_shapes(problem, shapes)
     tried = drop_rounding(problem, key, (*usual, *more)) if shapes else usual
+    yield from differentiate_term(problem, theta, filtered, key, tried)
+
+
+def get_usual_shape(problem: Problem, key: str) -> Mapping[str, float] | None:
+    """Return the values of the shapes of a term in the middle of their ranges; None where rounding hides it."""
+    shapes = sort_slots(problem, key)[1]
+    grids = [list_tried_values(s.param, problem.scales) for s in shapes]
+    usual = {s.key: grid[len(grid) // 2] for s, grid in zip(shapes, grids, strict=True)}
+    return usual if not shapes or drop_rounding(problem, key, (usual,)) else None
+
+
+def _list_star_shapes(problem: Problem, shapes: Sequence[Slot]) -> list[dict[str, float]]:
+    """Return the values of shapes that are tried: each over its grid while the others are in their middle."""
+    grids = [list_tried_values(s.param, problem.scales) for s in shapes]
+    return [dict(zip((s.key for s in shapes), values, strict=True)) for values in list_star_points(grids)]
+
+
+def linearise_all(problem: Problem, theta: Array) -> list[Tangents]:
+    """Return the linearised filter of each recording; none where that of one recording does not exist."""
+    made = [linearise_filter(problem, theta[None], i) for i in range(len(problem.observations))]
+    filtered = [one[0] for one in made if one is not None]
+    return filtered if len(filtered) == len(made) else []
+
+
+def differentiate_term(
+    problem: Problem,
+    theta: Array,
+    filtered: Sequence[Tangents],
+    key: str,
+    tried: Sequence[Mapping[str, float]],
+    sizes: Array | None = None,
+) -> Iterator[TermEffect]:
+    """Yield the effect of a term at each of some shapes, where it is finite.
+
+    Derivatives are secants over `sizes` (amplitudes,), by default a small share of the typical ones. `filtered` has the
+    linearised filter of each recording; without it, and for terms with states, the filter runs again.
+    """
     if not tried:
         return
-    term = find_term(problem, key)[0]
+    term, amplitudes = find_term(problem, key)[0], sort_slots(problem, key)[0]
     widths = np.array([f.sd for f in make_term_parameters(problem, key, amplitudes, {})])
-    sizes = np.array([compute_size(s.param, problem.scales) for s in amplitudes])
-    static = filtered and not term.states and term.acts in ("motion", "drive")
-    if static:
-        errors = np.concatenate([_respond(one, key, tried, amplitudes, SMALL * sizes) for one in filtered], axis=2)
+    if sizes is None:
+        sizes = SMALL * np.array([compute_size(s.param, problem.scales) for s in amplitudes])
+    if filtered and not term.states and term.acts in ("motion", "drive"):
+        errors = np.concatenate([_respond(one, key, tried, amplitudes, sizes) for one in filtered], axis=2)
         variances = np.zeros_like(errors)
     else:
-        errors, variances = _compute_differences(problem, theta, key, tried, SMALL * sizes)
+        errors, variances = _compute_differences(problem, theta, key, tried, sizes)
     for shape, e, v in zip(tried, errors, variances, strict=True):
         if np.all(np.isfinite(e)) and np.all(np.isfinite(v)):
             yield TermEffect(key, shape, tuple(amplitudes), widths, e, v)
@@ -137,15 +171,9 @@ def _respond(
     filtered: Tangents, key: str, shapes: Sequence[Mapping[str, float]], amplitudes: Sequence[Slot], sizes: Array
 ) -> Array:
     """Return the derivatives (shapes, amplitudes, readings) of the errors over the amplitudes of a static term."""
-    problem, index = filtered.problem, filtered.problem.system.index
-    fulls = np.tile(filtered.full, (len(shapes) * len(sizes), 1))
+    problem = filtered.problem
     rows = [(shape, a) for shape in shapes for a in range(len(sizes))]
-    for full, (shape, a) in zip(fulls, rows, strict=True):
-        for slot in amplitudes:
-            full[index[slot.key]] = float(slot.param.null or 0.0)
-        for name, value in shape.items():
-            full[index[name]] = value
-        full[index[amplitudes[a].key]] += sizes[a]
+    fulls = np.array([set_amplitude(filtered, shape, amplitudes, a, sizes[a]) for shape, a in rows])
     scale = np.array([sizes[a] for _, a in rows])
     if find_term(problem, key)[0].acts == "drive":
         acting = replace(problem, active=problem.active | {key})
@@ -158,6 +186,19 @@ def _respond(
             (rates - here[0]) / scale[:, None, None], (channels - here[1]) / scale[:, None, None]
         )
     return np.asarray(found.reshape(len(shapes), len(sizes), -1))
+
+
+def set_amplitude(
+    filtered: Tangents, shape: Mapping[str, float], amplitudes: Sequence[Slot], which: int, size: float
+) -> Array:
+    """Return the full parameter vector with one amplitude of a term at a distance `size` from its null."""
+    index, full = filtered.problem.system.index, filtered.full.copy()
+    for slot in amplitudes:
+        full[index[slot.key]] = float(slot.param.null or 0.0)
+    for name, value in shape.items():
+        full[index[name]] = value
+    full[index[amplitudes[which].key]] += size
+    return full
 
 
 def _compute_differences(
@@ -181,34 +222,40 @@ def _compute_differences(
     return slopes[0], slopes[1]
 
 
-def _join(found: Hypothesis, effect: TermEffect) -> Expansion:
-    """Return the expansion of a hypothesis with the amplitudes of a term as its last coordinates."""
-    expansion, count = found.expansion, len(effect.amplitudes)
+def join_effects(expansion: Expansion, effects: Sequence[TermEffect]) -> Expansion:
+    """Return an expansion with the amplitudes of terms as its last coordinates, in blocks with their keys."""
+    first = len(expansion.at)
+    ends = first + np.cumsum([0, *(len(effect.amplitudes) for effect in effects)])
+    count = int(ends[-1]) - first
+    errors = np.vstack([effect.errors for effect in effects]) if effects else expansion.errors[:0]
+    variances = np.vstack([effect.variances for effect in effects]) if effects else expansion.variances[:0]
+    widths = np.concatenate([effect.widths for effect in effects]) if effects else np.zeros(0)
+    blocks = {effect.key: slice(int(a), int(b)) for effect, a, b in zip(effects, ends[:-1], ends[1:], strict=True)}
     joined = replace(
         expansion,
         at=np.append(expansion.at, np.zeros(count)),
-        errors=np.vstack([expansion.errors, effect.errors]),
-        variances=np.vstack([expansion.variances, effect.variances]),
+        errors=np.vstack([expansion.errors, errors]),
+        variances=np.vstack([expansion.variances, variances]),
         middle=np.append(expansion.middle, np.zeros(count)),
-        precision=np.append(expansion.precision, 1.0 / effect.widths**2),
-        blocks={**expansion.blocks, effect.key: slice(len(expansion.at), len(expansion.at) + count)},
+        precision=np.append(expansion.precision, 1.0 / widths**2),
+        blocks={**expansion.blocks, **blocks},
     )
-    # the large block is known already: only the rows of the term are computed
-    new, v = slice(len(expansion.at), None), expansion.here.variances
-    cross = (effect.errors / v) @ joined.errors.T + 0.5 * (effect.variances / v**2) @ joined.variances.T
+    # the large block is known already: only the rows of the terms are computed
+    new, v = slice(first, None), expansion.here.variances
+    cross = (errors / v) @ joined.errors.T + 0.5 * (variances / v**2) @ joined.variances.T
     information = np.zeros((len(joined.at), len(joined.at)))
-    information[: len(expansion.at), : len(expansion.at)] = expansion.information
+    information[:first, :first] = expansion.information
     information[new], information[:, new] = cross, cross.T
     joined.__dict__["information"] = information
     e = expansion.here.errors
-    scores = effect.errors @ (-e / v) + effect.variances @ (0.5 * (e * e / v - 1.0) / v)
+    scores = errors @ (-e / v) + variances @ (0.5 * (e * e / v - 1.0) / v)
     joined.__dict__["gradient"] = np.append(expansion.gradient, scores)
     return joined
 
 
 def _predict(found: Hypothesis, effect: TermEffect, less: float) -> Promise:
     """Return what a term promises at one shape, beside the present smooth forces or in their place; `less` is paid."""
-    joined, frame, n = _join(found, effect), found.frame, len(found.at)
+    joined, frame, n = join_effects(found.expansion, (effect,)), found.frame, len(found.at)
     told = np.diag(joined.information)[n:] * effect.widths**2
     lost = Promise(effect.key, -math.inf, effect.shape, np.zeros(n), found.choice)
     if not np.any(told > MUTE):

@@ -109,6 +109,13 @@ class Hypothesis:
         prior = _compute_precision(self.frame, self.expansion, self.choice)
         return np.asarray(self.expansion.information[np.ix_(self.used, self.used)] + np.diag(prior[self.used]))
 
+    @cached_property
+    def pull(self) -> Array:
+        """The gradient (used,) of the log posterior over the free coordinates: close to zero, but for bounds."""
+        prior = _compute_precision(self.frame, self.expansion, self.choice)
+        middle = np.concatenate([self.expansion.middle[: self.frame.own], self.frame.middle])
+        return np.asarray((self.expansion.gradient - prior * (self.at - middle))[self.used])
+
 
 def list_vague(found: Hypothesis, key: str) -> list[str]:
     """Return the amplitudes of a term, by the name of the parameter, whose 95 % region contains zero.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -15,6 +15,7 @@ from lostmotion.case import GUESSED
 from lostmotion.codec import from_plain, to_plain
 from lostmotion.diagnosis.findings import Outcome
 from lostmotion.diagnosis.report import (
+    absent,
     diagnosis_page,
     learned_figure,
     missing,
@@ -30,6 +31,7 @@ from lostmotion.notebook.machine import FittedModel, make_fitted_model, restore_
 from lostmotion.registry import Registry, default
 from lostmotion.report import style
 from lostmotion.results import Interval
+from lostmotion.results.absent import AbsentTerm
 from lostmotion.results.diagnosis import Candidate, Diagnosis, HeldOutScore, Mechanism
 from lostmotion.storage import folder_for, load_arrays, load_json, save_datasets, save_json, save_text
 
@@ -52,7 +54,7 @@ class DiagnosisPlots:
     def __repr__(self) -> str:
         return (
             "<figures of a diagnosis: .prediction(), .missing_force(), .ranking(), .parameters(), .sections(),"
-            " .learned_force()>"
+            " .learned_force(), .absent()>"
         )
 
     def __call__(self) -> Figure:
@@ -87,6 +89,10 @@ class DiagnosisPlots:
     def learned_force(self) -> Figure:
         """Return the learned force with its band, or an empty figure without one."""
         return self._draw(learned_figure.draw)
+
+    def absent(self) -> Figure:
+        """Return the upper bounds of what is not missing, as shares of the drive."""
+        return self._draw(absent.draw)
 
     def _draw(self, draw: Callable[[Evidence], Figure | None]) -> Figure:
         """Return a figure, or a figure with a short text where there is nothing to draw."""
@@ -135,6 +141,11 @@ class DiagnosisResult:
     def found(self) -> tuple[Mechanism, ...]:
         """The missing mechanisms: named ones first, open ones last."""
         return self.result.found
+
+    @property
+    def absent(self) -> tuple[AbsentTerm, ...]:
+        """The upper bounds of the terms that are not in the model, the smallest share of the drive first."""
+        return self.result.absent
 
     @property
     def ranking(self) -> tuple[Candidate, ...]:
@@ -228,13 +239,17 @@ class DiagnosisResult:
         self.report(place / "report.html")
         return place
 
+    def _list_sentences(self) -> Iterator[str]:
+        """Yield the answer, the most usual bounds of what is not missing, and what the case supposes."""
+        yield from filter(None, (*self.says, absent.summarise_absent(self.absent), *self._guesses))
+
     def __repr__(self) -> str:
-        lines = [f"{self.result.title}: {self.verdict}", *self.says, *self._guesses]
+        lines = [f"{self.result.title}: {self.verdict}", *self._list_sentences()]
         lines += [f"  {name} = {interval}" for name, interval in self.parameters_after.items()]
         return "\n".join(lines)
 
     def _repr_html_(self) -> str:
-        items = "".join(f"<li>{html.escape(one)}</li>" for one in (*self.says, *self._guesses))
+        items = "".join(f"<li>{html.escape(one)}</li>" for one in self._list_sentences())
         with style.use_style(self.evidence.result.units.angle):
             drawn = prediction.draw(self.evidence)
             figure = style.embed_figure(drawn, "prediction") if drawn else ""

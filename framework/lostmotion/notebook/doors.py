@@ -30,6 +30,7 @@ from lostmotion.contracts import Model
 from lostmotion.errors import CaseError, DataError
 from lostmotion.notebook.argument_rules import CASE
 from lostmotion.notebook.case import Case
+from lostmotion.notebook.check import CheckResult, load_check
 from lostmotion.notebook.diagnosis_result import DiagnosisResult, load_diagnosis
 from lostmotion.notebook.posterior import IdentificationResult, load_identification
 from lostmotion.notebook.recorded import read_recorded_case
@@ -44,6 +45,7 @@ from lostmotion.settings import DEFAULT, Settings, read
 Modelled = Model | type[Model] | str | Sequence[str]
 LOADERS: Mapping[str, Callable[[Path], Any]] = {
     "diagnosis.json": load_diagnosis,
+    "check.json": load_check,
     "identification.json": load_identification,
 }
 
@@ -80,6 +82,39 @@ def diagnose(
             asked.prepare(known_to, terms, limits), known_to, seed=seed, jobs=jobs, say=say, settings=limits
         )
     found = DiagnosisResult(done.result, done.arrays, known_to, done.outcome)
+    if out is not None:
+        found.save(out)
+    return found
+
+
+@checked(**CASE)
+def check(
+    case: Case | Recording | str | Path,
+    model: Modelled | None = None,
+    *,
+    known: Mapping[str, float] | None = None,
+    estimate: Mapping[str, Prior] | None = None,
+    terms: str | Sequence[str] = "all",
+    seed: int = 0,
+    jobs: int = 2,
+    progress: bool = True,
+    out: str | Path | None = None,
+    registry: Registry | None = None,
+    settings: Settings | Mapping[str, float] | None = None,
+) -> CheckResult:
+    """Return what the recordings of a case can tell before terms are fitted, in seconds.
+
+    That is the expected 95 % interval of each estimated parameter, the smallest size of each term that would be named
+    with a probability of 90 %, what cannot be told apart, and changes of the experiment that would help. The arguments
+    are those of `diagnose`. Raises `CaseError` or `DataError` where the case cannot be used.
+    """
+    from lostmotion.diagnosis.check import check_prepared
+
+    known_to, limits = registry or default(), read(settings)
+    asked = make_case(case, model, known, estimate, known_to, limits=limits)
+    with show_progress("check", quiet=not progress, lines=False) as say:
+        prepared = asked.prepare(known_to, terms, limits)
+        found = CheckResult(check_prepared(prepared, seed=seed, jobs=jobs, say=say, settings=limits))
     if out is not None:
         found.save(out)
     return found
@@ -151,7 +186,7 @@ def identify(
 
 @checked(folder=path)
 def load(folder: str | Path) -> Any:
-    """Return the result that a command or `.save` wrote into a folder: a diagnosis, identification or analysis."""
+    """Return the result that a command or `.save` wrote into a folder: diagnosis, check, identification or analysis."""
     place, known = Path(folder), default()
     offered = tuple(known.offered(RESULT))
     for name in (*LOADERS, *offered):
@@ -210,4 +245,4 @@ def _guess_case(
     return Case(recording, given, {**fixed, **known}, {**priors, **estimate}, recording.name, notes=notes)
 
 
-__all__ = ["Case", "Modelled", "diagnose", "identify", "load"]
+__all__ = ["Case", "Modelled", "check", "diagnose", "identify", "load"]

@@ -156,6 +156,19 @@ def format_quantity(value: Any, unit: str) -> str:
     return text if text == DASH else f"{text} {format_unit(unit)}".rstrip()
 
 
+def format_size(value: float, unit: str) -> str:
+    """Return a positive number of two figures with its unit, with a prefix where that is easier to read: 4 µm, 0.3 ms.
+
+    A number without a unit is one: 0.02.
+    """
+    times = {"s": ((1.0, "s"), (1e3, "ms"), (1e6, "µs"))}
+    if unit in times:
+        factor, shown = next((one for one in times[unit] if value * one[0] >= 0.1), times[unit][-1])
+    else:
+        factor, shown = choose_scale(value, unit)
+    return f"{figures(float(f'{factor * value:.2g}'), 2)} {format_unit(shown)}".rstrip()
+
+
 def percent(value: Any) -> str:
     """Return a share as a percentage with at most two figures, or a dash; a tiny one is said to be less."""
     if not isinstance(value, int | float) or not math.isfinite(value):

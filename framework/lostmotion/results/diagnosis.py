@@ -7,8 +7,10 @@ from dataclasses import dataclass
 
 from lostmotion.codec import Cells, described
 from lostmotion.results import Interval
+from lostmotion.results.absent import AbsentTerm, UnlimitedTerm
 from lostmotion.results.background import FittedMachine, Origin, RecordingFacts
 from lostmotion.results.behaviour import Behaviour, Decays
+from lostmotion.results.expectation import Expectation
 from lostmotion.results.mismatch import ForceDependence, UnexplainedForce
 from lostmotion.results.shared_values import Comparison, OwnParameters, Sharing
 
@@ -310,6 +312,14 @@ class Diagnosis:
     confused_with: tuple[Confusion, ...] = described(
         "mechanisms that this recording cannot distinguish from the found ones"
     )
+    expected: Expectation | None = described(
+        "what the recording can tell, from the nominal model; null where that cannot follow it", default=None
+    )
+    absent: tuple[AbsentTerm, ...] = described(
+        "upper bounds of the terms that are not in the model; empty where the model does not predict held-out data",
+        default=(),
+    )
+    unlimited: tuple[UnlimitedTerm, ...] = described("terms whose size this recording does not limit", default=())
     unexplained: UnexplainedForce = described("the remaining random force")
     unexplained_before: UnexplainedForce = described("the random force that remains with the nominal model")
     where: ForceDependence = described("dependence of the missing force, before")

@@ -7,7 +7,9 @@ from pathlib import Path
 
 from lostmotion.codec import to_plain
 from lostmotion.diagnosis.report import (
+    absent,
     behaviour_table,
+    check,
     decay_figure,
     friction_figure,
     growth,
@@ -29,6 +31,14 @@ from lostmotion.report.pages import PageSection, draw_sections, load_template, w
 from lostmotion.report.words import split_headline, typeset
 
 SECTIONS: tuple[PageSection[Evidence], ...] = (
+    PageSection(
+        "expected",
+        "What this recording can tell",
+        check.draw_expected,
+        check.caption_expected,
+        check.make_expected_table,
+        check.write_expected,
+    ),
     PageSection("prediction", "Recording and prediction", prediction.draw, prediction.caption),
     PageSection("decay", "Free decay", decay_figure.draw, decay_figure.caption, words=decay_figure.write_words),
     PageSection("sensors", "All sensors", sensor_figure.draw, sensor_figure.caption, sensor_figure.make_table),
@@ -37,6 +47,7 @@ SECTIONS: tuple[PageSection[Evidence], ...] = (
     PageSection("learned", "The learned force", learned_figure.draw, learned_figure.caption),
     PageSection("levels", "Friction over the time", friction_figure.draw, friction_figure.caption),
     PageSection("ranking", "Ranking of the candidates", ranking.draw, ranking.caption),
+    PageSection("absent", "What is not missing", absent.draw, absent.caption, absent.make_table, absent.write_words),
     PageSection(
         "parameters", "Parameters", parameter_figure.draw, parameter_figure.caption, parameter_figure.make_table
     ),

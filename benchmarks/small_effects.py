@@ -1,0 +1,138 @@
+"""Machines with one small hidden effect, for `benchmarks/absent.py` and `benchmarks/check.py`.
+
+Random machines of the blind trials (`lostmotion_trials.blind`), whose integrator shares no code with the framework. The
+effect has one amplitude and no further parameter, so that its size is one number.
+"""
+
+from __future__ import annotations
+
+import itertools
+import json
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from judge_truth import EXCITATION_NOISE, write_driven_case, write_table
+from lostmotion.case import dump_case
+from lostmotion.errors import LostMotionError
+from lostmotion_trials.blind.hiding import convert_effects
+from lostmotion_trials.blind.mechanisms import TABLE
+from lostmotion_trials.blind.pilot import Effect, Pilot
+from lostmotion_trials.blind.simulator import BlindMachine, Disturbances, draw_rig, simulate_machine
+from lostmotion_trials.integrators.hidden import Hidden
+
+AMPLITUDES: Mapping[str, str] = {
+    "coulomb_friction": "force", "offset_force": "force", "linear_stiffness": "coefficient",
+    "cubic_stiffness": "coefficient", "quadratic_stiffness": "coefficient", "bilinear_stiffness": "difference",
+    "quadratic_damping": "coefficient", "directional_damping": "difference", "damping_drift": "rate",
+    "contact_damping": "coefficient", "asymmetric_gap": "shift", "gap_drift": "rate", "hertz_contact": "coefficient",
+    "hunt_crossley_contact": "coefficient",
+}  # fmt: skip
+"""The effects that are hidden, with the name of their amplitude."""
+SAMPLES = 2000
+"""The largest number of samples of a recording."""
+ATTEMPTS = 200
+"""The largest number of machines that are drawn for one trial."""
+
+
+@dataclass(frozen=True)
+class SmallMachine:
+    """A machine, its motion without an effect, and the effect that can be hidden in it, at a place."""
+
+    rig: BlindMachine
+    pilot: Pilot
+    mechanism: str
+    at: str
+
+    @property
+    def parameter(self) -> str:
+        """The amplitude of the effect."""
+        return AMPLITUDES[self.mechanism]
+
+    @property
+    def signed(self) -> bool:
+        """Whether the amplitude can be negative."""
+        return TABLE[self.mechanism].signed
+
+    def write(self, folder: Path, size: float, rng: np.random.Generator) -> None:
+        """Write the case of the machine with the effect at a size (SI units) into a folder; noise comes from `rng`."""
+        effects = (Effect(self.mechanism, self.at, {self.parameter: size}),) if size else ()
+        motion = simulate_machine(self.rig, *convert_effects(self.rig, effects), rng)
+        write_small_case(self.rig, motion, folder, rng)
+
+
+def write_small_case(rig: BlindMachine, motion: np.ndarray, folder: Path, rng: np.random.Generator) -> None:
+    """Write the case of a machine whose reading without noise is `motion` (samples,)."""
+    drive, shown = rig.signal.value(rig.time), motion - (rig.signal.value(rig.time) if rig.based else 0.0)
+    seen = motion + rig.noise * float(np.std(shown)) * rng.standard_normal(len(motion))
+    drive = drive + EXCITATION_NOISE * rig.signal.amplitude * rng.standard_normal(len(drive))
+    known = {name: value for name, value in rig.values.items() if name not in rig.estimated}
+    priors = {name: {"low": p.low, "high": p.high, "scale": p.scale} for name, p in rig.priors.items()}
+    model = {"name": rig.model, "known": known, "estimate": priors}
+    columns = {"time": rig.time, "force": drive, "position": seen}
+    if not rig.based:
+        write_driven_case(folder, "Machine", columns, model)
+        return
+    folder.mkdir(parents=True, exist_ok=True)
+    write_table(folder / "recording.csv", columns)
+    recording = {
+        "file": "recording.csv",
+        "time": "time",
+        "excitation": {"column": "force", "quantity": "base_position", "unit": "rad"},
+        "response": {"column": "position", "quantity": "position", "unit": "rad"},
+    }
+    dump_case({"title": "Machine", "recordings": [recording], "model": model}, folder / "case.toml")
+
+
+def draw_small_machine(rng: np.random.Generator) -> SmallMachine:
+    """Return a random machine with a random effect; a gap is passed in 10 to 95 % of the time."""
+    for _ in range(ATTEMPTS):
+        rig = draw_rig(rng, SAMPLES)
+        names = [name for name in AMPLITUDES if TABLE[name].fits(rig)]
+        name = str(rng.choice(names))
+        try:
+            pilot = Pilot(rig, simulate_machine(rig, Hidden(), Disturbances(), rng))
+        except LostMotionError:
+            continue
+        if "x0" in rig.values and not 0.1 < float(np.mean(np.abs(pilot.contact_sign))) < 0.95:
+            continue
+        return SmallMachine(rig, pilot, name, str(rng.choice(TABLE[name].find_places(rig))))
+    raise ValueError(f"no machine in {ATTEMPTS} attempts")
+
+
+def run_trials(path: Path, count: int, run: Callable[[int], Mapping[str, object]]) -> None:
+    """Append a row of JSON for each of `count` trials that has none yet; a trial depends on its number only."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    done = {row["trial"] for row in read_rows(path)}
+    for trial in (number for number in range(count) if number not in done):
+        try:
+            row = dict(run(trial))
+        except (LostMotionError, ValueError, ArithmeticError) as err:
+            row = {"status": f"failed: {err}"}
+        with path.open("a") as stream:
+            print(json.dumps({"trial": trial, **row}), file=stream, flush=True)
+        print(trial, row.get("status"), flush=True)
+
+
+def read_rows(path: Path) -> list[dict[str, object]]:
+    """Return the rows of a file, or none."""
+    return [json.loads(line) for line in path.read_text().splitlines()] if path.exists() else []
+
+
+def describe_share(hits: int, count: int) -> str:
+    """Return a share with its Clopper-Pearson interval of 95 %."""
+    from scipy.stats import beta
+
+    low = float(beta.ppf(0.025, hits, count - hits + 1)) if hits else 0.0
+    high = float(beta.ppf(0.975, hits + 1, count - hits)) if hits < count else 1.0
+    return f"{hits} of {count} = {100 * hits / max(count, 1):.1f} % [{100 * low:.1f}, {100 * high:.1f}]"
+
+
+def split_by(rows: list[dict[str, object]], key: str, edges: list[float]) -> Iterator[tuple[str, list[dict]]]:
+    """Yield the rows between successive edges of a number, with the name of the range."""
+    for low, high in itertools.pairwise(edges):
+        own = [row for row in rows if low <= float(row[key]) < high]
+        yield f"{low:g} to {high:g}" if math.isfinite(high) else f"above {low:g}", own

@@ -1,0 +1,80 @@
+"""What is not missing: the upper bound of each term of the library that the diagnosed model does not have."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+from lostmotion.diagnosis.expectation import describe_place, describe_shape, describe_term, list_shape, name_amplitude
+from lostmotion.diagnosis.search import SearchResult, list_fitted_keys
+from lostmotion.evidence.bounds import ALIKE, NONLINEAR, SizeBound, bound_absent
+from lostmotion.inference.natural import find_term
+from lostmotion.likelihood.system import key_of
+from lostmotion.report.words import angles_in, format_size, sentence
+from lostmotion.results import percent
+from lostmotion.results.absent import AbsentTerm, UnlimitedTerm
+from lostmotion.results.diagnosis import Mechanism, OpenTerm
+
+Absence = tuple[tuple[AbsentTerm, ...], tuple[UnlimitedTerm, ...]]
+
+
+def list_absent(d: SearchResult, found: Iterable[Mechanism], rest: Iterable[OpenTerm], angle: str = "rad") -> Absence:
+    """Return the bounds of absent terms, the largest share of the drive last, and the terms without a bound.
+
+    Terms that were `found` or remain open (`rest`), terms that no recording can tell from them, and alternatives with a
+    probability are left out: they are not absent.
+    """
+    present = {(one.mechanism, one.at) for one in found} | {(one.mechanism, one.at) for one in rest}
+    same = {name for key in d.named for name in find_term(d.after.problem, key)[0].equals}
+    problem = d.explained.best.frame.problem
+    keys = [
+        key_of(term)
+        for term in problem.system.terms
+        if key_of(term) in set(list_fitted_keys(d.before.problem.system))
+        and (term.name, term.at) not in present
+        and term.name not in same
+        and key_of(term) not in d.explained.terms
+        and d.explained.inclusion(key_of(term)) <= d.settings.name.worth
+    ]
+    bounds = bound_absent(d.explained.best, keys)
+    with angles_in(angle):
+        told = [_make_absent(d, bound) for bound in bounds if not bound.why]
+    limited = {(one.mechanism, one.at) for one in told}
+    others = {one.key: one for one in bounds if one.why and _get_name(d, one.key) not in limited}
+    told.sort(key=lambda one: (one.share_of_drive is None, one.share_of_drive or 0.0))
+    return tuple(told), tuple(_make_unlimited(d, one) for one in others.values())
+
+
+def _get_name(d: SearchResult, key: str) -> tuple[str, str]:
+    """Return name and place of a term."""
+    term, _ = find_term(d.before.problem, key)
+    return term.name, term.at
+
+
+def _make_absent(d: SearchResult, bound: SizeBound) -> AbsentTerm:
+    problem = d.before.problem
+    term, slots = find_term(problem, bound.key)
+    shape, unit = list_shape(slots, bound.shape), bound.slots[0].unit
+    share = bound.force if math.isfinite(bound.force) else None
+    drive = f" ({percent(share)} of {d.yardstick})" if share is not None else ""
+    return AbsentTerm(
+        mechanism=term.name,
+        at=term.at,
+        parameter=name_amplitude(bound.slots),
+        upper=bound.upper,
+        unit=unit,
+        share_of_drive=share,
+        given={slot.param.name: bound.shape[slot.key] for slot in shape},
+        says=f"no {describe_term(problem, bound.key, bound.slots)} above {format_size(bound.upper, unit)}{drive}"
+        f"{describe_shape(shape, bound.shape)}",
+    )
+
+
+def _make_unlimited(d: SearchResult, bound: SizeBound) -> UnlimitedTerm:
+    problem = d.before.problem
+    term, _ = find_term(problem, bound.key)
+    why = {
+        ALIKE: "what is in the model has the same effect on this recording",
+        NONLINEAR: "its effect is not proportional to its size where it is small",
+    }.get(bound.why, "it would hardly show in this recording")
+    return UnlimitedTerm(term.name, term.at, f"{sentence(describe_place(problem, bound.key))} has no bound: {why}.")

@@ -1,0 +1,79 @@
+"""What a recording can tell before the fit: intervals as found, and sizes at which terms are named."""
+
+import numpy as np
+import pytest
+from explained import explain, made_of
+from lostmotion.diagnosis.search import list_fitted_keys
+
+from lostmotion.diagnosis.compare import cut_heldout
+from lostmotion.diagnosis.expectation import describe_expectation, forecast_recordings
+from lostmotion.evidence.bare import Budget
+from lostmotion.evidence.forecast import _Rival, _solve_size
+from lostmotion.evidence.search import ExplanationSearch
+from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
+
+
+def rub(size):
+    """Return dry friction (N), without sticking, of a size."""
+    return lambda x, v, t: -size * np.tanh(v / 1e-3)
+
+
+def fit_nominal(folder, extra):
+    """Return prepared case, held-out part and nominal fit of a recording."""
+    folder.mkdir(exist_ok=True)
+    prepared, system = made_of(folder, extra)
+    train, held = split_heldout(prepared.observations)
+    nominal = search_maximum(make_problem(system, prepared.case, train, jobs=1), np.random.default_rng(0))
+    return prepared, held, nominal
+
+
+@pytest.fixture(scope="module")
+def still(tmp_path_factory):
+    """Return what a recording of a machine that lacks nothing can tell, and its nominal fit."""
+    prepared, _, nominal = fit_nominal(tmp_path_factory.mktemp("still"), rub(0.0))
+    return describe_expectation(
+        forecast_recordings(nominal, prepared.observations, np.random.default_rng(0)), "the drive"
+    ), nominal
+
+
+def test_the_size_has_the_chance_that_is_stated():
+    """The log odds of a true effect of this size are above log 19 in 90 % of draws; 2000 draws, +- 3 deviations."""
+    own, rival = _Rival("a", 12.0, 3.0), _Rival("b", 4.0, 1.0)
+    size = _solve_size(own, rival)
+    mean = size**2 * (own.explained - rival.explained)
+    odds = mean + np.sqrt(2.0 * mean) * np.random.default_rng(0).standard_normal(2000) - (own.paid - rival.paid)
+    assert np.mean(odds > np.log(19.0)) == pytest.approx(0.9, abs=3.0 * np.sqrt(0.09 / 2000))
+
+
+def test_expected_intervals_are_those_of_the_weighed_model(still):
+    """Both have wrong known values and errors of channels integrated: k follows a mass that is wrong by 1 %."""
+    expected, nominal = still
+    search = ExplanationSearch(nominal, list_fitted_keys(nominal.problem.system), (), Budget())
+    search.weigh(search.bare.fits[frozenset()])
+    found = search.best
+    for name, sd in zip(("c", "k"), np.sqrt(np.diag(found.covariance)), strict=False):
+        one = expected.parameters[name]
+        assert np.log(one.high / one.low) == pytest.approx(2.0 * 1.96 * sd, rel=0.2)
+        assert one.low < {"c": 0.8, "k": 300.0}[name] < one.high
+
+
+def test_damping_is_not_told_from_the_damping_of_the_model(still):
+    (row,) = [one for one in still[0].unseen if one.mechanism == "viscous_damping"]
+    assert "parameter c has the same effect" in row.says
+
+
+def test_a_delay_and_a_lag_are_not_told_apart(still):
+    rows = {one.mechanism: one for one in still[0].effects}
+    assert "actuator_lag" in rows["excitation_delay"].confused_with
+
+
+@pytest.mark.slow
+def test_friction_of_the_stated_size_is_found_and_a_quarter_of_it_is_not(tmp_path, still):
+    (row,) = [one for one in still[0].effects if one.mechanism == "coulomb_friction"]
+    found = []
+    for share in (1.3, 0.25):
+        prepared, held, nominal = fit_nominal(tmp_path / str(share), rub(share * row.smallest))
+        pieces = [(piece.observation, piece.begin) for piece in cut_heldout(prepared.observations, held)]
+        found.append(explain(nominal, list_fitted_keys(nominal.problem.system), pieces).inclusion("coulomb_friction"))
+    assert found[0] > 0.95
+    assert found[1] < 0.5
