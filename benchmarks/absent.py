@@ -16,9 +16,9 @@ import time
 from pathlib import Path
 
 import numpy as np
-from lostmotion.diagnosis.run import diagnose_prepared
-from lostmotion.diagnosis.search import list_fitted_keys
 
+from lostmotion.diagnosis.diagnosis_run import diagnose_prepared
+from lostmotion.diagnosis.stages import list_fitted_keys
 from lostmotion.evidence.bare import Budget
 from lostmotion.evidence.bounds import bound_absent
 from lostmotion.evidence.search import ExplanationSearch

@@ -19,9 +19,9 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from lostmotion.diagnosis.run import diagnose_prepared
 
-from lostmotion.diagnosis.check import check_prepared
+from lostmotion.diagnosis.diagnosis_run import diagnose_prepared
+from lostmotion.diagnosis.recording_check import check_prepared
 from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import default
 from lostmotion.results import Interval

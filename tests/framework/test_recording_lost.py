@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from lostmotion.errors import DataError
-from lostmotion.recording.checks import check_sensor, fill_input
+from lostmotion.recording.value_checks import check_sensor, fill_input
 
 N = 3000
 TIME = np.arange(N) / 1000

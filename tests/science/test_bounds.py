@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 from explained import made_of
-from lostmotion.diagnosis.search import list_fitted_keys
 from scipy.stats import norm
 
+from lostmotion.diagnosis.stages import list_fitted_keys
 from lostmotion.evidence.bare import Budget
 from lostmotion.evidence.bounds import ALIKE, bound_absent, bound_absolute, bound_positive
 from lostmotion.evidence.search import ExplanationSearch

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 from explained import explain, made_of
-from lostmotion.diagnosis.search import list_fitted_keys
 
 from lostmotion.diagnosis.compare import cut_heldout
-from lostmotion.diagnosis.expectation import describe_expectation, forecast_recordings
+from lostmotion.diagnosis.expected_findings import describe_expectation, forecast_recordings
+from lostmotion.diagnosis.stages import list_fitted_keys
 from lostmotion.evidence.bare import Budget
 from lostmotion.evidence.forecast import _Rival, _solve_size
 from lostmotion.evidence.search import ExplanationSearch

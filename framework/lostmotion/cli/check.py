@@ -40,7 +40,7 @@ def command(ctx: click.Context, /, case: Path, out: Path, model: str, as_json: b
     path = prepare_case(ctx, case, out, model)
     _refuse_robot(path, ctx)
     from lostmotion.codec import to_plain
-    from lostmotion.diagnosis.check import run_check
+    from lostmotion.diagnosis.recording_check import run_check
 
     with show_progress("check", quiet=quiet or as_json) as say:
         found = run_check(path, out, registry_of(ctx), say=say, **given)
@@ -54,7 +54,7 @@ def command(ctx: click.Context, /, case: Path, out: Path, model: str, as_json: b
 
 def _refuse_robot(path: Path, ctx: click.Context) -> None:
     """Raise a `CaseError` for a case of a robot."""
-    from lostmotion.case.load import parse_case
+    from lostmotion.case.reading import parse_case
     from lostmotion.simulators import INVERSE
 
     model = parse_case(path).get("model")

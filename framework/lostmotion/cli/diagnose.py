@@ -76,7 +76,7 @@ def _diagnose_one(
         return
     from lostmotion.case import GUESSED
     from lostmotion.diagnosis.diagnosis_run import run_diagnosis
-    from lostmotion.diagnosis.report.absent import summarise_absent
+    from lostmotion.diagnosis.report.absent_table import summarise_absent
 
     with show_progress("diagnose", quiet=quiet) as say:
         found = run_diagnosis(case, out, registry_of(ctx), seed=seed, jobs=jobs, say=say, settings=settings)

@@ -12,7 +12,7 @@ import numpy as np
 
 from lostmotion.case import CaseFile
 from lostmotion.codec import to_plain
-from lostmotion.diagnosis.absent import list_absent
+from lostmotion.diagnosis.absent_terms import list_absent
 from lostmotion.diagnosis.compare import (
     average_exponent,
     choose_heldout_horizon,
@@ -24,7 +24,7 @@ from lostmotion.diagnosis.compare import (
 from lostmotion.diagnosis.compared_motions import list_motions
 from lostmotion.diagnosis.disagreement_times import describe_disagreement
 from lostmotion.diagnosis.evidence_check import check_evidence
-from lostmotion.diagnosis.expectation import describe_expectation, forecast_recordings
+from lostmotion.diagnosis.expected_findings import describe_expectation, forecast_recordings
 from lostmotion.diagnosis.findings import Outcome, draw_parameters, explain_withheld, list_findings
 from lostmotion.diagnosis.free_decays import describe_decays
 from lostmotion.diagnosis.mixed import draw_mixture

@@ -22,12 +22,12 @@ from lostmotion.diagnosis.excitations import (
     list_candidates,
     repeat_drive,
 )
-from lostmotion.diagnosis.expectation import is_static
+from lostmotion.diagnosis.expected_findings import is_static
 from lostmotion.diagnosis.experiment import compute_natural_frequency
 from lostmotion.diagnosis.rehearsal import RehearsedModel, simulate_recording
 from lostmotion.evidence.forecast import Forecast, make_forecast
 from lostmotion.inference.fit import Fit
-from lostmotion.likelihood.levels import make_noise_levels
+from lostmotion.likelihood.noise_levels import make_noise_levels
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import observe_states
 from lostmotion.likelihood.problem import NOISE, Problem

@@ -19,7 +19,7 @@ from scipy.stats import norm
 
 from lostmotion.contracts import Array
 from lostmotion.evidence.bounds import DISTINCT, FIRST, Amplitudes, group_amplitudes, measure_share
-from lostmotion.evidence.channels import list_channel_errors
+from lostmotion.evidence.channel_errors import list_channel_errors
 from lostmotion.evidence.discrepancy import make_frame
 from lostmotion.evidence.effects import (
     MUTE,

@@ -30,7 +30,7 @@ from lostmotion.likelihood.space import OFFSET, RANDOM, FreeParameter, list_keys
 from lostmotion.likelihood.system import Slot, System
 from lostmotion.noises import NOISE
 from lostmotion.quantities import quantity_of, unit_of
-from lostmotion.recording.checks import fill_lost
+from lostmotion.recording.value_checks import fill_lost
 from lostmotion.settings import DEFAULT, HeldOutSettings, Settings
 
 BLOCKS = 60

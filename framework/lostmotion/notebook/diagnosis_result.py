@@ -15,7 +15,7 @@ from lostmotion.case import GUESSED
 from lostmotion.codec import from_plain, to_plain
 from lostmotion.diagnosis.findings import Outcome
 from lostmotion.diagnosis.report import (
-    absent,
+    absent_table,
     diagnosis_page,
     learned_figure,
     missing,
@@ -92,7 +92,7 @@ class DiagnosisPlots:
 
     def absent(self) -> Figure:
         """Return the upper bounds of what is not missing, as shares of the drive."""
-        return self._draw(absent.draw)
+        return self._draw(absent_table.draw)
 
     def _draw(self, draw: Callable[[Evidence], Figure | None]) -> Figure:
         """Return a figure, or a figure with a short text where there is nothing to draw."""
@@ -241,7 +241,7 @@ class DiagnosisResult:
 
     def _list_sentences(self) -> Iterator[str]:
         """Yield the answer, the most usual bounds of what is not missing, and what the case supposes."""
-        yield from filter(None, (*self.says, absent.summarise_absent(self.absent), *self._guesses))
+        yield from filter(None, (*self.says, absent_table.summarise_absent(self.absent), *self._guesses))
 
     def __repr__(self) -> str:
         lines = [f"{self.result.title}: {self.verdict}", *self._list_sentences()]

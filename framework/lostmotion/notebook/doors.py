@@ -30,15 +30,15 @@ from lostmotion.contracts import Model
 from lostmotion.errors import CaseError, DataError
 from lostmotion.notebook.argument_rules import CASE
 from lostmotion.notebook.case import Case
-from lostmotion.notebook.check import CheckResult, load_check
+from lostmotion.notebook.check_result import CheckResult, load_check
 from lostmotion.notebook.diagnosis_result import DiagnosisResult, load_diagnosis
 from lostmotion.notebook.posterior import IdentificationResult, load_identification
 from lostmotion.notebook.recorded import read_recorded_case
 from lostmotion.offers import RESULT
 from lostmotion.progress import show_progress
 from lostmotion.recording import Recording
-from lostmotion.recording.checks import fill_lost
 from lostmotion.recording.formats import is_recording
+from lostmotion.recording.value_checks import fill_lost
 from lostmotion.registry import Registry, default
 from lostmotion.settings import DEFAULT, Settings, read
 
@@ -108,7 +108,7 @@ def check(
     with a probability of 90 %, what cannot be told apart, and changes of the experiment that would help. The arguments
     are those of `diagnose`. Raises `CaseError` or `DataError` where the case cannot be used.
     """
-    from lostmotion.diagnosis.check import check_prepared
+    from lostmotion.diagnosis.recording_check import check_prepared
 
     known_to, limits = registry or default(), read(settings)
     asked = make_case(case, model, known, estimate, known_to, limits=limits)

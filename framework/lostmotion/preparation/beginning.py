@@ -23,8 +23,8 @@ from lostmotion.preparation.guessed import check_guesses, list_guesses
 from lostmotion.preparation.prepare import prepare
 from lostmotion.preparation.vetting import make_plugin
 from lostmotion.quantities import LENGTH, si_factor
-from lostmotion.recording.checks import fill_lost
 from lostmotion.recording.outline import GivenRoles, Outline, OutlinedColumn, outline_table
+from lostmotion.recording.value_checks import fill_lost
 from lostmotion.registry import Registry
 from lostmotion.signals import refined_period
 from lostmotion.signals.repetition import period_found

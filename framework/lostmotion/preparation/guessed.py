@@ -15,8 +15,8 @@ from lostmotion.contracts import Array, Model
 from lostmotion.errors import CaseError
 from lostmotion.parts import Param
 from lostmotion.quantities import si_factor
-from lostmotion.recording.checks import fill_lost
 from lostmotion.recording.outline import Outline, OutlinedColumn
+from lostmotion.recording.value_checks import fill_lost
 from lostmotion.signals.decay import decay_of
 
 FALLEN = 0.7

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from lostmotion.recording.checks import fill_lost, runs_of
+from lostmotion.recording.value_checks import fill_lost, runs_of
 from lostmotion.settings import DEFAULT, RecordingSettings
 
 if TYPE_CHECKING:

@@ -13,7 +13,6 @@ from numpy.typing import ArrayLike, NDArray
 from lostmotion.arguments import Rule, anything, checked, choice, describe, mapping, maybe, path, positive, text
 from lostmotion.errors import DataError
 from lostmotion.quantities import si_factor
-from lostmotion.recording.checks import check_finite, check_length, check_sensor, check_values, fill_input, note_stuck
 from lostmotion.recording.clock import checked_clock, note_repeated_rows, read_time
 from lostmotion.recording.counts import centre_position, sum_changes
 from lostmotion.recording.folders import digest_recording
@@ -31,6 +30,14 @@ from lostmotion.recording.spec import Channel, Hold, RecordingSpec
 from lostmotion.recording.table import Table
 from lostmotion.recording.timing import EvenClock, check_step, resample_channel
 from lostmotion.recording.units import note_unit
+from lostmotion.recording.value_checks import (
+    check_finite,
+    check_length,
+    check_sensor,
+    check_values,
+    fill_input,
+    note_stuck,
+)
 from lostmotion.recording.warnings import CheckedChannel, warnings_of
 from lostmotion.settings import DEFAULT, RecordingSettings, Settings, read
 

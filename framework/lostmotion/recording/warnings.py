@@ -13,8 +13,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from lostmotion.recording.checks import fill_lost, runs_of
 from lostmotion.recording.drift import note_drift
+from lostmotion.recording.value_checks import fill_lost, runs_of
 from lostmotion.settings import DEFAULT, RecordingSettings
 
 Array = NDArray[np.float64]

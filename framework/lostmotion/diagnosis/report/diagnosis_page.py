@@ -7,9 +7,9 @@ from pathlib import Path
 
 from lostmotion.codec import to_plain
 from lostmotion.diagnosis.report import (
-    absent,
+    absent_table,
     behaviour_table,
-    check,
+    check_page,
     decay_figure,
     friction_figure,
     growth,
@@ -34,10 +34,10 @@ SECTIONS: tuple[PageSection[Evidence], ...] = (
     PageSection(
         "expected",
         "What this recording can tell",
-        check.draw_expected,
-        check.caption_expected,
-        check.make_expected_table,
-        check.write_expected,
+        check_page.draw_expected,
+        check_page.caption_expected,
+        check_page.make_expected_table,
+        check_page.write_expected,
     ),
     PageSection("prediction", "Recording and prediction", prediction.draw, prediction.caption),
     PageSection("decay", "Free decay", decay_figure.draw, decay_figure.caption, words=decay_figure.write_words),
@@ -47,7 +47,14 @@ SECTIONS: tuple[PageSection[Evidence], ...] = (
     PageSection("learned", "The learned force", learned_figure.draw, learned_figure.caption),
     PageSection("levels", "Friction over the time", friction_figure.draw, friction_figure.caption),
     PageSection("ranking", "Ranking of the candidates", ranking.draw, ranking.caption),
-    PageSection("absent", "What is not missing", absent.draw, absent.caption, absent.make_table, absent.write_words),
+    PageSection(
+        "absent",
+        "What is not missing",
+        absent_table.draw,
+        absent_table.caption,
+        absent_table.make_table,
+        absent_table.write_words,
+    ),
     PageSection(
         "parameters", "Parameters", parameter_figure.draw, parameter_figure.caption, parameter_figure.make_table
     ),

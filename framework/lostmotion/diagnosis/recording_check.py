@@ -8,11 +8,11 @@ from pathlib import Path
 import numpy as np
 
 from lostmotion.codec import to_plain
-from lostmotion.diagnosis.expectation import describe_expectation, forecast_recordings
+from lostmotion.diagnosis.expected_findings import describe_expectation, forecast_recordings
 from lostmotion.diagnosis.improvements import list_improvements
 from lostmotion.diagnosis.moving import check_motion, cut_rest
-from lostmotion.diagnosis.report.check import summarise_check, write_check
-from lostmotion.diagnosis.search import list_fitted_keys
+from lostmotion.diagnosis.report.check_page import summarise_check, write_check
+from lostmotion.diagnosis.stages import list_fitted_keys
 from lostmotion.diagnosis.verdict import find_angle_unit, label_model
 from lostmotion.errors import DataError
 from lostmotion.inference.fit import Fit

@@ -13,7 +13,7 @@ from lostmotion.contracts import place_of
 from lostmotion.diagnosis.excitations import repeat_drive
 from lostmotion.diagnosis.experiment import compute_natural_frequency
 from lostmotion.diagnosis.rehearsal import RehearsedModel, simulate_recording
-from lostmotion.diagnosis.search import list_fitted_keys
+from lostmotion.diagnosis.stages import list_fitted_keys
 from lostmotion.evidence.forecast import Detectable, Forecast, make_forecast, measure_levels
 from lostmotion.evidence.hypothesis import WAVE
 from lostmotion.inference.curves import add_all_curves

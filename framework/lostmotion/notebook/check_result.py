@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lostmotion.codec import to_plain
-from lostmotion.diagnosis.report import check as drawing
+from lostmotion.diagnosis.report import check_page as drawing
 from lostmotion.report import style
 from lostmotion.results import Interval
 from lostmotion.results.expectation import CaseCheck, Detection, Improvement, ParameterPair

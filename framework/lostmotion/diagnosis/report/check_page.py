@@ -10,8 +10,8 @@ from matplotlib.figure import Figure
 
 from lostmotion.codec import to_plain
 from lostmotion.defaults import USUAL
-from lostmotion.diagnosis.report.absent import draw_shares, label_absent
-from lostmotion.diagnosis.report.evidence import Evidence
+from lostmotion.diagnosis.report.absent_table import draw_shares, label_absent
+from lostmotion.diagnosis.report.page_data import Evidence
 from lostmotion.report import style
 from lostmotion.report.pages import Grid, PageSection, draw_sections, load_template, write_page
 from lostmotion.report.words import (

@@ -5,8 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
-from lostmotion.diagnosis.expectation import describe_place, describe_shape, describe_term, list_shape, name_amplitude
-from lostmotion.diagnosis.search import SearchResult, list_fitted_keys
+from lostmotion.diagnosis.expected_findings import (
+    describe_place,
+    describe_shape,
+    describe_term,
+    list_shape,
+    name_amplitude,
+)
+from lostmotion.diagnosis.stages import SearchResult, list_fitted_keys
 from lostmotion.evidence.bounds import ALIKE, NONLINEAR, SizeBound, bound_absent
 from lostmotion.inference.natural import find_term
 from lostmotion.likelihood.system import key_of

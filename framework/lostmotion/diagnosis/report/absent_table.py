@@ -8,7 +8,7 @@ from typing import Any
 from matplotlib.figure import Figure
 
 from lostmotion.defaults import USUAL
-from lostmotion.diagnosis.report.evidence import Evidence
+from lostmotion.diagnosis.report.page_data import Evidence
 from lostmotion.report import style
 from lostmotion.report.pages import Grid
 from lostmotion.report.words import DASH, format_size, percent, sentence, to_words
