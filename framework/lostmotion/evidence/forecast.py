@@ -43,6 +43,9 @@ from lostmotion.likelihood.tangents import Tangents
 
 CHANCE, SURE = 0.9, 0.95
 """The chance of a name at the stated size, and the probability from which a term is named."""
+SLACK = 1.2
+"""Sizes are larger by this than the closed form says: a search loses something, by several terms that act together
+against one and by local maxima (without it, `benchmarks/check.py` named 4 of 6 effects)."""
 Z = float(norm.ppf(CHANCE))
 """The standard score of the chance."""
 STEP, MOST_STEPS = 1.1, 40
@@ -165,6 +168,7 @@ class Forecast:
                 found.append(Detectable(key, slots, effect.shape, math.inf, alike=parameter))
                 continue
             size, rivals = self._find_size(key, group)
+            size *= SLACK
             limit = max(compute_size(slot.param, problem.scales) for slot in slots)
             size = size if size < limit else math.inf
             if math.isfinite(size) and not self._is_linear(key, group, size):
