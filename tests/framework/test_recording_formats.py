@@ -148,7 +148,7 @@ def test_garbage_is_told_so(tmp_path: Path, ending: str) -> None:
         ("time,x\nlow,1\n0,1\n", ["line 2", "'time'", "'low'"]),
         ("time;x\n0,5;1.000.5\n", ["line 2", "'x'"]),
         ("time,x,x\n0,1,2\n", ["two columns named 'x'"]),
-        ("one,two\na,b\n", ["no column of numbers"]),
+        ("one,two\na,b\n", ["line 2", "'one'", "'a' is not a number"]),
     ],
 )
 def test_bad_csv(tmp_path: Path, text: str, words: list[str]) -> None:

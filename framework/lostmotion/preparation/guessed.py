@@ -14,9 +14,10 @@ from scipy.signal import coherence
 from lostmotion.contracts import Array, Model
 from lostmotion.errors import CaseError
 from lostmotion.parts import Param
-from lostmotion.quantities import si_factor
+from lostmotion.quantities import SI, si_factor
 from lostmotion.recording.checks import fill_lost
 from lostmotion.recording.outline import Outline, OutlinedColumn
+from lostmotion.recording.units import RAW, strange_unit
 from lostmotion.signals.decay import decay_of
 
 FALLEN = 0.7
@@ -37,6 +38,8 @@ def check_guesses(outline: Outline, factors: Mapping[str, float], *, free: bool)
     if outline.drive is None and not free:
         _check_decay(outline)
     for column in filter(None, (outline.drive, outline.response)):
+        if column.name not in factors:
+            _check_unit(column)
         _check_size(column, factors.get(column.name))
 
 
@@ -86,6 +89,16 @@ def compute_coherent_share(pushed: Array, seen: Array) -> float:
     power = np.abs(np.fft.rfft(moved * np.hanning(moved.size))) ** 2
     bins = np.minimum(np.arange(power.size) * (shared.size - 1) // max(power.size - 1, 1), shared.size - 1)
     return float(np.sum(np.nan_to_num(shared)[bins] * power) / np.sum(power))
+
+
+def _check_unit(column: OutlinedColumn) -> None:
+    """Raise `CaseError` for a column with a unit that is unknown, or that measures no quantity of a machine."""
+    word = "" if column.sure else strange_unit(column.name) or (column.unit not in RAW and column.unit)
+    if word:
+        raise CaseError(
+            f"{column.name} has the unit {word}, which is unknown or measures no {column.kind or 'quantity'} of a machine:"
+            f" run `lostmotion init` with --unit {shlex.quote(column.name)}=UNIT, for instance {SI[column.kind or 'force']}"
+        )
 
 
 def _check_size(column: OutlinedColumn, factor: float | None) -> None:

@@ -8,6 +8,7 @@ are comments, of which the last one above the numbers may hold the names.
 from __future__ import annotations
 
 import csv
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -19,8 +20,14 @@ from lostmotion.recording.units import is_unit, split_name, unit_line
 
 COMMENTS = ("#", "%", "//")
 """How a comment line begins."""
+SEPARATORS = (";", "\t", ",", "|")
+"""The separators of cells beside blanks, in the order in which they are tried."""
+UNNAMED = "column 1"
+"""The name of a first column of numbers that has none, as pandas and R write the index."""
 HEAD = 1000
 """The number of lines among which the line of names is searched."""
+TYPE = re.compile(r"u?int\d*|float\d*|double|single|real|number|numeric|decimal|datetime|timestamp|string|bool(ean)?")
+"""A word in a line of types."""
 LAST = 50
 """The most rows at the end of these lines from which the form of a row of numbers is taken."""
 
@@ -65,7 +72,8 @@ def find_header(file: str, lines: list[str]) -> Header:
             raise DataError(f"{file} holds only blank lines: record or export it again")
         raise _no_numbers(file)
     found = next(_find_candidates(rows, whole=True), None) or next(_find_candidates(rows, whole=False), None)
-    return found or _use_first_line(file, rows)
+    header = found or _use_first_line(file, rows)
+    return _with_units_above(header, [line for line in enumerate(lines) if line[0] < header.first - 1])
 
 
 def _read_beside(rows: list[Line]) -> Header | None:
@@ -140,7 +148,7 @@ def _find_candidates(rows: list[Line], *, whole: bool) -> Iterator[Header]:
             continue
         header = _try_header(line, below, rows[k + 1 :], whole)
         if header is not None:
-            yield _with_units_above(header, rows[:k])
+            yield header
 
 
 def _is_unit_line(line: str, count: int) -> bool:
@@ -150,12 +158,18 @@ def _is_unit_line(line: str, count: int) -> bool:
 
 
 def _with_units_above(header: Header, above: list[Line]) -> Header:
-    """Return the header with units that lines above it state, such as `Vertical Units,V,A` of an oscilloscope."""
+    """Return the header with units that lines above the rows state, one for each column.
+
+    Such a line is `Vertical Units,V,A` of an oscilloscope, `# units: s, N, mm`, or a line of units above the names.
+    """
     units = dict(header.units)
-    for cells in (cells_of(line, header.separator) for _, line in above):
+    for cells in (cells_of(strip_comment(line), header.separator) for _, line in above):
         key, stated = cells[0].strip().lower() if cells else "", [cell.strip() for cell in cells[1:]]
         columns = {"horizontal units": header.names[:1], "vertical units": header.names[1:]}.get(key.rstrip(":"), [])
         units = {name: unit for name, unit in zip(columns, stated, strict=False) if is_unit(unit)} | units
+        line = unit_line(cells) if len(cells) == len(header.names) > 1 else None
+        if line and all(not unit or is_unit(unit) for unit in line):
+            units = {name: unit for name, unit in zip(header.names, line, strict=True) if name and unit} | units
     return replace(header, units=units)
 
 
@@ -164,6 +178,10 @@ def _try_header(line: str, below: str, rows: list[Line], whole: bool) -> Header 
     text = strip_comment(line)
     separator = separator_of(text, below)
     names = [name.strip() for name in cells_of(text, separator)]
+    if _names_types(names):
+        return None
+    if _names_types(cells_of(below, separator)):
+        rows, below = rows[1:], rows[1][1] if len(rows) > 1 else ""
     units = unit_line(cells_of(below, separator)) if len(cells_of(below, separator)) >= len(names) - 1 else None
     if units is not None and not any(_is_number(cell) for cell in cells_of(below, separator)):
         rows = rows[1:]
@@ -179,12 +197,19 @@ def _try_header(line: str, below: str, rows: list[Line], whole: bool) -> Header 
     return _make_header(names, units or [], separator, rows, width)
 
 
+def _names_types(cells: list[str]) -> bool:
+    """Return whether a line holds types of numbers, which some programs write below the names."""
+    return len(cells) > 1 and all(TYPE.fullmatch(cell.strip()) for cell in cells)
+
+
 def _find_shape(rows: list[Line], separator: str | None, names: list[str]) -> tuple[int, list[int]] | None:
     """Return the number of cells in a row and the columns of numbers, from the last rows; None if they do not fit.
 
     A separator after the last cell adds an empty cell to the row or to the line of names.
     """
     split = [cells_of(row, separator) for _, row in rows[-min(LAST, (len(rows) + 1) // 2) :]]
+    if len(names) > 1 and names[0] and all(len(cells) == len(names) + 1 and cells[-1].strip() for cells in split):
+        names.insert(0, "")  # the names of the rows, which have no name themselves
     for width in (len(names), len(names) + 1, len(names) - (not names[-1:] or not names[-1])):
         fit = [cells for cells in split if len(cells) == width]
         if width > len(names) and any(cells[-1].strip() for cells in fit):
@@ -219,6 +244,8 @@ def _make_header(names: list[str], units: Sequence[str], separator: str | None, 
             names = names[:-1]
         elif all(len(cells) == len(names) and not cells[-1].strip() for cells in split):
             names, trailing = names[:-1], True
+    if names and not names[0] and any(is_value(cells[0]) and not is_missing(cells[0]) for cells in split[:1]):
+        names = [UNNAMED, *names[1:]]
     stamped = {
         name
         for j, name in enumerate(names)
@@ -278,7 +305,7 @@ def strip_comment(line: str) -> str:
 
 def separator_of(header: str, row: str) -> str | None:
     """Return the separator of the cells of a table; None means blanks."""
-    found = [separator for separator in (";", "\t", ",") if separator in header]
+    found = [separator for separator in SEPARATORS if separator in header]
     for separator in (*(one for one in found if one in row), *found):
         if separator in row or len(_split_words(header)) != len(row.split()):
             return separator
@@ -305,7 +332,7 @@ def _split_words(line: str) -> list[str]:
 def _split_cells(line: str) -> list[str]:
     """Return the cells of a line with an unknown separator."""
     text = strip_comment(line)
-    return cells_of(text, next((s for s in (";", "\t", ",") if s in text), None))
+    return cells_of(text, next((s for s in SEPARATORS if s in text), None))
 
 
 def _has_only_values(line: str) -> bool:

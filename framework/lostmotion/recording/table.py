@@ -42,6 +42,11 @@ class Table:
             seen.setdefault(id(column), name)
         return tuple(seen.values())
 
+    @property
+    def unread(self) -> tuple[str, ...]:
+        """The reasons of the columns that cannot be read, each once."""
+        return tuple(dict.fromkeys(self.refused.values()))
+
     def column(self, name: str, source: str) -> Array:
         """Return a column (n,); raise `DataError` with the reason where there is none; `source` is the file."""
         if name in self.columns:

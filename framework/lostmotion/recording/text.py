@@ -26,6 +26,7 @@ from lostmotion.recording.lvm import FIRST, read_lvm
 from lostmotion.recording.numbers import RAW, Mark, NumberColumn, choose_mark, is_missing
 from lostmotion.recording.stamps import Stamps
 from lostmotion.recording.table import Table, make_table
+from lostmotion.recording.units import name_and_unit
 from lostmotion.recording.words import MILLISECONDS, has_foreign_name
 
 Array = NDArray[np.float64]
@@ -264,14 +265,12 @@ def _collect(text: _Text, columns: list[NumberColumn | _StampColumn], units: dic
             except DataError as err:
                 refused[one.name] = str(err)
             continue
-        if one.wrong and not (one.meant or one.numbers):
-            continue  # a column of words
         own = mark or (next(iter(one.proof)) if len(one.proof) == 1 else None)
-        if why := one.refusal(own):
+        if why := one.refusal(own, units[one.name] or name_and_unit(one.name)[1]):
             refused[one.name] = f"{file}, {why}"
         else:
             found[one.name] = one.finish(own or "point")
-            units[one.name] = next(iter(one.units), "") or units[one.name]
+            units[one.name] = units[one.name] or next(iter(one.units), "")
     _add_milliseconds(found, starts)
     if refused and not found:
         raise DataError(next(iter(refused.values())))

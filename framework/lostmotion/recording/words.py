@@ -9,17 +9,19 @@ KINDS = ("force", "position", "velocity", "acceleration")
 """The quantities of a column, in the order in which its unit is compared with them."""
 NAMES: Mapping[str, re.Pattern[str]] = {
     "force": re.compile(
-        r"force|load ?cell|torque|^f([_ \d.,\[(/]|$)|^tau|moment|^u\d*$|drive|excit|brake|kraft|荷重|力|トルク"
-        r"|сила|усилие|момент",
+        r"force|load ?cell|(?<![^\W_])load(?![a-z]|[ _]?(?:pos|angle|vel|speed|acc|side|enc))|torque|effort|thrust"
+        r"|^f([_ \d.,\[(/]|$)|^tau|moment(?!ary)|(?<!thermo)couple|^u\d*$|drive|excit|brake|kraft|fuerza|forza|荷重|力"
+        r"|トルク|сила|усилие|момент",
         re.IGNORECASE,
     ),
-    "acceleration": re.compile(r"acc|^a([_ \d.,\[(/]|$)|accel|beschl|加速度|ускорение", re.IGNORECASE),
+    "acceleration": re.compile(r"acc|^a[xyz]?([_ \d.,\[(/]|$)|accel|beschl|加速度|ускорение", re.IGNORECASE),
     "velocity": re.compile(
-        r"(?<!tra)(?<!le)vel|speed|^v([_ \d.,\[(/]|$)|omega|rpm|geschw|drehzahl|速度|回転数|скорость|обороты",
+        r"(?<!tra)(?<!le)vel|speed|^v[xyz]?([_ \d.,\[(/]|$)|^w([_ \d.,\[(/]|$)|^dq|omega|gyro|rpm|geschw"
+        r"|drehzahl|vitesse|velocidad|速度|回転数|скорость|обороты",
         re.IGNORECASE,
     ),
     "position": re.compile(
-        r"pos|disp|angle|enc|travel|gauge|laser|^[xqy]([_ \d.,\[(/]|$)|theta|phi|stroke|^weg|winkel|変位|位置|角度|位移"
+        r"pos|disp|angle|enc|travel|gauge|laser|^[xqy]([_ \d.,\[(/]|$)|theta|phi|stroke|^weg|winkel|d[ée]plac|desplaz|変位|位置|角度|位移"
         r"|перемещение|положение|угол",
         re.IGNORECASE,
     ),
