@@ -157,8 +157,8 @@ _WORDS = {
     **dict.fromkeys(("oz in", "ozf in", "in oz", "in ozf", "ozin"), "ozf*inch"),
     **dict.fromkeys(("kgf cm", "kg cm", "kgcm", "kgfcm"), "kgf*cm"),
     **dict.fromkeys(("kgf m", "kgfm"), "kgf*m"), "N m": "N m",
-    "毫米": "mm", "厘米": "cm", "微米": "um", "米": "m", "牛": "N", "牛顿": "N", "千牛": "kN", "毫秒": "ms", "微秒": "us",
-    "牛米": "N m", "牛·米": "N m", "弧度": "rad", "转/分": "rpm", "ニュートン": "N", "ミリ": "mm", "мкм": "um",
+    "毫米": "mm", "厘米": "cm", "微米": "um", "米": "m", "牛": "N", "牛顿": "N", "千牛": "kN", "毫秒": "ms",
+    "微秒": "us", "牛米": "N m", "牛·米": "N m", "弧度": "rad", "转/分": "rpm", "ニュートン": "N", "ミリ": "mm",
 }  # fmt: skip
 _CYRILLIC = str.maketrans({"м": "m", "к": "k", "с": "s", "Н": "N", "н": "n", "г": "g"})
 _TIMES = re.compile(r"(?<=[A-Za-z])[-.*·](?=[A-Za-z])")

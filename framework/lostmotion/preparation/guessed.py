@@ -96,8 +96,9 @@ def _check_unit(column: OutlinedColumn) -> None:
     word = "" if column.sure else strange_unit(column.name) or (column.unit not in RAW and column.unit)
     if word:
         raise CaseError(
-            f"{column.name} has the unit {word}, which is unknown or measures no {column.kind or 'quantity'} of a machine:"
-            f" run `lostmotion init` with --unit {shlex.quote(column.name)}=UNIT, for instance {SI[column.kind or 'force']}"
+            f"{column.name} has the unit {word}, which is unknown or measures no {column.kind or 'quantity'} of a"
+            f" machine: run `lostmotion init` with --unit {shlex.quote(column.name)}=UNIT, such as"
+            f" {SI[column.kind or 'force']}"
         )
 
 
@@ -118,6 +119,8 @@ def _check_size(column: OutlinedColumn, factor: float | None) -> None:
 
 def list_guesses(outline: Outline, machine: Model, known: Mapping[str, tuple[float, str]]) -> Iterator[str]:
     """Yield a sentence for each guess of a first case; `known` are values of parameters with their reasons."""
+    if outline.clock.guessed:
+        yield f"{outline.time} is the time in s, since it alone grows evenly"
     if outline.drive is None:
         yield f"nothing drives the machine, and {outline.response.name} is its free decay"
     for column in filter(None, (outline.drive, outline.response)):

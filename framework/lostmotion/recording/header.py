@@ -309,7 +309,8 @@ def separator_of(header: str, row: str) -> str | None:
     for separator in (*(one for one in found if one in row), *found):
         if separator in row or len(_split_words(header)) != len(row.split()):
             return separator
-    return None if len(_split_words(header)) == len(row.split()) else ";"
+    names = len(_split_words(header))  # the names of the rows may lack one themselves
+    return None if names == len(row.split()) or names == len(row.split()) - 1 > 0 else ";"
 
 
 def cells_of(line: str, separator: str | None) -> list[str]:

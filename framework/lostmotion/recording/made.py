@@ -69,6 +69,8 @@ def read_recording(
     """Return a recording of a file; units default to those in the file, the name to the stem of the file."""
     table = read_table(path)
     _check_names((*table.columns, *table.refused), layout, path.name)
+    for column in sorted(_used_columns(layout)):
+        table.column(column, path.name)
     layout = _with_time(table, replace(layout, name=layout.name or path.stem), path.name)
     return _finish(table, layout, path.name, digest_recording(path), settings)
 

@@ -87,8 +87,8 @@ class NumberColumn:
     """One column while it is read: its values in both ways of reading, and cells that decide between them.
 
     `proof` holds the first cell that only one decimal mark allows, `twofold` the first one that is a different number
-    with each, `wrong` the first one that is no number; `meant` tells that a wrong cell looks like a number. `prefixed` is
-    the first one such as `12.3m`, which may be 12.3 m or 12.3 thousandths.
+    with each, `wrong` the first one that is no number; `meant` tells that a wrong cell looks like a number.
+    `prefixed` is the first one such as `12.3m`, which may be 12.3 m or 12.3 thousandths.
     """
 
     name: str
@@ -162,8 +162,8 @@ class NumberColumn:
             line, cell = self.wrong
             if names_time(self.name):
                 return (
-                    f"line {line}, column {self.name!r}: {cell[:40]!r} is neither a number nor a known time stamp, such as"
-                    " 2025-03-04 09:58:50.125: correct it, or give the rate"
+                    f"line {line}, column {self.name!r}: {cell[:40]!r} is neither a number nor a known time stamp, such"
+                    " as 2025-03-04 09:58:50.125: correct it, or give the rate"
                 )
             return f"line {line}, column {self.name!r}: {cell[:40]!r} is not a number: correct or empty it"
         if len(self.proof) == 2:
@@ -180,8 +180,8 @@ class NumberColumn:
         if self.prefixed:
             line, cell = self.prefixed
             return (
-                f"line {line}, column {self.name!r}: {cell[:40]!r} may be in metres or in thousandths: write plain numbers"
-                " and the unit in the header"
+                f"line {line}, column {self.name!r}: {cell[:40]!r} may be in metres or in thousandths: write plain"
+                " numbers and the unit in the header"
             )
         if len(self.units) > 1:
             (one, (first, _)), (other, (second, _)) = list(self.units.items())[:2]

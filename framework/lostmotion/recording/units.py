@@ -20,7 +20,8 @@ from lostmotion.recording.words import KINDS, kind_named, names_time
 
 Array = NDArray[np.float64]
 _PREFIXES = ("", "p", "n", "u", "µ", "μ", "m", "c", "d", "da", "k", "M", "G")
-_WITH_PREFIX = ("s", "m", "g", "N", "Nm", "V", "A", "Hz", "Pa", "W", "J", "bar", "rad", "K", "T", "C", "Ohm", "ohm", "Ω")
+_WITH_PREFIX = ("s", "m", "g", "N", "Nm", "V", "A", "Hz", "Pa", "W", "J", "bar", "rad", "K", "T", "C", "Ohm", "ohm",
+                "Ω")  # fmt: skip
 _LONG_PREFIXES = ("", "nano", "micro", "milli", "centi", "kilo", "mega")
 _LONG = ("newton", "meter", "metre", "second", "gram", "radian", "volt", "ampere", "amp", "hertz", "pascal", "watt",
          "joule")  # fmt: skip
@@ -29,8 +30,8 @@ _PLAIN = {
     "°", "°C", "degC", "degF", "°F", "celsius", "kelvin", "%", "‰", "percent", "rpm", "rev", "turn", "turns", "in",
     "inch", "inches", "ft", "foot", "feet", "mil", "mph", "lb", "lbf", "lbs", "kip", "psi", "oz", "ozf", "kgf", "kp",
     "gf", "g_0", "g_n", "gn", "g0", "count", "counts", "digit", "digits", "LSB", "dB", "ppm", "arcmin", "arcsec", "gon",
-    "pound", "pounds", "pound_force", "force_pound", "thou", "micron", "angstrom", "grad", "klbf", "dyne", "d", "day", "days",
-    "U", "Umdr", "r", "rps", "dps", "gee", "Nmm", "Ncm", "mils",
+    "pound", "pounds", "pound_force", "force_pound", "thou", "micron", "angstrom", "grad", "klbf", "dyne", "d", "day",
+    "days", "U", "Umdr", "r", "rps", "dps", "gee", "Nmm", "Ncm", "mils",
     "Grad", "Newton", "Newtons", "Millimeter", "Millimeters", "Millimetre", "Millimetres", "Meter", "Meters", "Sekunde",
     "Sekunden", "Second", "Seconds", "Volt", "Volts", "Amp", "Amps", "Ampere", "Degrees", "Degree", "Radians", "RPM",
 }  # fmt: skip
@@ -125,8 +126,8 @@ def strange_unit(name: str) -> str:
 def _unit_in_name(head: str, word: str) -> str:
     """Return the unit that a word beside the name `head` means, or an empty text.
 
-    `MM` is mm, and in a name of capital letters `M` is m. `nm` of a torque is a newton metre, `G` of an acceleration is that of
-    gravity, and `lbs` or `lb` of a force is a pound-force.
+    `MM` is mm, and in a name of capital letters `M` is m. `nm` of a torque is a newton metre, `G` of an acceleration is
+    that of gravity, and `lbs` or `lb` of a force is a pound-force.
     """
     word, kind = word.strip(), kind_named(head)
     if word.isupper() and (head.isupper() or len(word) > 1):
@@ -240,7 +241,8 @@ def time_unit(name: str, table_unit: str | None, given: str | None) -> tuple[str
     wanted = TIME_UNITS.get(spell_unit(given))
     if wanted is None:
         raise DataError(
-            f"the unit {given[:LONGEST]!r} of the time column {name!r} is not a time: expected s, ms, us, ns, min, h or d"
+            f"the unit {given[:LONGEST]!r} of the time column {name!r} is not a time: expected s, ms, us, ns, min, h or"
+            " d"
         )
     if found and found != wanted:
         raise DataError(

@@ -21,16 +21,19 @@ NAMES: Mapping[str, re.Pattern[str]] = {
         re.IGNORECASE,
     ),
     "position": re.compile(
-        r"pos|disp|angle|enc|travel|gauge|laser|^[xqy]([_ \d.,\[(/]|$)|theta|phi|stroke|^weg|winkel|d[ée]plac|desplaz|変位|位置|角度|位移"
+        r"pos|disp|angle|enc|travel|gauge|laser|^[xqy]([_ \d.,\[(/]|$)|theta|phi|stroke|^weg|winkel|d[ée]plac|desplaz"
+        r"|変位|位置|角度|位移"
         r"|перемещение|положение|угол",
         re.IGNORECASE,
     ),
 }
 TIME = re.compile(
     r"(^|[_ .])(t|time|date ?time|date|datum|zeit|uhrzeit|zeitstempel|seconds?|timestamp|stamp|clock|elapsed|x_value|"
-    r"temps|tiempo|tempo)([_ \[(.,/]|$)|時間|時刻|日時|日付|时间|日期|время|дата",
+    r"temps|tiempo|tempo|horodatage|heure|hora|fecha|tijd)([_ \[(.,/]|$)|時間|時刻|日時|日付|时间|日期|время|дата",
     re.IGNORECASE,
 )
+OTHER = re.compile(r"temp(?!s)|volt|spannung|current|strom|press|druck|power|soc|setpoint|soll|温度", re.IGNORECASE)
+"""Names of readings of which nothing is computed."""
 COUNTER = re.compile(
     r"^(#|no\.?|nr\.?|n|k|i|index|idx|row|rows|zeile|sample ?(no\.?|number|index)?|samples|count(er)?|counts|pulses?|"
     r"ticks?|record|scan|point|frame|seq(uence)?|id|ordinal|番号|номер|№)([_ \[(.,/]|$)",
@@ -52,6 +55,11 @@ def has_foreign_name(text: str) -> bool:
 def names_time(name: str) -> bool:
     """Return whether the name of a column is one of time."""
     return TIME.search(name) is not None and COUNTER.match(name) is None
+
+
+def names_other(name: str) -> bool:
+    """Return whether the name of a column is that of a reading, which may grow as evenly as time does."""
+    return kind_named(name) != "" or OTHER.search(name) is not None
 
 
 def kind_named(name: str) -> str:
