@@ -125,9 +125,18 @@ def test_calendar_times_have_no_unit(time: Any, unit: str | None) -> None:
 
 
 def test_units_of_a_frame_are_those_of_its_attributes_and_names() -> None:
+    data = pd.DataFrame({"t": 1e3 * T, "force_N": FORCE, "position_mm": PLACE})
+    data.attrs["units"] = {"t": "ms", "force_N": "N"}
+    check(Recording.from_pandas(data, **WHICH), lost=False)
+
+
+def test_attributes_and_names_that_contradict_each_other_are_asked_about() -> None:
     data = pd.DataFrame({"t": 1e3 * T, "force_N": 1e-3 * FORCE, "position_mm": PLACE})
     data.attrs["units"] = {"t": "ms", "force_N": "kN"}
-    check(Recording.from_pandas(data, **WHICH), lost=False)
+    with pytest.raises(DataError, match="the unit of 'force_N' is N by its name and kN beside it"):
+        Recording.from_pandas(data, **WHICH)
+    check(Recording.from_pandas(data, units={"force_N": "kN"}, **WHICH), lost=False)
+    check(Recording.from_pandas(data, units={"force": "kN"}, **WHICH), lost=False)
 
 
 def test_a_column_that_nobody_asked_for_refuses_no_frame() -> None:
@@ -141,3 +150,65 @@ def test_a_column_that_nobody_asked_for_refuses_no_frame() -> None:
 def test_what_was_taken_for_time_stands_in_the_notes() -> None:
     made = Recording.from_pandas(frame(PLACE), **WHICH)
     assert made.notes[0] == "time in the column 'time_s' (s): its name and its unit are those of time"
+
+
+STAMPS = pd.date_range("2025-03-04 09:58:50", periods=N, freq="10ms")
+
+
+@pytest.mark.parametrize(
+    "index",
+    [STAMPS, STAMPS.astype(str), STAMPS.to_period("ms"), STAMPS.tz_localize("Europe/Berlin"), STAMPS - STAMPS[0],
+     pd.Index(STAMPS.as_unit("ns").astype("int64")), pd.Index(STAMPS.as_unit("ms").astype("int64"), name="stamp"),
+     pd.Index(10 * np.arange(N), name="time_ms"), pd.Index(T)],
+)  # fmt: skip
+def test_an_index_that_is_time(index: pd.Index) -> None:
+    data = pd.DataFrame({"force_N": FORCE, "position_mm": PLACE}).set_index(index)
+    check(Recording.from_pandas(data, **WHICH), lost=False)
+
+
+@pytest.mark.parametrize(
+    ("changes", "says"),
+    [
+        ({"time": 10 * np.arange(N)}, r"'time' holds whole numbers \(0, 10, 20, ...\) and no unit"),
+        ({"force": [f"{f:.4f}".replace(".", ",") for f in FORCE]}, "instead of numbers.*decimal=','"),
+        ({"force": np.zeros((N, 2))}, r"'force' has the shape \(\d+, 2\)"),
+    ],
+)
+def test_columns_that_are_asked_about_at_each_door(changes: dict[str, object], says: str) -> None:
+    columns = {"time": T, "force": FORCE, "position": PLACE} | changes
+    given = {"units": {"force": "N", "position": "mm"}}
+    roles = {"inputs": {"force": "force"}, "sensors": {"position": "position"}}
+    data = {key: columns[key] for key in ("force", "position")}
+    with pytest.raises(DataError, match=says):
+        Recording.from_arrays(
+            columns["time"], inputs={"force": data["force"]}, sensors={"position": data["position"]}, **given
+        )
+    if np.ndim(columns["force"]) == 1:
+        with pytest.raises(DataError, match=says):
+            Recording.from_pandas(pd.DataFrame(columns), **roles, **given)
+    dims = {key: (("time", "k")[: np.ndim(value)], value) for key, value in columns.items()}
+    with pytest.raises(DataError, match=says):
+        Recording.from_xarray(xr.Dataset(dims), **roles, **given)
+
+
+def test_a_column_of_matlab_and_a_dataset_with_another_name_of_time() -> None:
+    made = Recording.from_arrays(
+        T[:, None], inputs={"force": FORCE[:, None]}, sensors={"position": PLACE[None]},
+        units={"force": "N", "position": "mm"},
+    )  # fmt: skip
+    assert made.rate == pytest.approx(100.0)
+    data = xr.Dataset({"force": ("t", FORCE, {"units": "N"}), "pos": ("t", PLACE, {"units": "mm"})}, {"t": 1.0 * T})
+    found = Recording.from_xarray(data, inputs={"force": "force"}, sensors={"position": "pos"})
+    assert (found.rate, found.notes[0][:23]) == (pytest.approx(100.0), "time in the column 't' ")
+
+
+def test_a_rate_that_contradicts_the_stamps_is_noted() -> None:
+    data = pd.DataFrame({"force_N": FORCE, "position_mm": PLACE}, index=STAMPS)
+    made = Recording.from_pandas(data, rate=1000.0, **WHICH)
+    assert "the rate that is given is 1000 Hz, and 'index' has 100 Hz: one of them is wrong" in made.notes
+
+
+def test_columns_of_one_name() -> None:
+    data = pd.DataFrame(np.column_stack([T, FORCE, PLACE, PLACE]), columns=["time_s", "force_N", "p", "p"])
+    with pytest.raises(DataError, match="frame has several columns named 'p': rename all but one"):
+        Recording.from_pandas(data, inputs={"force": "force_N"}, sensors={"position": "p"}, units={"p": "mm"})

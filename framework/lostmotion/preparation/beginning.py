@@ -250,7 +250,7 @@ def _format_channels(outline: Outline, factors: Mapping[str, float]) -> Iterator
     drive, response = outline.drive, outline.response
     if outline.time is None:
         yield f"rate = {1.0 / outline.dt:.9g}  # Hz"
-    elif outline.time_unit == "s":
+    elif outline.time_unit == "s" and not np.array_equal(outline.clock.time, np.rint(outline.clock.time)):
         yield f"time = {_quote(outline.time)}"
     else:
         yield f"time = {{ column = {_quote(outline.time)}, unit = {_quote(outline.time_unit)} }}"

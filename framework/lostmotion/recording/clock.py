@@ -72,12 +72,11 @@ def find_time(
         if not 0.0 < rate < np.inf:
             raise DataError(f"the rate is {rate:g} Hz: give a positive number")
         clock = EvenClock(check_step(1.0 / rate, source), False, (), 0.0)
-        return FoundTime(None, "s", np.empty(0), clock, "as given", note_repeated_rows(table))
+        notes = (*note_repeated_rows(table), *note_other_rate(table, source, rate))
+        return FoundTime(None, "s", np.empty(0), clock, "as given", notes)
     if column is not None:
         unit = (units or {}).get(column)
         time, found, notes = read_time(table, column, unit, source)
-        if not (unit or column in table.starts or notes) and not time_unit(column, table.units.get(column), None)[0]:
-            _refuse_whole(time, column, source)
         clock = checked_clock(time, source, table, column, unit)
         return FoundTime(column, found, time, clock, "as given", (*notes, *clock.notes))
     return _choose_time(table, source, units or {})
@@ -96,12 +95,12 @@ def read_time(table: Table, column: str, unit: str | None, source: str) -> tuple
         return values, "s", (note,) if odd else ()
     stated, notes = time_unit(column, table.units.get(column), unit)
     if not stated:
-        stated, says = _unit_by_size(values)
+        stated, says = unit_by_size(values)
         notes = (f"the numbers of {column!r} are {says} by their size",) if stated else ()
     return seconds(values, stated or "s", source), stated or "s", notes
 
 
-def _unit_by_size(values: Array) -> tuple[str, str]:
+def unit_by_size(values: Array) -> tuple[str, str]:
     """Return the unit of dates that are numbers, and what they are; two empty texts for other numbers."""
     seen = values[np.isfinite(values)]
     size = float(np.median(seen)) if seen.size else 0.0
@@ -130,12 +129,15 @@ def checked_clock(
 ) -> EvenClock:
     """Return the even grid of a time column (n,) in s, of which `first` samples were cut off at its beginning.
 
-    A time without a stated unit is refused where its rate makes no sense in seconds.
+    A time without a stated unit is refused where it consists of whole numbers, or its rate makes no sense in seconds.
     """
+    stated = unit or column in table.starts or time_unit(column, table.units.get(column), None)[0]
+    stated = stated or unit_by_size(table.columns[column])[0]
+    if not stated:
+        _refuse_whole(time, column, source)
     clock = even_clock(time, source, table.line + first if table.line else 0)
     rate = 1.0 / clock.dt
-    stated = unit or column in table.starts or time_unit(column, table.units.get(column), None)[0]
-    if SLOWEST <= rate <= FASTEST or stated or _unit_by_size(table.columns[column])[0]:
+    if SLOWEST <= rate <= FASTEST or stated:
         return clock
     raise DataError(
         f"{source}: no unit is stated for the time column {column!r}, and in s the rate is {rate:.3g} Hz, which few"
@@ -223,6 +225,19 @@ def _grows_evenly(values: Array) -> bool:
 def _counts(name: str, values: Array) -> bool:
     """Return whether a column counts rows or pulses: by its name, or because it holds whole numbers."""
     return COUNTER.match(name) is not None or bool(np.all(values == np.rint(values)))
+
+
+def note_other_rate(table: Table, source: str, rate: float) -> tuple[str, ...]:
+    """Return a note on a time in the table that has another rate (Hz) than the one that is given."""
+    try:
+        found = _choose_time(table, source, {})
+    except DataError:
+        return ()
+    other = 1.0 / found.clock.dt
+    if found.guessed or abs(other / rate - 1.0) <= SAME:
+        return ()
+    says = f"the rate that is given is {rate:.6g} Hz, and {found.column!r} has {other:.6g} Hz: one of them is wrong"
+    return (says,)
 
 
 def note_repeated_rows(table: Table) -> tuple[str, ...]:

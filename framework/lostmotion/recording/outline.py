@@ -20,7 +20,7 @@ from lostmotion.recording.clock import FoundTime, find_time
 from lostmotion.recording.counts import centre_position, holds_counts, sum_changes
 from lostmotion.recording.formats import read_table
 from lostmotion.recording.table import Table
-from lostmotion.recording.units import kinds_of, name_and_unit
+from lostmotion.recording.units import check_name, kinds_of, name_and_unit
 from lostmotion.recording.words import KINDS, kind_named
 
 Array = NDArray[np.float64]
@@ -123,6 +123,9 @@ def outline_table(path: Path, roles: GivenRoles) -> Outline:
         if table.columns[n].size == samples
     )
     drive, response = _find_roles(columns, roles, source, table.unread)
+    for column in filter(None, (drive, response)):
+        if column.name not in units:
+            check_name(column.name, column.unit)
     if drive is None and roles.drive != "none":
         _refuse_unread_drive(table)
     return Outline(source, time, found.unit, found.clock.dt, samples, columns, drive, response, found, table.unread)

@@ -194,6 +194,25 @@ def kinds_of(unit: str) -> tuple[str, ...]:
     return tuple(kind for kind in KINDS if unit and _measures(unit, kind))
 
 
+def contradict(one: str, other: str) -> bool:
+    """Return whether two units cannot both be those of one column; an empty text is no unit."""
+    if not one or not other or one == other:
+        return False
+    if one in TIME_UNITS or other in TIME_UNITS:
+        return TIME_UNITS.get(one) != TIME_UNITS.get(other)
+    kinds = set(kinds_of(one)), set(kinds_of(other))
+    if kinds[0] != kinds[1]:
+        return bool(kinds[0] and kinds[1])
+    return any(abs(si_factor(one, kind)[0] / si_factor(other, kind)[0] - 1.0) > 1e-6 for kind in kinds[0])
+
+
+def check_name(name: str, unit: str) -> None:
+    """Raise `DataError` for a column whose name states another unit than the line or the attribute beside it."""
+    named = spell_unit(name_and_unit(name)[1])
+    if contradict(spell_unit(unit), named):
+        raise DataError(f"the unit of {name!r} is {named} by its name and {unit} beside it: give the true one of them")
+
+
 def _measures(unit: str, kind: str) -> bool:
     try:
         si_factor(unit, kind)
