@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from lostmotion.errors import DataError
 from lostmotion.recording.table import Table
 from lostmotion.recording.timing import EvenClock, check_step, even_clock, name_sample
-from lostmotion.recording.units import TIME_UNITS, seconds, time_unit
+from lostmotion.recording.units import TIME_UNITS, is_unit, seconds, time_unit
 from lostmotion.recording.words import COUNTER, names_other, names_time
 
 Array = NDArray[np.float64]
@@ -177,6 +177,8 @@ def _list_candidates(table: Table, units: Mapping[str, str]) -> list[tuple[int, 
             found.append((1, name, "its name and its unit are those of time"))
         elif unit in TIME_UNITS and not COUNTER.match(name):
             found.append((2, name, "its unit is one of time"))
+        elif names_time(name) and unit and not is_unit(unit):
+            found.append((GUESSED, name, f"its name is one of time; its unit {unit!r} is none that is known, so s"))
         elif names_time(name) and not unit:
             found.append((GUESSED, name, "its name is one of time; no unit is stated, so s"))
     return found

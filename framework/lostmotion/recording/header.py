@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import csv
 import re
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -112,7 +113,7 @@ def _read_increments(rows: list[Line]) -> Header | None:
     """Return the header of a scope of Rigol, whose first row has start and increment of the time beside the names."""
     if len(rows) < 3:
         return None
-    names, below = ([cell.strip() for cell in cells_of(line, ",")] for _, line in rows[:2])
+    names, below = ([cell.strip() for cell in cells_of(line.rstrip(", \r\n"), ",")] for _, line in rows[:2])
     lower = [name.lower() for name in names]
     if not {"start", "increment"} <= set(lower) or len(below) < len(lower) or lower[0] not in ("x", "time", "sequence"):
         return None
@@ -165,11 +166,12 @@ def _with_units_above(header: Header, above: list[Line]) -> Header:
     units = dict(header.units)
     for cells in (cells_of(strip_comment(line), header.separator) for _, line in above):
         key, stated = cells[0].strip().lower() if cells else "", [cell.strip() for cell in cells[1:]]
-        columns = {"horizontal units": header.names[:1], "vertical units": header.names[1:]}.get(key.rstrip(":"), [])
+        names = number_names(header.names)
+        columns = {"horizontal units": names[:1], "vertical units": names[1:]}.get(key.rstrip(":"), [])
         units = {name: unit for name, unit in zip(columns, stated, strict=False) if is_unit(unit)} | units
         line = unit_line(cells) if len(cells) == len(header.names) > 1 else None
         if line and all(not unit or is_unit(unit) for unit in line):
-            units = {name: unit for name, unit in zip(header.names, line, strict=True) if name and unit} | units
+            units = {name: unit for name, unit in zip(names, line, strict=True) if name and unit} | units
     return replace(header, units=units)
 
 
@@ -185,6 +187,8 @@ def _try_header(line: str, below: str, rows: list[Line], whole: bool) -> Header 
     units = unit_line(cells_of(below, separator)) if len(cells_of(below, separator)) >= len(names) - 1 else None
     if units is not None and not any(_is_number(cell) for cell in cells_of(below, separator)):
         rows = rows[1:]
+        if len(rows) > 1 and not any(is_value(cell) for cell in cells_of(rows[0][1], separator) if cell.strip()):
+            rows = rows[1:]  # a line of words below the units, as of Campbell
     else:
         units = None
     shape = _find_shape(rows, separator, names) if whole else _find_short_shape(rows, separator, names)
@@ -268,9 +272,20 @@ def _has_date(cell: str) -> bool:
 
 
 def _collect_units(names: list[str], line: Sequence[str]) -> dict[str, str]:
-    beside = {name: split_name(name)[1] for name in names}
-    below = dict(zip(names, line, strict=False))
-    return {name: below.get(name) or beside[name] for name in names if name and (below.get(name) or beside[name])}
+    below = [*line, *[""] * len(names)]
+    found = zip(number_names(names), names, below, strict=False)
+    return {key: unit for key, name, own in found if name and (unit := own or split_name(name)[1])}
+
+
+def number_names(names: Sequence[str]) -> list[str]:
+    """Return the names of columns, with a number behind each name that stands there more than once."""
+    count: Counter[str] = Counter()
+    twice = {name for name, times in Counter(names).items() if name and times > 1}
+    found = []
+    for name in names:
+        count[name] += 1
+        found.append(f"{name} {count[name]}" if name in twice else name)
+    return found
 
 
 def _read_comment(file: str, notes: list[Line], rows: list[Line]) -> Header:

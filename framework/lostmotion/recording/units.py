@@ -34,6 +34,7 @@ _PLAIN = {
     "days", "U", "Umdr", "r", "rps", "dps", "gee", "Nmm", "Ncm", "mils",
     "Grad", "Newton", "Newtons", "Millimeter", "Millimeters", "Millimetre", "Millimetres", "Meter", "Meters", "Sekunde",
     "Sekunden", "Second", "Seconds", "Volt", "Volts", "Amp", "Amps", "Ampere", "Degrees", "Degree", "Radians", "RPM",
+    "Sec", "SEC", "Secs",
 }  # fmt: skip
 _ATOMS = (
     _PLAIN
@@ -77,7 +78,7 @@ EMPTY = {"", "-", "--", "1"}
 PER_SECOND = {"s": 1.0, "ms": 1e3, "us": 1e6, "ns": 1e9}
 SECONDS = {"min": 60.0, "h": 3600.0, "d": 86400.0}
 _ALIASES = {
-    "s": ("s", "sec", "secs", "second", "seconds", "Second", "Seconds"),
+    "s": ("s", "sec", "secs", "second", "seconds", "Second", "Seconds", "Sec", "SEC", "Secs"),
     "ms": ("ms", "msec", "millisecond", "milliseconds", "millis"),
     "us": ("us", "µs", "μs", "usec", "microsecond", "microseconds", "micros"),
     "ns": ("ns", "nsec", "nanosecond", "nanoseconds"),
