@@ -403,7 +403,7 @@ def test_names_and_units_in_several_lines(tmp_path: Path, head: str, names: tupl
 def test_a_control_character_is_named_with_its_line(tmp_path: Path) -> None:
     rows = [*ROWS[:10], "0.1\x037,1.2", *ROWS[11:]]
     (tmp_path / "run.csv").write_text("\n".join(["time,force,pos", *rows]))
-    with pytest.raises(DataError, match="run.csv, line 12: there is the control character .*remove the line"):
+    with pytest.raises(DataError, match=r"run\.csv, line 12: there is the control character .*remove the line"):
         read_table(tmp_path / "run.csv")
 
 
