@@ -105,8 +105,8 @@ def _refuse_clock_noise(observation: Observation) -> None:
         if wrong and quantity_of(sensor.channel) == "acceleration":
             raise CaseError(
                 f"{observation.name}: the sensor {sensor.label!r} measures an acceleration, and the noise {wrong!r}"
-                " needs the speed of its channel, which jumps with dry friction: use it for a position or a velocity, and"
-                " 'white' or 'ar1' here"
+                " needs the speed of its channel, which jumps with dry friction: use it for a position or a velocity,"
+                " and 'white' or 'ar1' here"
             )
 
 
