@@ -150,3 +150,29 @@ def test_cells_of_spreadsheets(tmp_path: Path, cell: str, number: float) -> None
 def test_bars_separate_cells(tmp_path: Path) -> None:
     found = outline_table(write(tmp_path, "Time [s] | Force [N] | Pos [mm]", " | "), GivenRoles())
     assert (found.dt, found.response.unit) == (pytest.approx(0.01), "mm")
+
+
+@pytest.mark.parametrize("name", ["encoder", "left_ticks", "delta_counts", "adc", "enc_cnt"])
+def test_counts_of_unknown_size_are_asked_about(tmp_path: Path, name: str) -> None:
+    path = write(tmp_path, f"Time [s],Force [N],{name}", place=[f"{7.0 * x:.0f}" for x in PLACE])
+    with pytest.raises(DataError, match=f"{name!r} holds counts, whose size is unknown"):
+        outline_table(path, GivenRoles())
+
+
+@pytest.mark.parametrize(("bits", "noted"), [(16, True), (17, False)])
+def test_a_counter_that_overflows_is_noted(tmp_path: Path, bits: int, noted: bool) -> None:
+    counts = [f"{int(9000.0 * x) % 2**bits}" for x in PLACE]
+    read = Recording.read(
+        write(tmp_path, "Time [s],Force [N],Pos [um]", place=counts),
+        inputs={"force": "Force"}, sensors={"position": "Pos"},
+    )  # fmt: skip
+    assert any("a counter of 16 bits that overflows?" in note for note in read.notes) == noted
+
+
+def test_a_square_wave_of_whole_numbers_overflows_not(tmp_path: Path) -> None:
+    square = [f"{200 * (x > 0)}" for x in PLACE]
+    read = Recording.read(
+        write(tmp_path, "Time [s],Force [N],Pos [um]", place=square), inputs={"force": "Force"},
+        sensors={"position": "Pos"},
+    )  # fmt: skip
+    assert not any("overflows" in note for note in read.notes)
