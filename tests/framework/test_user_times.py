@@ -101,6 +101,12 @@ def test_a_time_that_is_a_guess_stands_in_the_answer(tmp_path: Path) -> None:
     assert "column 1 is the time in s, since it alone grows evenly" in draft.text
 
 
+def test_stamps_that_all_repeat_are_said(tmp_path: Path) -> None:
+    path = write(tmp_path, "time [s]", lambda k, s: f"{k // 2 / 50:.2f}")
+    with pytest.raises(DataError, match=r"150 of 300 stamps repeat the one before \(the first is sample 1, line 3\)"):
+        outline_table(path, GivenRoles())
+
+
 def test_the_names_of_rows_have_no_name_themselves(tmp_path: Path) -> None:
     rows = [f'"{k + 1}" {k / 100:.2f} {4 * np.sin(0.07 * k):.4f} {np.cos(0.07 * k):.4f}' for k in range(N)]
     (tmp_path / "run.txt").write_text('"time" "force" "pos"\n' + "\n".join(rows) + "\n")  # write.table of R

@@ -40,11 +40,6 @@ def read_table(path: Path) -> Table:
     return read_in_subprocess(path)
 
 
-def columns_of(path: Path) -> dict[str, Array]:
-    """Return the numeric columns of a file by name, each (n,), read in this process."""
-    return dict(table_of(path).columns)
-
-
 def table_of(path: Path) -> Table:
     """Return the numeric columns of a file by name, each (n,), with units where the file gives them.
 

@@ -75,13 +75,6 @@ def read_number(cell: str, mark: Mark = "point") -> float | None:
     return float(word) if word.lower().lstrip("+-") in ("inf", "infinity") else None
 
 
-def parse_float(cell: str) -> float:
-    """Return the number of a plain cell; raise `ValueError` for any other, such as 1_000, which Python would accept."""
-    if "_" in cell:
-        raise ValueError(cell)
-    return float(cell)
-
-
 @dataclass
 class NumberColumn:
     """One column while it is read: its values in both ways of reading, and cells that decide between them.
