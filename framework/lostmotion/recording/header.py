@@ -10,7 +10,7 @@ from __future__ import annotations
 import csv
 import re
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -49,8 +49,8 @@ class Header:
     units: dict[str, str]
     separator: str | None
     first: int
-    trailing: bool
-    stamped: frozenset[str]
+    trailing: bool = False
+    stamped: frozenset[str] = frozenset()
     dated: int = -1
     grid: tuple[str, float, float] | None = None
 
@@ -77,6 +77,11 @@ def find_header(file: str, lines: list[str]) -> Header:
     return _with_units_above(header, [line for line in enumerate(lines) if line[0] < header.first - 1])
 
 
+def _keep_units(stated: Mapping[str, str]) -> dict[str, str]:
+    """Return the units of the columns that have a name and a unit."""
+    return {name: unit for name, unit in stated.items() if name and is_unit(unit)}
+
+
 def _read_beside(rows: list[Line]) -> Header | None:
     """Return the header of a table of Tektronix, whose settings stand in the first rows, beside time and readings."""
     cells = [cells_of(line, ",") for _, line in rows[:LAST]]
@@ -92,8 +97,7 @@ def _read_beside(rows: list[Line]) -> Header | None:
         name = own.get("source") or f"reading {blocks.index(begin) + 1}"
         names[begin + 3 : begin + 5] = ["" if begin else "time", name]
         units[name] = own.get("vertical units", "")
-    kept = {key: unit for key, unit in units.items() if is_unit(unit)}
-    return Header(names, kept, ",", rows[0][0] + 1, trailing=False, stamped=frozenset())
+    return Header(names, _keep_units(units), ",", rows[0][0] + 1)
 
 
 def _read_waveform(rows: list[Line]) -> Header | None:
@@ -105,8 +109,7 @@ def _read_waveform(rows: list[Line]) -> Header | None:
     stated = {cells[0].strip(" :").lower(): cells[1].strip() for cells in split[:end] if len(cells) > 1}
     names = ["time", "reading", *(f"reading {k}" for k in range(2, len(split[end + 1])))][: len(split[end + 1])]
     units = {"time": stated.get("x units", ""), **dict.fromkeys(names[1:], stated.get("y units", ""))}
-    kept = {name: unit for name, unit in units.items() if is_unit(unit)}
-    return Header(names, kept, ",", rows[end + 1][0] + 1, trailing=False, stamped=frozenset())
+    return Header(names, _keep_units(units), ",", rows[end + 1][0] + 1)
 
 
 def _read_increments(rows: list[Line]) -> Header | None:
@@ -126,12 +129,9 @@ def _read_increments(rows: list[Line]) -> Header | None:
     ]
     del kept[1]
     spelt = [unit.title() if unit in ("VOLT", "AMP") else unit for unit in below]
-    units = {name: unit for name, unit in zip(kept[1:], spelt[1:], strict=False) if name and is_unit(unit)}
+    units = _keep_units({"time": "s"} | dict(zip(kept[1:], spelt[1:], strict=False)))
     columns = len(kept) - (not kept[-1])
-    return Header(
-        kept[:columns], {"time": "s", **units}, ",", rows[2][0] + 1, trailing=columns < len(kept),
-        stamped=frozenset(), grid=("time", start, step),
-    )  # fmt: skip
+    return Header(kept[:columns], units, ",", rows[2][0] + 1, trailing=columns < len(kept), grid=("time", start, step))
 
 
 def _no_numbers(file: str) -> DataError:
@@ -168,7 +168,7 @@ def _with_units_above(header: Header, above: list[Line]) -> Header:
         key, stated = cells[0].strip().lower() if cells else "", [cell.strip() for cell in cells[1:]]
         names = number_names(header.names)
         columns = {"horizontal units": names[:1], "vertical units": names[1:]}.get(key.rstrip(":"), [])
-        units = {name: unit for name, unit in zip(columns, stated, strict=False) if is_unit(unit)} | units
+        units = _keep_units(dict(zip(columns, stated, strict=False))) | units
         line = unit_line(cells) if len(cells) == len(header.names) > 1 else None
         if line and all(not unit or is_unit(unit) for unit in line):
             units = {name: unit for name, unit in zip(names, line, strict=True) if name and unit} | units
