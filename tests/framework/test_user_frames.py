@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from datetime import UTC, datetime, timedelta
+from pathlib import Path
 from typing import Any
 
+import h5py
 import numpy as np
 import pandas as pd
 import pytest
@@ -212,3 +214,55 @@ def test_columns_of_one_name() -> None:
     data = pd.DataFrame(np.column_stack([T, FORCE, PLACE, PLACE]), columns=["time_s", "force_N", "p", "p"])
     with pytest.raises(DataError, match="frame has several columns named 'p': rename all but one"):
         Recording.from_pandas(data, inputs={"force": "force_N"}, sensors={"position": "p"}, units={"p": "mm"})
+
+
+TABLE = np.rec.fromarrays([T, FORCE, PLACE], names=["time", "force_N", "position_mm"])
+
+
+@pytest.mark.parametrize(
+    ("values", "attributes"),
+    [
+        (PLACE, {"Unit": "mm"}), (PLACE, {"units": np.array([b"mm"])}), (1e-3 * PLACE, {"UNITS": "m"}),
+        (np.where(np.arange(N) % 50 == 7, -9999.0, PLACE), {"units": "mm", "_FillValue": -9999.0}),
+        (np.rint(1e4 * PLACE).astype(np.int32), {"units": "mm", "scale_factor": 1e-4}),
+        (np.rint(1e4 * PLACE).astype(np.int32) + 5, {"units": "mm", "scale_factor": 1e-4, "add_offset": -5e-4}),
+    ],
+)  # fmt: skip
+def test_attributes_of_hdf5_say_unit_fill_value_and_packing(
+    tmp_path: Path, values: np.ndarray, attributes: dict[str, Any]
+) -> None:
+    with h5py.File(tmp_path / "run.h5", "w") as file:
+        file["time"], file["force_N"] = T, FORCE
+        file["position"] = values
+        file["position"].attrs.update(attributes)
+    which = {"inputs": {"force": "force_N"}, "sensors": {"position": "position"}}
+    made = Recording.read(tmp_path / "run.h5", **which)
+    lost = np.arange(N) % 50 == 7 if "_FillValue" in attributes else np.zeros(N, dtype=bool)
+    np.testing.assert_allclose(made.sensors[0], np.where(lost, np.nan, 1e-3 * PLACE), atol=1e-7)
+
+
+@pytest.mark.parametrize("ending", ["npz", "h5"])
+def test_a_table_in_one_array(tmp_path: Path, ending: str) -> None:
+    if ending == "npz":
+        np.savez(tmp_path / "run.npz", table=TABLE)
+    else:
+        with h5py.File(tmp_path / "run.h5", "w") as file:
+            file["table"] = TABLE
+    which = {"inputs": {"force": "table.force_N"}, "sensors": {"position": "table.position_mm"}}
+    check(Recording.read(tmp_path / f"run.{ending}", **which), lost=False)
+
+
+def test_dates_in_an_archive_of_arrays(tmp_path: Path) -> None:
+    dates = np.datetime64("2025-03-04T09:00:00") + (10 * np.arange(N)).astype("m8[ms]")
+    np.savez(tmp_path / "run.npz", t=dates, force_N=FORCE, position_mm=PLACE, odd=1j * FORCE)
+    check(Recording.read(tmp_path / "run.npz", **WHICH), lost=False)
+    with pytest.raises(DataError, match="'odd' holds complex128 instead of numbers"):
+        Recording.read(tmp_path / "run.npz", inputs={"force": "odd"}, sensors={"position": "position_mm"})
+
+
+def test_a_matrix_of_which_one_column_is_the_time(tmp_path: Path) -> None:
+    np.savez(tmp_path / "run.npz", X=np.column_stack([T, FORCE, PLACE]))
+    made = Recording.read(
+        tmp_path / "run.npz", inputs={"force": "X[1]"}, sensors={"position": "X[2]"}, units={"X[1]": "N", "X[2]": "mm"}
+    )
+    assert made.notes[0].startswith("time in the column 'X[0]' (s): it alone grows evenly")

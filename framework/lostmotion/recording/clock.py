@@ -29,6 +29,8 @@ _EPOCHS = ((1e17, "ns"), (1e14, "us"), (1e11, "ms"))
 """Numbers above these sizes are this unit since 1970."""
 _DAYS = ((25_000.0, 80_000.0, "Excel"), (719_000.0, 780_000.0, "MATLAB"))
 """Numbers of days in these ranges are dates from about 1970 to 2100 in these programs."""
+ROUNDING = 1e-12
+"""The error of whole numbers that were computed, as a share of the largest one."""
 _DAILY = 1e-5
 """Numbers in these ranges are days where they grow by less than this, so that the rate in s would be above 100 kHz."""
 
@@ -114,7 +116,9 @@ def unit_by_size(values: Array) -> tuple[str, str]:
 
 def _refuse_whole(time: Array, column: str, source: str) -> None:
     """Raise `DataError` for whole numbers without a unit: they may be ms, or count rows."""
-    if time.size < 2 or not np.all(np.isfinite(time)) or not np.array_equal(time, np.rint(time)) or time[1] == time[0]:
+    if time.size < 2 or not np.all(np.isfinite(time)) or time[1] == time[0]:
+        return
+    if np.abs(time - np.rint(time)).max() > ROUNDING * max(1.0, float(np.abs(time).max())):
         return
     shown = ", ".join(f"{value:.0f}" for value in time[:3])
     raise DataError(
@@ -201,7 +205,8 @@ def _choose_by_growth(table: Table, source: str, units: Mapping[str, str]) -> Fo
     counters: list[str] = []
     for name in table.full_names:
         values = table.columns[name]
-        if table.units.get(name) or names_other(name) or not _grows_evenly(values):
+        named = names_other(name) and not name.endswith("]")  # `X[0]` is a column of a matrix
+        if table.units.get(name) or named or not _grows_evenly(values):
             continue
         (counters if _counts(name, values) else growing).append(name)
     listed = ", ".join((*table.full_names, *table.refused))
