@@ -33,6 +33,8 @@ from lostmotion.errors import LostMotionError
 SECONDS, MEMORY, SENTENCE = 10, 2 * 2**30, 20_000
 HANGS, DIED = "hangs outside of Python", "killed its process"
 FOREIGN = ("mat5", "mat73", "nc", "nc3", "h5", "uff", "chain", "map", *READ)
+HUNG = 180
+"""Seconds of silence after which a process hangs outside of Python: longer than on a busy computer."""
 CHUNK = 250
 """Inputs that one process takes before its memory is read."""
 
@@ -118,7 +120,7 @@ def listened(ear, tally, kind, keep, seeds):
     current = None
     while True:
         try:
-            if not ear.poll(3 * SECONDS):
+            if not ear.poll(HUNG):
                 return noted(tally, kind, current, HANGS, keep, seeds)
             word, second, seconds = ear.recv()
         except EOFError:

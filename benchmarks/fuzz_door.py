@@ -22,12 +22,12 @@ import xarray as xr
 
 import lostmotion as lm
 from fuzz_seeds import CASE, COLUMNS, TIME, N
-from lostmotion.defaults import DENOISER, EMBEDDER, METER, SURROGATE
 from lostmotion.diagnosis import diagnosis_run as diagnosis_run
 from lostmotion.errors import PluginWarning
 from lostmotion.identification import identification_run as identification_run
 from lostmotion.inference.setup import make_known
 from lostmotion.likelihood.system import System
+from lostmotion_chaos.defaults import DENOISER, EMBEDDER, METER, SURROGATE
 
 EQUATION = "m*x'' + c*x' + k*x = force"
 TEXTS = [

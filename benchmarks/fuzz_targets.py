@@ -14,15 +14,16 @@ from functools import partial
 import numpy as np
 
 from fuzz_door import door
-from fuzz_seeds import CASE, COLUMNS, TABLES, N
+from fuzz_seeds import CASE, COLUMNS, READ, TABLES, N
 from lostmotion.case import Channel, RecordingSpec, dump_case, load_case
 from lostmotion.errors import LostMotionError
 from lostmotion.identification import checkpoint
 from lostmotion.inference.setup import make_known
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.prepare import prepare
-from lostmotion.recording import load, load_recording
+from lostmotion.recording import load, load_recording, outline
 from lostmotion.recording.formats import table_of
+from lostmotion.recording.outline import GivenRoles, outline_table
 from lostmotion.registry import Registry, default
 from lostmotion_chaos.analysis import source
 from lostmotion_chaos.analysis.source import WantedChannel, load_source
@@ -94,7 +95,7 @@ FuzzTrial = make_dataclass("FuzzTrial", [("number", int)], frozen=True)
 
 def unguarded():
     """Have foreign formats read in this process, where a crash or a hang is seen for what it is."""
-    load.read_table = source.read_table = table_of
+    load.read_table = source.read_table = outline.read_table = table_of
     checkpoint.walk_in_subprocess = store.walk_in_subprocess = lambda path: None
 
 
@@ -108,6 +109,8 @@ def table(kind, seeds, rng, folder, write_only):
         lambda: load_recording(RecordingSpec(name, *_rest()), folder),
         lambda: load_source(path, WantedChannel(("x",)), default()),
     )
+    if kind in READ:  # made by the tests, with columns of other names
+        attempts = (lambda: outline_table(path, GivenRoles()),)
     refused = None
     for attempt in attempts:
         try:

@@ -148,10 +148,21 @@ _WORDS = {
     "об/мин": "rpm", "Umdr./min": "rpm", "秒": "s", "ミリ秒": "ms", "マイクロ秒": "us", "分": "min", "度": "deg",
     "сек": "s", "В": "V", "А": "A", "Н*м": "N m", "Нм": "N m", "Н м": "N m", "sec": "s", "msec": "ms", "usec": "us",
     "Volt": "V", "Volts": "V", "Newton": "N", "Newtons": "N", "Amp": "A", "Amps": "A", "Sekunde": "s", "Sekunden": "s",
-    "mils": "mil", "gee": "g", "in.": "inch", "m/s/s": "m/s^2", "mm/s/s": "mm/s^2", "rad/s/s": "rad/s^2",
+    "gee": "g", "in.": "inch", "m/s/s": "m/s^2", "mm/s/s": "mm/s^2", "rad/s/s": "rad/s^2", "gon": "grad",
     "rps": "rev/s", "dps": "deg/s", "deg/sec": "deg/s", "rad/sec": "rad/s", "m/sec": "m/s", "mm/sec": "mm/s",
+    "ips": "inch/s", "mil": "thou", "mils": "thou", "microns": "micron", '"': "inch", "\u2033": "inch", "Å": "angstrom",
+    "kp": "kgf", "dyn": "dyne", "kips": "kip", "rev": "turn", "turns": "turn", "rev/s": "turn/s",
+    **dict.fromkeys(("lb ft", "lbf ft", "ft lb", "ft lbf", "ft lbs", "lbft", "ftlb"), "lbf*foot"),
+    **dict.fromkeys(("lb in", "lbf in", "in lb", "in lbf", "in lbs", "lbin", "inlb"), "lbf*inch"),
+    **dict.fromkeys(("oz in", "ozf in", "in oz", "in ozf", "ozin"), "ozf*inch"),
+    **dict.fromkeys(("kgf cm", "kg cm", "kgcm", "kgfcm"), "kgf*cm"),
+    **dict.fromkeys(("kgf m", "kgfm"), "kgf*m"), "N m": "N m",
+    "毫米": "mm", "厘米": "cm", "微米": "um", "米": "m", "牛": "N", "牛顿": "N", "千牛": "kN", "毫秒": "ms",
+    "微秒": "us", "牛米": "N m", "牛·米": "N m", "弧度": "rad", "转/分": "rpm", "ニュートン": "N", "ミリ": "mm",
 }  # fmt: skip
 _CYRILLIC = str.maketrans({"м": "m", "к": "k", "с": "s", "Н": "N", "н": "n", "г": "g"})
+_TIMES = re.compile(r"(?<=[A-Za-z])[-.*·](?=[A-Za-z])")
+"""The sign between two units that are multiplied, `lb-ft`."""
 _POWERS = re.compile(r"(?<=[a-zA-Zµ])(-?\d)(?!\w)")
 
 
@@ -162,7 +173,7 @@ def spell_unit(unit: str) -> str:
     for sign, plain in (("²", "^2"), ("³", "^3"), ("⁻¹", "^-1"), ("⋅", "*"), ("·", "*"), ("∙", "*"), ("μ", "µ")):
         text = text.replace(sign, plain)
     text = unicodedata.normalize("NFKC", text).replace("μ", "µ")
-    text = _WORDS.get(text, text)
+    text = _WORDS.get(_TIMES.sub(" ", text), _WORDS.get(text, text))
     text = text.replace("мк", "µ").translate(_CYRILLIC) if not text.isascii() and _is_cyrillic(text) else text
     text = text if text.startswith("g_0") else _POWERS.sub(r"^\1", text)
     return _WORDS.get(text, _NEWTON_METRE.sub(r"\1 \2", text))

@@ -208,3 +208,9 @@ def test_a_path_may_be_a_text_or_a_path(tmp_path: Path) -> None:
     for place in (tmp_path, str(tmp_path)):
         with pytest.raises(LostMotionError, match="contains no result"):
             lm.load(place)
+
+
+def test_a_path_of_blanks_is_named_in_one_line() -> None:
+    with pytest.raises(CaseError, match=r"^'\\n' cannot be read") as caught:
+        lm.diagnose("\n")
+    assert "\n" not in str(caught.value)

@@ -13,7 +13,7 @@ import scipy.io
 import xarray as xr
 
 from lostmotion.errors import DataError
-from lostmotion.recording.formats import columns_of, table_of
+from lostmotion.recording.formats import table_of
 
 N = 150
 TIME = np.arange(N) / 1000
@@ -108,7 +108,7 @@ WAYS: list[tuple[str, Callable[[Path], None]]] = [
 def test_round_trip(tmp_path: Path, ending: str, write: Callable[[Path], None]) -> None:
     path = tmp_path / f"run.{ending}"
     write(path)
-    columns = columns_of(path)
+    columns = table_of(path).columns
     assert {k for k in columns if not k.startswith("58[")} == {"time", "force", "x"}
     for name, column in COLUMNS.items():
         assert columns[name].dtype == np.float64
@@ -124,7 +124,7 @@ def test_a_file_cut_short_is_told_so(tmp_path: Path, write: Callable[[Path], Non
     raw = path.read_bytes()
     path.write_bytes(raw[: int(keep * len(raw))])
     with pytest.raises(DataError) as caught:
-        columns_of(path)
+        table_of(path)
     assert path.name in str(caught.value)
 
 
@@ -133,7 +133,7 @@ def test_garbage_is_told_so(tmp_path: Path, ending: str) -> None:
     path = tmp_path / f"run.{ending}"
     path.write_bytes(np.random.default_rng(1).bytes(5000))
     with pytest.raises(DataError, match=rf"run\.{ending}"):
-        columns_of(path)
+        table_of(path)
 
 
 @pytest.mark.parametrize(
@@ -148,7 +148,7 @@ def test_garbage_is_told_so(tmp_path: Path, ending: str) -> None:
         ("time,x\nlow,1\n0,1\n", ["line 2", "'time'", "'low'"]),
         ("time;x\n0,5;1.000.5\n", ["line 2", "'x'"]),
         ("time,x,x\n0,1,2\n", ["two columns named 'x'"]),
-        ("one,two\na,b\n", ["no column of numbers"]),
+        ("one,two\na,b\n", ["line 2", "'one'", "'a' is not a number"]),
     ],
 )
 def test_bad_csv(tmp_path: Path, text: str, words: list[str]) -> None:
@@ -162,39 +162,39 @@ def test_bad_csv(tmp_path: Path, text: str, words: list[str]) -> None:
 
 def test_empty_cells_are_lost_samples(tmp_path: Path) -> None:
     (tmp_path / "run.csv").write_text("time,x\n0,1\n1,\n2,NaN\n")
-    np.testing.assert_array_equal(columns_of(tmp_path / "run.csv")["x"], [1, np.nan, np.nan])
+    np.testing.assert_array_equal(table_of(tmp_path / "run.csv").columns["x"], [1, np.nan, np.nan])
 
 
 def test_object_arrays_are_refused(tmp_path: Path) -> None:
     np.savez(tmp_path / "run.npz", x=np.array([{}, {}], dtype=object))
     with pytest.raises(DataError, match="could run code"):
-        columns_of(tmp_path / "run.npz")
+        table_of(tmp_path / "run.npz")
 
 
 def test_structures_and_groups_give_dotted_names(tmp_path: Path) -> None:
     scipy.io.savemat(tmp_path / "run.mat", {"log": {"x": TIME, "deep": {"y": TIME}}})
-    assert set(columns_of(tmp_path / "run.mat")) == {"log.x", "log.deep.y"}
+    assert set(table_of(tmp_path / "run.mat").columns) == {"log.x", "log.deep.y"}
     with h5py.File(tmp_path / "run.h5", "w") as file:
         file["log/x"] = TIME
         file["log/blocks"] = np.zeros((3, N))
-    assert set(columns_of(tmp_path / "run.h5")) == {"log/x", *(f"log/blocks[{i}]" for i in range(3))}
+    assert set(table_of(tmp_path / "run.h5").columns) == {"log/x", *(f"log/blocks[{i}]" for i in range(3))}
 
 
 def test_packed_netcdf_is_unpacked(tmp_path: Path) -> None:
     dataset().to_netcdf(tmp_path / "run.nc", engine="h5netcdf", encoding={
         "x": {"dtype": "int16", "scale_factor": 1e-3, "_FillValue": -32768}})  # fmt: skip
-    np.testing.assert_allclose(columns_of(tmp_path / "run.nc")["x"], COLUMNS["x"], atol=6e-4)
+    np.testing.assert_allclose(table_of(tmp_path / "run.nc").columns["x"], COLUMNS["x"], atol=6e-4)
 
 
 def test_wrong_places(tmp_path: Path) -> None:
     (tmp_path / "dir.csv").mkdir()
     with pytest.raises(DataError, match="is a folder"):
-        columns_of(tmp_path / "dir.csv")
+        table_of(tmp_path / "dir.csv")
     with pytest.raises(DataError, match="too long"):
-        columns_of(tmp_path / ("x" * 300 + ".csv"))
+        table_of(tmp_path / ("x" * 300 + ".csv"))
     with (tmp_path / "one.npz").open("wb") as file:
         np.save(file, TIME)
     with pytest.raises(DataError, match="single array"):
-        columns_of(tmp_path / "one.npz")
+        table_of(tmp_path / "one.npz")
     with pytest.raises(DataError, match="expected one of csv"):
-        columns_of(tmp_path / "run.doc")
+        table_of(tmp_path / "run.doc")

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from lostmotion.errors import DataError
-from lostmotion.recording.timing import EvenClock, check_time, even_clock, resample_channel
+from lostmotion.recording.timing import EvenClock, even_clock, resample_channel
 
 N = 20000
 EVEN = np.arange(N)
@@ -37,12 +37,12 @@ def printed(time: np.ndarray, form: str) -> np.ndarray:
     ],
 )
 def test_an_even_grid_is_seen_through_rounding(time: np.ndarray, dt: float) -> None:
-    assert check_time(time, "a.csv")[0] == pytest.approx(dt, rel=2e-5)
+    assert even_clock(time, "a.csv").dt == pytest.approx(dt, rel=2e-5)
 
 
 def test_rounding_that_matters_is_noted() -> None:
-    assert "rounded to 0.001 s" in check_time(printed(EVEN / 1024, "%.3f"), "a.csv")[1][0]
-    assert check_time(EVEN / 1000, "a.csv")[1] == ()
+    assert "rounded to 0.001 s" in even_clock(printed(EVEN / 1024, "%.3f"), "a.csv").notes[0]
+    assert even_clock(EVEN / 1000, "a.csv").notes == ()
 
 
 def jittered(scale: float) -> np.ndarray:
@@ -69,7 +69,7 @@ def jittered(scale: float) -> np.ndarray:
 )  # fmt: skip
 def test_uneven_time_is_refused(time: np.ndarray, words: list[str]) -> None:
     with pytest.raises(DataError) as caught:
-        check_time(time, "a.csv")
+        even_clock(time, "a.csv")
     message = str(caught.value)
     assert [w for w in ["a.csv", *words] if w not in message] == [], message
 
@@ -77,7 +77,7 @@ def test_uneven_time_is_refused(time: np.ndarray, words: list[str]) -> None:
 @pytest.mark.parametrize("step", [1e-300, 1e-15, 1e9, 1e300])
 def test_a_step_that_no_recorder_has_is_refused(step: float) -> None:
     with pytest.raises(DataError, match="sampling step comes to"):
-        check_time(step * np.arange(200.0), "run.csv")
+        even_clock(step * np.arange(200.0), "run.csv")
 
 
 def late(share: float, seed: int = 0, rate: float = 1000.0) -> np.ndarray:

@@ -374,3 +374,43 @@ def test_a_column_that_nobody_asked_for_refuses_no_file(tmp_path: Path, odd: str
     for cells in ([odd] * N, [odd if k % 9 else "7" for k in range(N)]):
         table = write(tmp_path, "time;force;odd\n" + join(";", point(T), point(FORCE), cells))
         check(table, "force")
+
+
+ROWS = [f"{t:.4f},{np.sin(7 * t):.5f},{np.cos(7 * t):.5f}" for t in np.arange(300) / 100.0]
+
+
+@pytest.mark.parametrize(
+    ("head", "names"),
+    [
+        ('"TOA5","CR1000","12345"\n"TIMESTAMP","Force","Pos"\n"s","N","mm"\n"","Smp","Smp"', ("Force", "Pos")),
+        ("Zeit,Kraft,Weg\n[s],[N],[mm]\nKanal 1,Kanal 2,Kanal 3", ("Kraft", "Weg")),
+        ("Kanal 1,Kanal 2,Kanal 3\nZeit,Kraft,Weg\n[s],[N],[mm]", ("Kraft", "Weg")),
+        ("Vertical Units,N,mm\nHorizontal Units,s,\nSource,CH1,CH2\nSecond,Value,Value", ("Value 1", "Value 2")),
+        ("Time,Value,Value\ns,N,mm", ("Value 1", "Value 2")),
+        ("Sekunden,하중(N),변위(mm)", ("하중(N)", "변위(mm)")),
+    ],
+)  # fmt: skip
+@pytest.mark.parametrize("encoding", ["utf-8", "cp949", "utf-16-le"])
+def test_names_and_units_in_several_lines(tmp_path: Path, head: str, names: tuple[str, str], encoding: str) -> None:
+    if not head.isascii() or encoding != "cp949":
+        (tmp_path / "run.csv").write_bytes("\n".join([head, *ROWS, ""]).encode(encoding))
+        found = outline_table(tmp_path / "run.csv", GivenRoles())
+        assert found.drive is not None
+        assert (found.drive.name, found.response.name) == names
+        assert (found.drive.unit, found.response.unit, found.dt) == ("N", "mm", pytest.approx(0.01))
+
+
+def test_a_control_character_is_named_with_its_line(tmp_path: Path) -> None:
+    rows = [*ROWS[:10], "0.1\x037,1.2", *ROWS[11:]]
+    (tmp_path / "run.csv").write_text("\n".join(["time,force,pos", *rows]))
+    with pytest.raises(DataError, match=r"run\.csv, line 12: there is the control character .*remove the line"):
+        read_table(tmp_path / "run.csv")
+
+
+def test_a_rigol_with_a_separator_behind_its_names(tmp_path: Path) -> None:
+    rows = [f"{k},{np.sin(0.07 * k):.5f},{np.cos(0.07 * k):.5f},," for k in range(300)]
+    head = "X,CH1,CH2,Start,Increment,\nSequence,VOLT,VOLT,-1.0,1.0e-02"
+    (tmp_path / "run.csv").write_text("\n".join([head, *rows, ""]))
+    table = read_table(tmp_path / "run.csv")
+    assert table.columns["time"][:2].tolist() == [-1.0, -0.99]
+    assert table.units["CH1"] == "V"

@@ -24,7 +24,7 @@ from lostmotion.cli import main
 from lostmotion.errors import LostMotionError
 from lostmotion.quantities import si_factor
 from lostmotion.recording import ENDINGS, Channel, RecordingSpec, load_recording, read_columns
-from lostmotion.recording.formats import columns_of
+from lostmotion.recording.formats import table_of
 
 SOME = settings(max_examples=30, deadline=10_000, suppress_health_check=list(HealthCheck), derandomize=True)
 CELLS = st.sampled_from(
@@ -66,7 +66,7 @@ def test_any_bytes_are_a_recording_or_refused(
 ) -> None:
     path = tmp_path_factory.mktemp("raw") / f"run.{ending}"
     path.write_bytes(raw)
-    refused(lambda: columns_of(path))
+    refused(lambda: table_of(path))
 
 
 @SOME
@@ -76,7 +76,7 @@ def test_any_table_is_a_recording_or_refused(
 ) -> None:
     path = tmp_path_factory.mktemp("table") / "run.csv"
     path.write_text("\n".join(separator.join(row) for row in rows), encoding="utf-8")
-    refused(lambda: columns_of(path))
+    refused(lambda: table_of(path))
 
 
 @SOME

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+import lostmotion as lm
 from lostmotion.errors import LostMotionError
 from lostmotion.inference.fit import maximise
 from lostmotion.inference.setup import make_problem
@@ -166,3 +167,28 @@ def test_drawn_noise_has_the_covariance_of_its_block():
     drawn = block.draw(np.full(200_000, 3.0), np.random.default_rng(8))
     assert drawn.var() == pytest.approx(0.25 + 0.36, rel=0.03)
     assert np.mean(drawn[12:] * drawn[:-12]) == pytest.approx(0.25 / math.e, rel=0.06)
+
+
+@pytest.mark.parametrize("noise", ["jitter", "white + jitter"])
+def test_jitter_of_an_accelerometer_is_refused(tmp_path, noise):
+    """The speed of an acceleration jumps with dry friction; a velocity may jitter."""
+    np.savetxt(tmp_path / "run.csv", np.c_[T, np.cos(OMEGA * T), X], delimiter=",", header="t,F,x", comments="")
+    text = OWN_CASE.replace('plugins = ["echo.py"]', "").replace("NAME", noise)
+    (tmp_path / "case.toml").write_text(text.replace('"position"', '"acceleration"').replace('"m"', '"m/s^2"'))
+    with pytest.raises(LostMotionError, match="'acceleration' measures an acceleration, and the noise 'jitter' needs"):
+        prepare(tmp_path / "case.toml", Registry.discover())
+    (tmp_path / "case.toml").write_text(text.replace('"position"', '"velocity"').replace('"m"', '"m/s"'))
+    (sensor,) = prepare(tmp_path / "case.toml", Registry.discover()).observations[0].sensors
+    assert [one.name for one in sensor.noises][-1] == "jitter"
+
+
+def test_jitter_of_an_accelerometer_is_refused_in_a_notebook():
+    recording = lm.Recording.from_arrays(
+        T, inputs={"force": np.cos(OMEGA * T)}, sensors={"acceleration": X},
+        units={"force": "N", "acceleration": "m/s^2"}, noise={"acceleration": "jitter"},
+    )  # fmt: skip
+    case = lm.Case(
+        recording, "m*x'' + c*x' + k*x = force", known={"m": 1.0, "c": 0.2}, estimate={"k": lm.LogUniform(5, 99)}
+    )
+    with pytest.raises(LostMotionError, match="measures an acceleration, and the noise 'jitter' needs"):
+        case.prepare(Registry.discover())

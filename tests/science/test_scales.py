@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 
 import lostmotion as lm
-from lostmotion.diagnosis.diagnosis_run import run_diagnosis
+from lostmotion.diagnosis.diagnosis_run import explains_scale, run_diagnosis
 from lostmotion.diagnosis.scales import describe_wrong_scale
 from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
 from lostmotion.likelihood.system import System
@@ -110,3 +111,16 @@ def test_what_is_missing_in_a_machine_is_no_wrong_scale(term: str | None, seed: 
     """15 machines, 12 of which lack a force of the size of the drive: no false alarm; the rate is below 18 % (95 %)."""
     more: dict[str, Any] = {"seed": seed} | ({"terms": term} if term else {})
     assert describe(machine("linear_oscillator", {}, {"force": "N", "position": "m"}, **more)) == ()
+
+
+@pytest.mark.parametrize(
+    ("states", "share", "left", "explains"),
+    [
+        (["named"], 0.3, 0.01, True), (["named"], 0.3, 0.4, False), (["named"], 12.0, 0.01, False),
+        (["likely"], 0.3, 0.01, False), ([], 0.3, 0.01, False), (["named", "likely"], 2.6, 0.38, False),
+    ],
+)  # fmt: skip
+def test_a_law_explains_a_scale_only_where_it_explains_the_recording(states, share, left, explains):
+    """A law that leaves a third of the missing force stands for an error of the sign: 2.6 times the drive was seen."""
+    found = [SimpleNamespace(state=state, share_of_drive=share) for state in states]
+    assert explains_scale(found, left) == explains

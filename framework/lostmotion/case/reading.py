@@ -167,9 +167,10 @@ def parse_case(path: Path) -> dict[str, Any]:
 
 def _read_text(path: Path) -> str:
     """Return the text of a case file; raise `CaseError` if it is too large or is no text."""
+    shown = path.name if path.name.isprintable() else repr(path.name[:80])
     try:
         if path.exists() and not (path.is_file() or path.is_dir()):
-            raise CaseError(f"{path.name} cannot be read (it is not a regular file): give the path of a case file")
+            raise CaseError(f"{shown} cannot be read (it is not a regular file): give the path of a case file")
         if path.is_file() and path.stat().st_size > LARGEST:
             raise CaseError(
                 f"{path.name} holds {path.stat().st_size} bytes, and a case {LARGEST} at most: is it a case file?"
@@ -179,7 +180,7 @@ def _read_text(path: Path) -> str:
         if isinstance(err, UnicodeDecodeError):
             raise CaseError(f"{path.name} is not text in UTF-8: expected a case in TOML, save it as UTF-8") from err
         said = getattr(err, "strerror", None) or err
-        raise CaseError(f"{path.name} cannot be read ({said}): give the path of a case file") from err
+        raise CaseError(f"{shown} cannot be read ({said}): give the path of a case file") from err
     if any(line.count(".") > DOTS for line in text.splitlines()):  # the TOML parser is slow for keys of many parts
         raise CaseError(f"{path.name} has a line with more than {DOTS} dots: keys of a case have three parts at most")
     return text

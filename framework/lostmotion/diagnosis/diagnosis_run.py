@@ -32,6 +32,7 @@ from lostmotion.diagnosis.moving import note_rest
 from lostmotion.diagnosis.notes import write_notes
 from lostmotion.diagnosis.report.diagnosis_page import write_report
 from lostmotion.diagnosis.rivals import Proposals, describe_confusions, propose_experiments
+from lostmotion.diagnosis.scales import LEFT
 from lostmotion.diagnosis.show import measure_behaviour
 from lostmotion.diagnosis.stages import SearchResult, diagnose, explain_by
 from lostmotion.diagnosis.states import NAMED, limit_confidence, list_open_terms, sort_findings
@@ -225,9 +226,13 @@ def check_heldout(diagnosis: SearchResult, rng: np.random.Generator, say: Say = 
     return outcome
 
 
-def _explains_scale(found: Sequence[Mechanism]) -> bool:
-    """Return whether a law of usual size is named: then no scale of a column is wrong."""
-    return any(e.state == NAMED for e in found) and all((e.share_of_drive or 0.0) < ABSURD for e in found)
+def explains_scale(found: Sequence[Mechanism], left: float) -> bool:
+    """Return whether laws of usual size, one of them named, explain the recording: then no scale of a column is wrong.
+
+    `left` is the share of the missing force that they leave; a scale that is told leaves less than `LEFT` of it.
+    """
+    usual = all((e.share_of_drive or 0.0) < ABSURD for e in found)
+    return left < LEFT and usual and any(e.state == NAMED for e in found)
 
 
 def _make_result(prepared: Prepared, outcome: Outcome, seed: int, proposals: Proposals, show: Behaviour) -> Diagnosis:
@@ -243,10 +248,12 @@ def _make_result(prepared: Prepared, outcome: Outcome, seed: int, proposals: Pro
         over_time=over_time,
         by_recording=by_recording,
     )
+    after, nominal = measure_unexplained(d, after=True), measure_unexplained(d, after=False)
+    scale = () if explains_scale(found, after.rms / (nominal.rms or 1.0)) else d.scale
     return Diagnosis(
         title=case.title,
         verdict="mismatch" if found else "adequate",
-        says=(*(() if _explains_scale(found) else d.scale), *summarise(outcome, found, rest)),
+        says=(*scale, *summarise(outcome, found, rest)),
         found=found,
         open=rest,
         ranking=rank_candidates(d, found, failed=failed),
@@ -254,8 +261,8 @@ def _make_result(prepared: Prepared, outcome: Outcome, seed: int, proposals: Pro
         expected=_expect(d, outcome.angle, np.random.default_rng([seed, EXPECTED])),
         absent=absent,
         unlimited=unlimited,
-        unexplained=measure_unexplained(d, after=True),
-        unexplained_before=measure_unexplained(d, after=False),
+        unexplained=after,
+        unexplained_before=nominal,
         where=before,
         where_after=describe_dependence(d.left or d.located),
         parameters=list_parameters(outcome),

@@ -62,6 +62,12 @@ def read_values(sensor: Sensor, read: Callable[[str], Array]) -> list[Array]:
     return [np.stack(np.broadcast_arrays(*row), axis=-1) if row else np.zeros((1, 0)) for row in rows]
 
 
+def has_clock_noise(noise: Noise) -> bool:
+    """Return whether a noise is one of the stamps, whose size depends on the speed of the channel."""
+    start = tuple(math.exp(level.start) for level in list_levels(noise))
+    return noise.covariance(start, 1.0).clock > 0.0
+
+
 def compute_blocks(sensor: Sensor, values: Iterable[Array], dt: float, points: int) -> list[NoiseBlock]:
     """Return the noise of a sensor at each of some points; `values` are what `read_values` returns."""
     columns = [np.broadcast_to(array, (points, array.shape[-1])).tolist() for array in values]

@@ -250,7 +250,7 @@ def _format_channels(outline: Outline, factors: Mapping[str, float]) -> Iterator
     drive, response = outline.drive, outline.response
     if outline.time is None:
         yield f"rate = {1.0 / outline.dt:.9g}  # Hz"
-    elif outline.time_unit == "s":
+    elif outline.time_unit == "s" and not np.array_equal(outline.clock.time, np.rint(outline.clock.time)):
         yield f"time = {_quote(outline.time)}"
     else:
         yield f"time = {{ column = {_quote(outline.time)}, unit = {_quote(outline.time_unit)} }}"
@@ -343,6 +343,7 @@ def _list_findings(outline: Outline, machine: Model, factors: Mapping[str, float
     yield from (f"  {note}" for note in outline.clock.notes)
     for column in outline.columns:
         yield _describe_column(column, outline, factors.get(column.name, 1.0))
+    yield from (f"  not read: {why}" for why in outline.unread)
     if outline.drive is not None:
         period = _period(_to_centred(outline.drive, factors), outline.dt) if outline.drive.moves else None
         yield f"the drive repeats every {period:.4g} s" if period else "the drive does not repeat"

@@ -14,8 +14,9 @@ from scipy.signal import coherence
 from lostmotion.contracts import Array, Model
 from lostmotion.errors import CaseError
 from lostmotion.parts import Param
-from lostmotion.quantities import si_factor
+from lostmotion.quantities import SI, si_factor
 from lostmotion.recording.outline import Outline, OutlinedColumn
+from lostmotion.recording.units import RAW, strange_unit
 from lostmotion.recording.value_checks import fill_lost
 from lostmotion.signals.decay import decay_of
 
@@ -37,6 +38,8 @@ def check_guesses(outline: Outline, factors: Mapping[str, float], *, free: bool)
     if outline.drive is None and not free:
         _check_decay(outline)
     for column in filter(None, (outline.drive, outline.response)):
+        if column.name not in factors:
+            _check_unit(column)
         _check_size(column, factors.get(column.name))
 
 
@@ -88,6 +91,17 @@ def compute_coherent_share(pushed: Array, seen: Array) -> float:
     return float(np.sum(np.nan_to_num(shared)[bins] * power) / np.sum(power))
 
 
+def _check_unit(column: OutlinedColumn) -> None:
+    """Raise `CaseError` for a column with a unit that is unknown, or that measures no quantity of a machine."""
+    word = "" if column.sure else strange_unit(column.name) or (column.unit not in RAW and column.unit)
+    if word:
+        raise CaseError(
+            f"{column.name} has the unit {word}, which is unknown or measures no {column.kind or 'quantity'} of a"
+            f" machine: run `lostmotion init` with --unit {shlex.quote(column.name)}=UNIT, such as"
+            f" {SI[column.kind or 'force']}"
+        )
+
+
 def _check_size(column: OutlinedColumn, factor: float | None) -> None:
     """Raise `CaseError` for a column whose unit is a guess and whose values are absurd in this unit."""
     if column.sure or not column.kind:
@@ -105,6 +119,8 @@ def _check_size(column: OutlinedColumn, factor: float | None) -> None:
 
 def list_guesses(outline: Outline, machine: Model, known: Mapping[str, tuple[float, str]]) -> Iterator[str]:
     """Yield a sentence for each guess of a first case; `known` are values of parameters with their reasons."""
+    if outline.clock.guessed:
+        yield f"{outline.time} is the time in s, since it alone grows evenly"
     if outline.drive is None:
         yield f"nothing drives the machine, and {outline.response.name} is its free decay"
     for column in filter(None, (outline.drive, outline.response)):

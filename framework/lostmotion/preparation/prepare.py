@@ -10,10 +10,11 @@ from lostmotion.case import WRITTEN, CaseFile, check_same_sensors, load_case
 from lostmotion.contracts import Model, Term
 from lostmotion.errors import CaseError, ContractError
 from lostmotion.likelihood.observation import Observation, make_observation
+from lostmotion.likelihood.sensor_noise import has_clock_noise
 from lostmotion.noises import BASIC, Noise
 from lostmotion.preparation.candidate_terms import candidates_of
 from lostmotion.preparation.vetting import make_plugin, usable_terms
-from lostmotion.quantities import ROTATES
+from lostmotion.quantities import ROTATES, quantity_of
 from lostmotion.recording import Recording, load_recording
 from lostmotion.recording.decimation import thin_recording
 from lostmotion.registry import Registry
@@ -86,10 +87,27 @@ def prepare_loaded(
         return made
 
     observations = tuple(make_observation(r, model, held=r.hold == "step", make_noise=make_noise) for r in recordings)
+    for observation in observations:
+        _refuse_clock_noise(observation)
     known, aside = usable_terms(registry)
     return Prepared(
         case, recordings, observations, model, candidates_of(model, known, observations), registry.origins(), aside
     )
+
+
+def _refuse_clock_noise(observation: Observation) -> None:
+    """Raise `CaseError` for jitter of the stamps of an accelerometer: its speed, the jerk, is no state of a model.
+
+    The jerk is the derivative of all forces, and forces such as dry friction jump.
+    """
+    for sensor in observation.sensors:
+        wrong = next((noise.name for noise in sensor.noises if has_clock_noise(noise)), "")
+        if wrong and quantity_of(sensor.channel) == "acceleration":
+            raise CaseError(
+                f"{observation.name}: the sensor {sensor.label!r} measures an acceleration, and the noise {wrong!r}"
+                " needs the speed of its channel, which jumps with dry friction: use it for a position or a velocity,"
+                " and 'white' or 'ar1' here"
+            )
 
 
 def resolve_motion(model: Model, case: CaseFile, recordings: Sequence[Recording]) -> Model:

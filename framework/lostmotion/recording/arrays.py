@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.errors import DataError
+from lostmotion.recording.numbers import read_number
 from lostmotion.recording.stamps import Stamps, is_stamp
 from lostmotion.recording.table import Table, make_table
 
@@ -47,6 +48,8 @@ def to_numbers(name: str, value: Any) -> tuple[Array, str]:
     if array.dtype.kind not in "fiub":
         raise DataError(f"{name!r} holds {array.dtype} instead of numbers: give an array of floats")
     numbers = np.array(np.ma.filled(np.ma.asarray(array).astype(float), np.nan))
+    if numbers.ndim == 2 and 1 in numbers.shape:  # a column of MATLAB
+        numbers = numbers.ravel()
     if numbers.ndim != 1:
         raise DataError(f"{name!r} has the shape {numbers.shape}: expected one number for each sample, (n,)")
     return numbers, ""
@@ -96,7 +99,8 @@ def _read_stamps(name: str, cells: list[str]) -> tuple[Array, str]:
     wrong = next((cell for cell, gone in zip(cells, lost, strict=True) if not gone and not is_stamp(cell)), None)
     if wrong is not None or all(lost):
         shown = "empty words" if wrong is None else f"the word {wrong[:40]!r}"
-        raise DataError(f"{name!r} holds {shown} instead of numbers: give an array of floats")
+        hint = "" if wrong is None or read_number(wrong, "comma") is None else ", in pandas with decimal=',' or '.'"
+        raise DataError(f"{name!r} holds {shown} instead of numbers: give an array of floats{hint}")
     stamps = Stamps()
     stamps.add(cells, lost)
     return stamps.finish("the data", name)

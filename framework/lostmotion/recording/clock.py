@@ -16,7 +16,7 @@ from lostmotion.errors import DataError
 from lostmotion.recording.column_names import COUNTER, names_time
 from lostmotion.recording.table import Table
 from lostmotion.recording.timing import EvenClock, check_step, even_clock, name_sample
-from lostmotion.recording.units import TIME_UNITS, seconds, time_unit
+from lostmotion.recording.units import TIME_UNITS, is_unit, seconds, time_unit
 
 Array = NDArray[np.float64]
 SLOWEST, FASTEST = 0.1, 1e7
@@ -27,13 +27,19 @@ GUESSED = 3
 """The rank of a column of which only the name says time."""
 _EPOCHS = ((1e17, "ns"), (1e14, "us"), (1e11, "ms"))
 """Numbers above these sizes are this unit since 1970."""
+_DAYS = ((25_000.0, 80_000.0, "Excel"), (719_000.0, 780_000.0, "MATLAB"))
+"""Numbers of days in these ranges are dates from about 1970 to 2100 in these programs."""
+ROUNDING = 1e-12
+"""The error of whole numbers that were computed, as a share of the largest one."""
+_DAILY = 1e-5
+"""Numbers in these ranges are days where they grow by less than this, so that the rate in s would be above 100 kHz."""
 
 
 @dataclass(frozen=True, eq=False)
 class FoundTime:
     """The time of a table: its column (None where a rate was given), unit, values (n,) in s, even grid, and the reason.
 
-    `notes` are sentences on what was found or may be wrong.
+    `notes` are sentences on what was found or may be wrong; `guessed` tells that neither name nor unit says time.
     """
 
     column: str | None
@@ -42,6 +48,7 @@ class FoundTime:
     clock: EvenClock
     why: str
     notes: tuple[str, ...] = ()
+    guessed: bool = False
 
     @property
     def says(self) -> str:
@@ -67,7 +74,8 @@ def find_time(
         if not 0.0 < rate < np.inf:
             raise DataError(f"the rate is {rate:g} Hz: give a positive number")
         clock = EvenClock(check_step(1.0 / rate, source), False, (), 0.0)
-        return FoundTime(None, "s", np.empty(0), clock, "as given", note_repeated_rows(table))
+        notes = (*note_repeated_rows(table), *note_other_rate(table, source, rate))
+        return FoundTime(None, "s", np.empty(0), clock, "as given", notes)
     if column is not None:
         unit = (units or {}).get(column)
         time, found, notes = read_time(table, column, unit, source)
@@ -88,16 +96,36 @@ def read_time(table: Table, column: str, unit: str | None, source: str) -> tuple
         note = f"{column!r} holds dates or times of day, which need no unit: {unit!r} is not used"
         return values, "s", (note,) if odd else ()
     stated, notes = time_unit(column, table.units.get(column), unit)
-    if not stated and (since := _unit_since_1970(values)):
-        stated = since
-        notes = (f"the numbers of {column!r} are {since} since 1970 by their size",)
+    if not stated:
+        stated, says = unit_by_size(values)
+        notes = (f"the numbers of {column!r} are {says} by their size",) if stated else ()
     return seconds(values, stated or "s", source), stated or "s", notes
 
 
-def _unit_since_1970(values: Array) -> str:
+def unit_by_size(values: Array) -> tuple[str, str]:
+    """Return the unit of dates that are numbers, and what they are; two empty texts for other numbers."""
     seen = values[np.isfinite(values)]
     size = float(np.median(seen)) if seen.size else 0.0
-    return next((unit for least, unit in _EPOCHS if least < size < 20.0 * least), "")
+    since = next((unit for least, unit in _EPOCHS if least < size < 20.0 * least), "")
+    if since:
+        return since, f"{since} since 1970"
+    program = next((name for low, high, name in _DAYS if low < size < high), "")
+    daily = program and seen.size > 1 and 0.0 < float(np.ptp(seen)) / (seen.size - 1) < _DAILY
+    return ("d", f"dates of {program} in days") if daily else ("", "")
+
+
+def _refuse_whole(time: Array, column: str, source: str) -> None:
+    """Raise `DataError` for whole numbers without a unit: they may be ms, or count rows."""
+    if time.size < 2 or not np.all(np.isfinite(time)) or time[1] == time[0]:
+        return
+    if np.abs(time - np.rint(time)).max() > ROUNDING * max(1.0, float(np.abs(time).max())):
+        return
+    shown = ", ".join(f"{value:.0f}" for value in time[:3])
+    raise DataError(
+        f"{source}: {column!r} holds whole numbers ({shown}, ...) and no unit, so it may be in ms or count rows: give"
+        f" its unit (--unit {column}=s or {column}=ms of `init`; units in Python), or write it as '{column} [s]'; or"
+        " give the rate"
+    )
 
 
 def checked_clock(
@@ -105,12 +133,15 @@ def checked_clock(
 ) -> EvenClock:
     """Return the even grid of a time column (n,) in s, of which `first` samples were cut off at its beginning.
 
-    A time without a stated unit is refused where its rate makes no sense in seconds.
+    A time without a stated unit is refused where it consists of whole numbers, or its rate makes no sense in seconds.
     """
+    stated = unit or column in table.starts or time_unit(column, table.units.get(column), None)[0]
+    stated = stated or unit_by_size(table.columns[column])[0]
+    if not stated:
+        _refuse_whole(time, column, source)
     clock = even_clock(time, source, table.line + first if table.line else 0)
     rate = 1.0 / clock.dt
-    stated = unit or column in table.starts or time_unit(column, table.units.get(column), None)[0]
-    if SLOWEST <= rate <= FASTEST or stated or _unit_since_1970(table.columns[column]):
+    if SLOWEST <= rate <= FASTEST or stated:
         return clock
     raise DataError(
         f"{source}: no unit is stated for the time column {column!r}, and in s the rate is {rate:.3g} Hz, which few"
@@ -123,14 +154,10 @@ def _choose_time(table: Table, source: str, units: Mapping[str, str]) -> FoundTi
     ranked = sorted(_list_candidates(table, units), key=lambda one: one[0])
     tried: list[FoundTime] = []
     problem: DataError | None = None
-    for rank, name, why in ranked:
+    for _, name, why in ranked:
         try:
-            if rank == GUESSED and _is_consecutive(table.column(name, source)):
-                raise DataError(
-                    f"{source}: {name!r} counts 1, 2, 3, ... and has no unit: if it holds seconds, call it "
-                    f"'{name} [s]' or give its unit, --unit {name}=s of `init`; else give the rate, --rate HZ"
-                )
-            found = replace(find_time(table, source, name, None, units), why=why)
+            found = find_time(table, source, name, None, units)
+            found = replace(found, why=why if found.unit == "s" else why.partition(";")[0])
         except DataError as err:
             problem = problem or err
             continue
@@ -154,6 +181,8 @@ def _list_candidates(table: Table, units: Mapping[str, str]) -> list[tuple[int, 
             found.append((1, name, "its name and its unit are those of time"))
         elif unit in TIME_UNITS and not COUNTER.match(name):
             found.append((2, name, "its unit is one of time"))
+        elif names_time(name) and unit and not is_unit(unit):
+            found.append((GUESSED, name, f"its name is one of time; its unit {unit!r} is none that is known, so s"))
         elif names_time(name) and not unit:
             found.append((GUESSED, name, "its name is one of time; no unit is stated, so s"))
     return found
@@ -176,24 +205,21 @@ def _choose_by_growth(table: Table, source: str, units: Mapping[str, str]) -> Fo
     counters: list[str] = []
     for name in table.full_names:
         values = table.columns[name]
-        if table.units.get(name) or not _grows_evenly(values):
+        named = names_other(name) and not name.endswith("]")  # `X[0]` is a column of a matrix
+        if table.units.get(name) or named or not _grows_evenly(values):
             continue
         (counters if _counts(name, values) else growing).append(name)
     listed = ", ".join((*table.full_names, *table.refused))
     if len(growing) == 1:
         found = find_time(table, source, growing[0], None, units)
-        return replace(found, why="it alone grows evenly; neither name nor unit says time, so s is a guess")
+        why = "it alone grows evenly; neither name nor unit says time, so s is a guess"
+        return replace(found, why=why, guessed=True)
     rows = f"; {counters[0]!r} counts rows, and not seconds" if counters else ""
     several = f"; {', '.join(map(repr, growing))} grow evenly" if growing else ""
     raise DataError(
         f"no column of {source} has the name or the unit of a time or grows evenly as time does (there are {listed}"
         f"{rows}{several}): give --time COLUMN, or --rate HZ"
     )
-
-
-def _is_consecutive(values: Array) -> bool:
-    """Return whether a column holds consecutive whole numbers, as a counter of rows does."""
-    return values.size > 1 and bool(np.all(np.diff(values) == 1.0) and values[0] == np.rint(values[0]))
 
 
 def _grows_evenly(values: Array) -> bool:
@@ -206,6 +232,19 @@ def _grows_evenly(values: Array) -> bool:
 def _counts(name: str, values: Array) -> bool:
     """Return whether a column counts rows or pulses: by its name, or because it holds whole numbers."""
     return COUNTER.match(name) is not None or bool(np.all(values == np.rint(values)))
+
+
+def note_other_rate(table: Table, source: str, rate: float) -> tuple[str, ...]:
+    """Return a note on a time in the table that has another rate (Hz) than the one that is given."""
+    try:
+        found = _choose_time(table, source, {})
+    except DataError:
+        return ()
+    other = 1.0 / found.clock.dt
+    if found.guessed or abs(other / rate - 1.0) <= SAME:
+        return ()
+    says = f"the rate that is given is {rate:.6g} Hz, and {found.column!r} has {other:.6g} Hz: one of them is wrong"
+    return (says,)
 
 
 def note_repeated_rows(table: Table) -> tuple[str, ...]:

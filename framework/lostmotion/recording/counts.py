@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -10,6 +12,10 @@ from lostmotion.recording.column_names import COUNTER
 from lostmotion.recording.timing import name_sample
 
 Array = NDArray[np.float64]
+COUNTED = re.compile(
+    r"(^|[_ .])(counts?|cnt|ticks?|pulses?|enc(oder)?|adc|raw|lsb|quad(rature)?)(?=$|[_ .\d])", re.IGNORECASE
+)
+"""Names of columns of counts."""
 COUNTS = {"count", "counts", "digit", "digits", "LSB", "lsb", "ticks", "pulses"}
 """Units of a number that an encoder counts: its size is unknown."""
 
@@ -36,4 +42,5 @@ def centre_position(position: Array) -> Array:
 def holds_counts(name: str, unit: str, values: Array) -> bool:
     """Return whether a column holds counts of unknown size: by its unit, or by its name if all are whole numbers."""
     seen = values[np.isfinite(values)]
-    return unit in COUNTS or (not unit and COUNTER.match(name) is not None and bool(np.all(seen == np.rint(seen))))
+    named = COUNTER.match(name) is not None or COUNTED.search(name) is not None
+    return unit in COUNTS or (not unit and named and bool(np.all(seen == np.rint(seen))))

@@ -22,6 +22,8 @@ from lostmotion.recording.text import read_text
 from lostmotion.recording.unpacked import check_hdf5, check_mat, check_npz
 
 Array = NDArray[np.float64]
+PACKING = ("_FillValue", "missing_value", "scale_factor", "add_offset")
+"""The attributes that say how readings are stored (CF conventions)."""
 BAG = "db3"
 """The ending whose reader takes the folder of a bag of ROS 2, too."""
 
@@ -38,11 +40,6 @@ def read_table(path: Path) -> Table:
         return table_of(path)
     _require_file(path)
     return read_in_subprocess(path)
-
-
-def columns_of(path: Path) -> dict[str, Array]:
-    """Return the numeric columns of a file by name, each (n,), read in this process."""
-    return dict(table_of(path).columns)
 
 
 def table_of(path: Path) -> Table:
@@ -188,17 +185,33 @@ def _read_h5(path: Path) -> Table:
             held: dict[str, Any] = {}  # data sets of h5py, which has no types
             file.visititems(lambda name, item: held.update({name: item} if _is_numeric(item) else {}))
             units = {name: _unit_of(item.attrs) for name, item in held.items()}
-            return table_of_nested({name: item[()] for name, item in held.items()}, units)
+            return table_of_nested({name: _read_set(item) for name, item in held.items()}, units)
     return _read_nc(path)
 
 
 def _is_numeric(item: Any) -> bool:
-    return getattr(item, "dtype", None) is not None and item.dtype.kind in KINDS
+    return getattr(item, "dtype", None) is not None and (item.dtype.kind in KINDS or item.dtype.names is not None)
+
+
+def _read_set(item: Any) -> Any:
+    """Return the numbers of a data set of h5py, with fill values as NaN and packed numbers unpacked."""
+    import xarray as xr
+
+    given = {key: _plain(item.attrs[key]) for key in PACKING if key in item.attrs}
+    if not given or item.dtype.names is not None:
+        return item[()]
+    held = xr.Variable([f"d{k}" for k in range(item.ndim)], item[()], given)
+    return xr.conventions.decode_cf_variable("x", held, decode_times=False).values
+
+
+def _plain(value: Any) -> Any:
+    """Return the only element of an attribute that is an array of one."""
+    return np.asarray(value).reshape(-1)[0] if np.size(value) == 1 else value
 
 
 def _unit_of(attributes: Any) -> str:
     """Return the unit in the attributes of an array, or an empty text."""
-    unit = attributes.get("units", attributes.get("unit", ""))
+    unit = _plain(next((value for key, value in attributes.items() if str(key).lower() in ("units", "unit")), ""))
     word = unit.decode("utf-8", "replace") if isinstance(unit, bytes) else unit
     return word.strip() if isinstance(word, str) else ""
 

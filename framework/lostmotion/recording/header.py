@@ -8,7 +8,9 @@ are comments, of which the last one above the numbers may hold the names.
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterator, Sequence
+import re
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -19,8 +21,14 @@ from lostmotion.recording.units import is_unit, split_name, unit_line
 
 COMMENTS = ("#", "%", "//")
 """How a comment line begins."""
+SEPARATORS = (";", "\t", ",", "|")
+"""The separators of cells beside blanks, in the order in which they are tried."""
+UNNAMED = "column 1"
+"""The name of a first column of numbers that has none, as pandas and R write the index."""
 HEAD = 1000
 """The number of lines among which the line of names is searched."""
+TYPE = re.compile(r"u?int\d*|float\d*|double|single|real|number|numeric|decimal|datetime|timestamp|string|bool(ean)?")
+"""A word in a line of types."""
 LAST = 50
 """The most rows at the end of these lines from which the form of a row of numbers is taken."""
 
@@ -41,8 +49,8 @@ class Header:
     units: dict[str, str]
     separator: str | None
     first: int
-    trailing: bool
-    stamped: frozenset[str]
+    trailing: bool = False
+    stamped: frozenset[str] = frozenset()
     dated: int = -1
     grid: tuple[str, float, float] | None = None
 
@@ -65,7 +73,13 @@ def find_header(file: str, lines: list[str]) -> Header:
             raise DataError(f"{file} holds only blank lines: record or export it again")
         raise _no_numbers(file)
     found = next(_find_candidates(rows, whole=True), None) or next(_find_candidates(rows, whole=False), None)
-    return found or _use_first_line(file, rows)
+    header = found or _use_first_line(file, rows)
+    return _with_units_above(header, [line for line in enumerate(lines) if line[0] < header.first - 1])
+
+
+def _keep_units(stated: Mapping[str, str]) -> dict[str, str]:
+    """Return the units of the columns that have a name and a unit."""
+    return {name: unit for name, unit in stated.items() if name and is_unit(unit)}
 
 
 def _read_beside(rows: list[Line]) -> Header | None:
@@ -83,8 +97,7 @@ def _read_beside(rows: list[Line]) -> Header | None:
         name = own.get("source") or f"reading {blocks.index(begin) + 1}"
         names[begin + 3 : begin + 5] = ["" if begin else "time", name]
         units[name] = own.get("vertical units", "")
-    kept = {key: unit for key, unit in units.items() if is_unit(unit)}
-    return Header(names, kept, ",", rows[0][0] + 1, trailing=False, stamped=frozenset())
+    return Header(names, _keep_units(units), ",", rows[0][0] + 1)
 
 
 def _read_waveform(rows: list[Line]) -> Header | None:
@@ -96,15 +109,14 @@ def _read_waveform(rows: list[Line]) -> Header | None:
     stated = {cells[0].strip(" :").lower(): cells[1].strip() for cells in split[:end] if len(cells) > 1}
     names = ["time", "reading", *(f"reading {k}" for k in range(2, len(split[end + 1])))][: len(split[end + 1])]
     units = {"time": stated.get("x units", ""), **dict.fromkeys(names[1:], stated.get("y units", ""))}
-    kept = {name: unit for name, unit in units.items() if is_unit(unit)}
-    return Header(names, kept, ",", rows[end + 1][0] + 1, trailing=False, stamped=frozenset())
+    return Header(names, _keep_units(units), ",", rows[end + 1][0] + 1)
 
 
 def _read_increments(rows: list[Line]) -> Header | None:
     """Return the header of a scope of Rigol, whose first row has start and increment of the time beside the names."""
     if len(rows) < 3:
         return None
-    names, below = ([cell.strip() for cell in cells_of(line, ",")] for _, line in rows[:2])
+    names, below = ([cell.strip() for cell in cells_of(line.rstrip(", \r\n"), ",")] for _, line in rows[:2])
     lower = [name.lower() for name in names]
     if not {"start", "increment"} <= set(lower) or len(below) < len(lower) or lower[0] not in ("x", "time", "sequence"):
         return None
@@ -117,12 +129,9 @@ def _read_increments(rows: list[Line]) -> Header | None:
     ]
     del kept[1]
     spelt = [unit.title() if unit in ("VOLT", "AMP") else unit for unit in below]
-    units = {name: unit for name, unit in zip(kept[1:], spelt[1:], strict=False) if name and is_unit(unit)}
+    units = _keep_units({"time": "s"} | dict(zip(kept[1:], spelt[1:], strict=False)))
     columns = len(kept) - (not kept[-1])
-    return Header(
-        kept[:columns], {"time": "s", **units}, ",", rows[2][0] + 1, trailing=columns < len(kept),
-        stamped=frozenset(), grid=("time", start, step),
-    )  # fmt: skip
+    return Header(kept[:columns], units, ",", rows[2][0] + 1, trailing=columns < len(kept), grid=("time", start, step))
 
 
 def _no_numbers(file: str) -> DataError:
@@ -140,7 +149,7 @@ def _find_candidates(rows: list[Line], *, whole: bool) -> Iterator[Header]:
             continue
         header = _try_header(line, below, rows[k + 1 :], whole)
         if header is not None:
-            yield _with_units_above(header, rows[:k])
+            yield header
 
 
 def _is_unit_line(line: str, count: int) -> bool:
@@ -150,12 +159,19 @@ def _is_unit_line(line: str, count: int) -> bool:
 
 
 def _with_units_above(header: Header, above: list[Line]) -> Header:
-    """Return the header with units that lines above it state, such as `Vertical Units,V,A` of an oscilloscope."""
+    """Return the header with units that lines above the rows state, one for each column.
+
+    Such a line is `Vertical Units,V,A` of an oscilloscope, `# units: s, N, mm`, or a line of units above the names.
+    """
     units = dict(header.units)
-    for cells in (cells_of(line, header.separator) for _, line in above):
+    for cells in (cells_of(strip_comment(line), header.separator) for _, line in above):
         key, stated = cells[0].strip().lower() if cells else "", [cell.strip() for cell in cells[1:]]
-        columns = {"horizontal units": header.names[:1], "vertical units": header.names[1:]}.get(key.rstrip(":"), [])
-        units = {name: unit for name, unit in zip(columns, stated, strict=False) if is_unit(unit)} | units
+        names = number_names(header.names)
+        columns = {"horizontal units": names[:1], "vertical units": names[1:]}.get(key.rstrip(":"), [])
+        units = _keep_units(dict(zip(columns, stated, strict=False))) | units
+        line = unit_line(cells) if len(cells) == len(header.names) > 1 else None
+        if line and all(not unit or is_unit(unit) for unit in line):
+            units = {name: unit for name, unit in zip(names, line, strict=True) if name and unit} | units
     return replace(header, units=units)
 
 
@@ -164,9 +180,15 @@ def _try_header(line: str, below: str, rows: list[Line], whole: bool) -> Header 
     text = strip_comment(line)
     separator = separator_of(text, below)
     names = [name.strip() for name in cells_of(text, separator)]
+    if _names_types(names):
+        return None
+    if _names_types(cells_of(below, separator)):
+        rows, below = rows[1:], rows[1][1] if len(rows) > 1 else ""
     units = unit_line(cells_of(below, separator)) if len(cells_of(below, separator)) >= len(names) - 1 else None
     if units is not None and not any(_is_number(cell) for cell in cells_of(below, separator)):
         rows = rows[1:]
+        if len(rows) > 1 and not any(is_value(cell) for cell in cells_of(rows[0][1], separator) if cell.strip()):
+            rows = rows[1:]  # a line of words below the units, as of Campbell
     else:
         units = None
     shape = _find_shape(rows, separator, names) if whole else _find_short_shape(rows, separator, names)
@@ -179,12 +201,19 @@ def _try_header(line: str, below: str, rows: list[Line], whole: bool) -> Header 
     return _make_header(names, units or [], separator, rows, width)
 
 
+def _names_types(cells: list[str]) -> bool:
+    """Return whether a line holds types of numbers, which some programs write below the names."""
+    return len(cells) > 1 and all(TYPE.fullmatch(cell.strip()) for cell in cells)
+
+
 def _find_shape(rows: list[Line], separator: str | None, names: list[str]) -> tuple[int, list[int]] | None:
     """Return the number of cells in a row and the columns of numbers, from the last rows; None if they do not fit.
 
     A separator after the last cell adds an empty cell to the row or to the line of names.
     """
     split = [cells_of(row, separator) for _, row in rows[-min(LAST, (len(rows) + 1) // 2) :]]
+    if len(names) > 1 and names[0] and all(len(cells) == len(names) + 1 and cells[-1].strip() for cells in split):
+        names.insert(0, "")  # the names of the rows, which have no name themselves
     for width in (len(names), len(names) + 1, len(names) - (not names[-1:] or not names[-1])):
         fit = [cells for cells in split if len(cells) == width]
         if width > len(names) and any(cells[-1].strip() for cells in fit):
@@ -219,6 +248,8 @@ def _make_header(names: list[str], units: Sequence[str], separator: str | None, 
             names = names[:-1]
         elif all(len(cells) == len(names) and not cells[-1].strip() for cells in split):
             names, trailing = names[:-1], True
+    if names and not names[0] and any(is_value(cells[0]) and not is_missing(cells[0]) for cells in split[:1]):
+        names = [UNNAMED, *names[1:]]
     stamped = {
         name
         for j, name in enumerate(names)
@@ -241,9 +272,20 @@ def _has_date(cell: str) -> bool:
 
 
 def _collect_units(names: list[str], line: Sequence[str]) -> dict[str, str]:
-    beside = {name: split_name(name)[1] for name in names}
-    below = dict(zip(names, line, strict=False))
-    return {name: below.get(name) or beside[name] for name in names if name and (below.get(name) or beside[name])}
+    below = [*line, *[""] * len(names)]
+    found = zip(number_names(names), names, below, strict=False)
+    return {key: unit for key, name, own in found if name and (unit := own or split_name(name)[1])}
+
+
+def number_names(names: Sequence[str]) -> list[str]:
+    """Return the names of columns, with a number behind each name that stands there more than once."""
+    count: Counter[str] = Counter()
+    twice = {name for name, times in Counter(names).items() if name and times > 1}
+    found = []
+    for name in names:
+        count[name] += 1
+        found.append(f"{name} {count[name]}" if name in twice else name)
+    return found
 
 
 def _read_comment(file: str, notes: list[Line], rows: list[Line]) -> Header:
@@ -278,11 +320,12 @@ def strip_comment(line: str) -> str:
 
 def separator_of(header: str, row: str) -> str | None:
     """Return the separator of the cells of a table; None means blanks."""
-    found = [separator for separator in (";", "\t", ",") if separator in header]
+    found = [separator for separator in SEPARATORS if separator in header]
     for separator in (*(one for one in found if one in row), *found):
         if separator in row or len(_split_words(header)) != len(row.split()):
             return separator
-    return None if len(_split_words(header)) == len(row.split()) else ";"
+    names = len(_split_words(header))  # the names of the rows may lack one themselves
+    return None if names == len(row.split()) or names == len(row.split()) - 1 > 0 else ";"
 
 
 def cells_of(line: str, separator: str | None) -> list[str]:
@@ -305,7 +348,7 @@ def _split_words(line: str) -> list[str]:
 def _split_cells(line: str) -> list[str]:
     """Return the cells of a line with an unknown separator."""
     text = strip_comment(line)
-    return cells_of(text, next((s for s in (";", "\t", ",") if s in text), None))
+    return cells_of(text, next((s for s in SEPARATORS if s in text), None))
 
 
 def _has_only_values(line: str) -> bool:

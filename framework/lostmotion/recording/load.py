@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -13,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from lostmotion.arguments import Rule, anything, checked, choice, describe, mapping, maybe, path, positive, text
 from lostmotion.errors import DataError
 from lostmotion.quantities import si_factor
-from lostmotion.recording.clock import checked_clock, note_repeated_rows, read_time
+from lostmotion.recording.clock import checked_clock, note_other_rate, note_repeated_rows, read_time
 from lostmotion.recording.counts import centre_position, sum_changes
 from lostmotion.recording.folders import digest_recording
 from lostmotion.recording.formats import read_table
@@ -185,10 +186,14 @@ class Recording:
         lazy = isinstance(frame, type) or hasattr(frame, "collect")
         if lazy or not (hasattr(frame, "columns") and hasattr(frame, "__getitem__")):
             raise DataError(f"frame is {describe(frame)}: expected a data frame of pandas or polars (not a lazy one)")
-        columns = {str(column): frame[column] for column in frame.columns}
-        if time is None and rate is None and (index := time_index(frame)) is not None:
-            time = str(index.name or "index")
-            columns[time] = index
+        twice = {str(name) for name, count in Counter(frame.columns).items() if count > 1}
+        for column in {*sensors.values(), *(inputs or {}).values(), time or ""} & twice:
+            raise DataError(f"frame has several columns named {column!r}: rename all but one")
+        columns = {str(column): frame[column] for column in frame.columns if str(column) not in twice}
+        if time is None and (index := time_index(frame)) is not None:
+            named = str(index.name or "index")
+            columns[named] = index
+            time = named if rate is None else None
         stated = getattr(frame, "attrs", {}).get("units", {})
         layout = RecordingLayout(
             (inputs or {}, sensors), units or {}, time, rate, noise or {}, hold, name, dict(stated)
@@ -203,7 +208,7 @@ class Recording:
         *,
         sensors: Mapping[str, str],
         inputs: Mapping[str, str] | None = None,
-        time: str = "time",
+        time: str | None = None,
         units: Mapping[str, str] | None = None,
         noise: Mapping[str, str] | None = None,
         hold: Hold = "smooth",
@@ -212,14 +217,14 @@ class Recording:
     ) -> Recording:
         """Return a recording of variables of a dataset; `units` default to the attributes of the variables.
 
-        Fill values and missing values that the attributes name become NaN.
+        Fill values and missing values that the attributes name become NaN. Without `time` the time is found.
         """
         import xarray as xr
 
         if not isinstance(dataset, xr.Dataset):
             raise DataError(f"dataset is {describe(dataset)}: expected a Dataset of xarray")
         decoded = xr.decode_cf(dataset, decode_times=False)  # fill values become NaN, packed numbers are unpacked
-        columns = {str(key): value.values for key, value in decoded.variables.items() if value.ndim == 1}
+        columns = {str(key): value.values for key, value in decoded.variables.items() if value.ndim}
         stated = {
             str(key): str(value.attrs["units"]) for key, value in decoded.variables.items() if "units" in value.attrs
         }
@@ -374,7 +379,7 @@ def _pick_samples(spec: RecordingSpec, table: Table, source: str) -> tuple[Array
         time, _, notes = read_time(table, spec.time, spec.time_unit, source)
     else:
         time = np.arange(found[names[0]].size) / _require_rate(spec)
-        notes = note_repeated_rows(table)
+        notes = (*note_repeated_rows(table), *note_other_rate(table, source, _require_rate(spec)))
     return time, [found[name] for name in names], notes
 
 

@@ -14,12 +14,14 @@ import numpy as np
 from lostmotion.errors import DataError, nearest
 from lostmotion.quantities import names_quantity, quantity_of, si_factor
 from lostmotion.recording.arrays import table_of_arrays
-from lostmotion.recording.clock import find_time
+from lostmotion.recording.clock import find_time, unit_by_size
 from lostmotion.recording.column_names import names_time
 from lostmotion.recording.folders import digest_recording
 from lostmotion.recording.formats import read_table
 from lostmotion.recording.spec import Channel, Hold, RecordingSpec
+from lostmotion.recording.stamps import is_stamp
 from lostmotion.recording.table import Table
+from lostmotion.recording.units import check_name
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -61,8 +63,8 @@ class RecordingSource(NamedTuple):
 
 def collect_columns(columns: Mapping[str, Any], layout: RecordingLayout) -> RecordingSource:
     """Return the source of a recording of columns (n,) in memory."""
-    _check_names(columns, layout, layout.name)
     table = table_of_arrays(columns, layout.stated)
+    _check_names(table, layout, layout.name)
     layout = _with_time(table, layout, layout.name)
     content = b"".join(key.encode() + table.column(key, layout.name).tobytes() for key in sorted(_used_columns(layout)))
     return _make_source(table, layout, layout.name, hashlib.sha256(content).hexdigest())
@@ -71,18 +73,28 @@ def collect_columns(columns: Mapping[str, Any], layout: RecordingLayout) -> Reco
 def collect_file(path: Path, layout: RecordingLayout) -> RecordingSource:
     """Return the source of a recording in a file; units default to those in the file, the name to its stem."""
     table = read_table(path)
-    _check_names((*table.columns, *table.refused), layout, path.name)
+    _check_names(table, layout, path.name)
     layout = _with_time(table, replace(layout, name=layout.name or path.stem), path.name)
     return _make_source(table, layout, path.name, digest_recording(path))
 
 
 def time_index(frame: Any) -> Any:
-    """Return the index of a data frame that is time: dates, durations, or numbers with a fraction; else None."""
+    """Return the index of a data frame that is time: dates, stamps, durations, or numbers with a fraction; else None.
+
+    Whole numbers are time where their name or their size says so.
+    """
     index: Any = getattr(frame, "index", None)
     if not hasattr(index, "to_numpy") or getattr(index, "nlevels", 1) > 1:
         return None
+    if hasattr(index, "to_timestamp"):  # periods
+        index = index.to_timestamp()
     held = np.asarray(index.to_numpy())
-    dates = held.dtype.kind in "mM" or (held.dtype.kind == "O" and all(isinstance(one, datetime) for one in held))
+    dates = held.dtype.kind in "mM" or (
+        held.dtype.kind == "O"
+        and all(isinstance(one, datetime) or (isinstance(one, str) and is_stamp(one)) for one in held)
+    )
+    if held.dtype.kind in "iu" and unit_by_size(held.astype(float))[0]:
+        return index
     named = names_time(str(getattr(index, "name", None) or "")) and held.dtype.kind in "iu"
     counts = held.dtype.kind in "iuf" and held.size > 1 and bool(np.all(np.diff(held) == 1))
     return index if held.size and not counts and (dates or named or held.dtype.kind == "f") else None
@@ -97,12 +109,16 @@ def _with_time(table: Table, layout: RecordingLayout, source: str) -> RecordingL
 
 
 def _make_source(table: Table, layout: RecordingLayout, name: str, digest: str) -> RecordingSource:
+    for key, column in (*layout.which[0].items(), *layout.which[1].items()):
+        if not {key, column} & layout.units.keys():
+            check_name(column, table.units.get(column, ""))
     spec = _make_spec(replace(layout, units={**table.units, **layout.units}), layout.units.get(layout.time or ""))
     return RecordingSource(spec, table, name, digest, layout.notes)
 
 
-def _check_names(columns: Collection[str], layout: RecordingLayout, name: str) -> None:
-    """Raise `DataError` for a column that does not exist."""
+def _check_names(table: Table, layout: RecordingLayout, name: str) -> None:
+    """Raise `DataError` for a column that does not exist, or that cannot be read."""
+    columns = [*table.columns, *table.refused]
     inputs, sensors = layout.which
     time = [layout.time] if layout.time else []
     for role, wanted in (("inputs", inputs.values()), ("sensors", sensors.values()), ("time", time)):
@@ -110,8 +126,9 @@ def _check_names(columns: Collection[str], layout: RecordingLayout, name: str) -
             if column not in columns:
                 raise DataError(
                     f"{name} has no column {column!r}, which {role} asks for{nearest(str(column), columns)}:"
-                    f" it has {', '.join(columns)}"
+                    f" it has {', '.join((*table.full_names, *table.refused))}"
                 )
+            table.column(column, name)
 
 
 def check_units(units: Mapping[str, str], columns: Collection[str], name: str) -> None:

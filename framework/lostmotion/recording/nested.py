@@ -8,26 +8,31 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lostmotion.recording.arrays import table_of_arrays
 from lostmotion.recording.table import Table, make_table
 
-Array = NDArray[np.float64]
 KINDS = "fiub"
 """NumPy kinds of numbers in a column: real, integer, boolean."""
+TIMES = "mMc"
+"""Kinds that are converted, or refused with a reason where they are asked for: durations, dates, complex numbers."""
 
 
 def table_of_nested(content: Mapping[str, object], units: Mapping[str, str] | None = None) -> Table:
     """Return the table of some arrays; the unit of a two-dimensional array is that of its columns."""
-    columns = dict(_flatten_all(content))
+    flat = dict(_flatten_all(content))
+    columns = {name: array for name, array in flat.items() if array.dtype.kind in KINDS}
+    other = table_of_arrays({name: array for name, array in flat.items() if name not in columns}, {})
+    columns = {name: array.astype(np.float64) for name, array in columns.items()} | dict(other.columns)
     known = {name: (units or {}).get(name) or (units or {}).get(name.rpartition("[")[0], "") for name in columns}
-    return make_table(columns, known)
+    return make_table(columns, known, other.starts, other.refused)
 
 
-def _flatten_all(content: Mapping[str, object]) -> Iterator[tuple[str, Array]]:
+def _flatten_all(content: Mapping[str, object]) -> Iterator[tuple[str, NDArray[Any]]]:
     for name, value in content.items():
         yield from _flatten(name, value)
 
 
-def _flatten(name: str, value: Any) -> Iterator[tuple[str, Array]]:
+def _flatten(name: str, value: Any) -> Iterator[tuple[str, NDArray[Any]]]:
     if isinstance(value, Mapping):
         yield from _flatten_all({f"{name}.{key}": item for key, item in value.items()})
     elif isinstance(value, (list, tuple)) and any(np.ndim(item) for item in value if not isinstance(item, Mapping)):
@@ -36,11 +41,13 @@ def _flatten(name: str, value: Any) -> Iterator[tuple[str, Array]]:
         yield from _list_series(name, np.squeeze(np.asarray(value)))
 
 
-def _list_series(name: str, array: NDArray[Any]) -> Iterator[tuple[str, Array]]:
-    if array.dtype.kind not in KINDS:
-        return
-    if array.ndim == 1:
-        yield name, array.astype(np.float64)
-    elif array.ndim == 2:
+def _list_series(name: str, array: NDArray[Any]) -> Iterator[tuple[str, NDArray[Any]]]:
+    """Yield the series in an array, with the fields of a table by their names: numbers, times, and complex numbers."""
+    if array.dtype.names:
+        for key in array.dtype.names:
+            yield from _list_series(f"{name}.{key}", array[key])
+    elif array.dtype.kind in KINDS + TIMES and array.ndim == 1:
+        yield name, array
+    elif array.dtype.kind in KINDS and array.ndim == 2:
         rows = array if array.shape[0] < array.shape[1] else array.T
-        yield from ((f"{name}[{i}]", row.astype(np.float64)) for i, row in enumerate(rows))
+        yield from ((f"{name}[{i}]", row) for i, row in enumerate(rows))

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 import re
+import unicodedata
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Literal
@@ -16,14 +17,18 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from lostmotion.quantities import spell_unit
 from lostmotion.recording.units import is_unit
+from lostmotion.recording.words import names_time
 
 Array = NDArray[np.float64]
 Mark = Literal["point", "comma"]
 """The decimal mark."""
 MISSING = {
     "", "nan", "-nan", "na", "n/a", "#n/a", "#na", "#nv", "null", "none", "-", "--", "---", "nan(ind)", "-nan(ind)",
-    "1.#qnan", "-1.#ind",
+    "1.#qnan", "-1.#ind", "<na>", "nat", "\\n", "#value!", "#div/0!", "#num!", "#ref!", "#wert!", "#zahl!", "#bezug!",
+    "#valeur!", "#nombre!", "ovld", "ol", "+ol", "-ol", "overload", "overrange", "over range", "underrange", "over",
+    "under", "invalid", "欠測",
 }  # fmt: skip
 """Cells without a reading, in lower case."""
 _GROUPS = "'’ \u00a0\u2009\u202f"
@@ -48,14 +53,19 @@ Place = tuple[int, str]
 
 
 def is_missing(cell: str) -> bool:
-    """Return whether a cell has no reading."""
-    return cell.strip().lower() in MISSING
+    """Return whether a cell has no reading; stars stand for a number that did not fit."""
+    word = cell.strip().lower()
+    return word in MISSING or (word[:2] == "**" and not word.strip("*"))
 
 
 def read_number(cell: str, mark: Mark = "point") -> float | None:
     """Return the number in a cell with this decimal mark, NaN where it has no reading; None where it is no number."""
     word = cell.strip()
-    if word.lower() in MISSING:
+    if not word.isascii():
+        word = unicodedata.normalize("NFKC", word)
+    if word.startswith('="') and word.endswith('"'):  # a text cell of Excel
+        word = word[2:-1]
+    if is_missing(word):
         return math.nan
     word = word.translate(_SIGNS)
     if mark == "comma":
@@ -65,19 +75,13 @@ def read_number(cell: str, mark: Mark = "point") -> float | None:
     return float(word) if word.lower().lstrip("+-") in ("inf", "infinity") else None
 
 
-def parse_float(cell: str) -> float:
-    """Return the number of a plain cell; raise `ValueError` for any other, such as 1_000, which Python would accept."""
-    if "_" in cell:
-        raise ValueError(cell)
-    return float(cell)
-
-
 @dataclass
 class NumberColumn:
     """One column while it is read: its values in both ways of reading, and cells that decide between them.
 
     `proof` holds the first cell that only one decimal mark allows, `twofold` the first one that is a different number
     with each, `wrong` the first one that is no number; `meant` tells that a wrong cell looks like a number.
+    `prefixed` is the first one such as `12.3m`, which may be 12.3 m or 12.3 thousandths.
     """
 
     name: str
@@ -88,6 +92,7 @@ class NumberColumn:
     meant: bool = False
     numbers: bool = False
     units: dict[str, Place] = field(default_factory=dict)
+    prefixed: Place | None = None
 
     def add(self, lines: Sequence[int], cells: Sequence[str], *, dots_decide: bool) -> None:
         """Add the cells of some lines; with `dots_decide`, a point in a cell without a comma is a decimal point."""
@@ -121,6 +126,7 @@ class NumberColumn:
         if point is None and comma is None and (found := _WITH_UNIT.fullmatch(cell.strip())) and is_unit(found[2]):
             text = found[1]
             self.units.setdefault(found[2].strip(), (line, cell.strip()))
+            self.prefixed = self.prefixed or ((line, cell.strip()) if re.search(r"\dm$", cell.strip()) else None)
             point, comma = read_number(text), read_number(text, "comma")
         place = line, cell.strip()
         if dots_decide and "." in text and "," not in text:
@@ -140,16 +146,35 @@ class NumberColumn:
         """Return the column (n,) with this decimal mark."""
         return np.concatenate(self.values[mark]) if self.values[mark] else np.empty(0)
 
-    def refusal(self, mark: Mark | None) -> str:
-        """Return why the column cannot be read with this decimal mark, None where none is known; "" where it can."""
+    def refusal(self, mark: Mark | None, unit: str) -> str:
+        """Return why the column cannot be read with this decimal mark, None where none is known; "" where it can.
+
+        `unit` is the one in the header, "" for none.
+        """
         if self.wrong:
             line, cell = self.wrong
+            if names_time(self.name):
+                return (
+                    f"line {line}, column {self.name!r}: {cell[:40]!r} is neither a number nor a known time stamp, such"
+                    " as 2025-03-04 09:58:50.125: correct it, or give the rate"
+                )
             return f"line {line}, column {self.name!r}: {cell[:40]!r} is not a number: correct or empty it"
         if len(self.proof) == 2:
             (first, one), (second, other) = self.proof["point"], self.proof["comma"]
             return (
                 f"line {max(first, second)}, column {self.name!r}: {one[:40]!r} (line {first}) has a decimal point and "
                 f"{other[:40]!r} (line {second}) a decimal comma, so one of them is not a number: write decimal points"
+            )
+        if unit and self.units and spell_unit(unit) not in map(spell_unit, self.units):
+            other, (line, _) = next(iter(self.units.items()))
+            return (
+                f"line {line}, column {self.name!r}: the cell is in {other} and the header says {unit}: write one unit"
+            )
+        if self.prefixed:
+            line, cell = self.prefixed
+            return (
+                f"line {line}, column {self.name!r}: {cell[:40]!r} may be in metres or in thousandths: write plain"
+                " numbers and the unit in the header"
             )
         if len(self.units) > 1:
             (one, (first, _)), (other, (second, _)) = list(self.units.items())[:2]

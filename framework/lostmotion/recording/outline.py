@@ -21,7 +21,7 @@ from lostmotion.recording.column_names import KINDS, kind_named
 from lostmotion.recording.counts import centre_position, holds_counts, sum_changes
 from lostmotion.recording.formats import read_table
 from lostmotion.recording.table import Table
-from lostmotion.recording.units import kinds_of
+from lostmotion.recording.units import check_name, kinds_of, name_and_unit
 
 Array = NDArray[np.float64]
 FOOT = re.compile(r"base|table|ground|foot|shaker|support|reference|(^|[_ ])ref", re.IGNORECASE)
@@ -71,7 +71,7 @@ class OutlinedColumn:
 class Outline:
     """The supposed roles in a table: time column (None where the rate was given), sampling step (s), other columns.
 
-    `drive` is None where no column seems to be a drive.
+    `drive` is None where no column seems to be a drive; `unread` are the reasons of columns that cannot be read.
     """
 
     file: str
@@ -83,6 +83,7 @@ class Outline:
     drive: OutlinedColumn | None
     response: OutlinedColumn
     clock: FoundTime
+    unread: tuple[str, ...] = ()
 
     @property
     def base_driven(self) -> bool:
@@ -121,8 +122,20 @@ def outline_table(path: Path, roles: GivenRoles) -> Outline:
         for n in others
         if table.columns[n].size == samples
     )
-    drive, response = _find_roles(columns, roles, source)
-    return Outline(source, time, found.unit, found.clock.dt, samples, columns, drive, response, found)
+    drive, response = _find_roles(columns, roles, source, table.unread)
+    for column in filter(None, (drive, response)):
+        if column.name not in units:
+            check_name(column.name, column.unit)
+    if drive is None and roles.drive != "none":
+        _refuse_unread_drive(table)
+    return Outline(source, time, found.unit, found.clock.dt, samples, columns, drive, response, found, table.unread)
+
+
+def _refuse_unread_drive(table: Table) -> None:
+    """Raise `DataError` for a column that is a force by its name or unit, and cannot be read."""
+    for name, why in table.refused.items():
+        if kind_named(name) == "force" or "force" in kinds_of(name_and_unit(name)[1]):
+            raise DataError(f"{why}; or give --drive COLUMN, or --drive none if nothing drives the machine")
 
 
 def _most_common_size(table: Table) -> int:
@@ -143,7 +156,7 @@ def _outline_column(table: Table, name: str, stated: str | None, summed: bool) -
 
 
 def _find_roles(
-    columns: Sequence[OutlinedColumn], roles: GivenRoles, source: str
+    columns: Sequence[OutlinedColumn], roles: GivenRoles, source: str, unread: Sequence[str]
 ) -> tuple[OutlinedColumn | None, OutlinedColumn]:
     """Return the column of the drive, or None, and the column of the response."""
     by_name = {one.name: one for one in columns}
@@ -155,7 +168,10 @@ def _find_roles(
     response = by_name.get(roles.response or "") or next(iter(motions or rest), None)
     if response is None:
         listed = ", ".join(f"{one.name} ({one.kind or 'unknown'})" for one in columns) or "none besides time"
-        raise DataError(f"{source} has no column that may be a response (columns: {listed}): give --response COLUMN")
+        why = f"; not read: {unread[0]}" if unread else ""
+        raise DataError(
+            f"{source} has no column that may be a response (columns: {listed}{why}): give --response COLUMN"
+        )
     _refuse_counts(response, source)
     if not response.kind:
         response = replace(response, kind="position")

@@ -28,19 +28,31 @@ _ZONES = {
 }  # fmt: skip
 """Names of time zones, with their hours ahead of UTC."""
 _STAMP = re.compile(
-    rf"(?:{_DATE}[T ,_]\s*)?(\d{{1,2}}):([0-5]\d):([0-5]\d)(?:[.,](\d{{1,9}})|:(\d{{1,3}}))?\s*([AaPp]\.?[Mm]\.?)?\s*"
+    rf"(?:(?:Mon|Tue|Wed|Thu|Fri|Sat|Sun)[a-z]*[, ]+)?(?:{_DATE}[T ,_]\s*)?"
+    rf"(\d{{1,2}}):([0-5]\d):([0-5]\d)(?:[.,](\d{{1,9}})|:(\d{{1,3}}))?\s*([AaPp]\.?[Mm]\.?)?\s*"
     rf"(?:(Z|[+-]\d\d:?\d\d|{'|'.join(_ZONES)}|(?:GMT|UTC)(?:[+-]\d\d?(?::?\d\d)?)?)(?:\[[\w/+-]+\])?)?"
 )
+_COMPACT = re.compile(
+    r"((?:19|20)\d\d(?:0[1-9]|1[0-2])(?:0[1-9]|[12]\d|3[01]))[T_ -]?([01]\d|2[0-3])([0-5]\d)([0-5]\d)"
+    r"(?:[.,](\d{1,9})|(\d{3}))?(Z|[+-]\d\d:?\d\d)?"
+)
+"""20250304T095850.125Z or 20250304095850125."""
+_SINCE = re.compile(
+    r"(?:(\d+) days?,? )?(\d{1,2}):([0-5]\d):([0-5]\d)(?:[.,](\d{1,9}))?|(\d{1,3}):([0-5]\d)[.,](\d{1,9})"
+)
+"""A duration: `0 days 00:00:01.125` of pandas, or minutes and seconds `00:01.125`."""
 _ONLY_DATE = re.compile(_DATE)
 _WRITTEN = str.maketrans({"年": "-", "月": "-", "日": " ", "時": ":", "分": ":", "秒": None})
 """The words of Japanese dates: 2025年03月04日 09時58分50秒."""
 _SECOND, _DAY = 10**9, 86400 * 10**9
+_Fields = tuple[str | None, str, str, str, str | None, str | None, str | None]
+_NOTHING: _Fields = (None, "0", "0", "0", None, None, None)
 EPOCH = date(1970, 1, 1).toordinal()
 
 
 def is_stamp(cell: str) -> bool:
     """Return whether a cell holds a time of day, with or without a date before it."""
-    return len(cell) < 64 and _match_stamp(cell) is not None
+    return len(cell) < 64 and _read_fields(cell) is not None
 
 
 def is_date(cell: str) -> bool:
@@ -49,8 +61,21 @@ def is_date(cell: str) -> bool:
     return len(word) < 32 and not word.isdigit() and _ONLY_DATE.fullmatch(word) is not None
 
 
-def _match_stamp(cell: str) -> re.Match[str] | None:
-    return _STAMP.fullmatch(cell.strip() if cell.isascii() else cell.translate(_WRITTEN).strip())
+def _read_fields(cell: str) -> _Fields | None:
+    """Return date, hour, minute, second, fraction, half of the day and zone of a stamp; None where a cell is none."""
+    text = cell.strip() if cell.isascii() else cell.translate(_WRITTEN).strip()
+    if found := _STAMP.fullmatch(text):
+        day, hour, minute, second, part, milli, half, zone = found.groups()
+        return day, hour, minute, second, milli.zfill(3) if milli else part, half, zone
+    if found := _COMPACT.fullmatch(text):
+        day, hour, minute, second, part, milli, zone = found.groups()
+        return day, hour, minute, second, milli or part, None, zone
+    if found := _SINCE.fullmatch(text):
+        days, hour, minute, second, part, minutes, seconds, rest = found.groups()
+        if minutes:
+            return None, str(int(minutes) // 60), str(int(minutes) % 60), seconds, rest, None, None
+        return None, str(24 * int(days or 0) + int(hour)), minute, second, part, None, None
+    return None
 
 
 class Stamps:
@@ -67,12 +92,11 @@ class Stamps:
         """Add some cells; return the index of the first one that is neither a time stamp nor lost, or None."""
         fields, which = [], np.zeros(len(cells), dtype=np.int64)
         for k, cell in enumerate(cells):
-            found = None if lost[k] else _match_stamp(cell)
-            if found is None and not lost[k]:
+            found = _NOTHING if lost[k] else _read_fields(cell)
+            if found is None:
                 return k
-            parts = found.groups() if found else (None, "0", "0", "0", None, None, None, None)
-            fields.append((*parts[1:4], parts[5].zfill(3) if parts[5] else parts[4], *parts[6:]))
-            which[k] = -1 if lost[k] else self._dates.setdefault(parts[0], len(self._dates))
+            fields.append(found[1:])
+            which[k] = -1 if lost[k] else self._dates.setdefault(found[0], len(self._dates))
         if not self._which and fields:
             self._offset = next((f[5] or "" for f, gone in zip(fields, lost, strict=True) if not gone), "")
         self._which.append(which)

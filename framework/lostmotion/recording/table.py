@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from lostmotion.errors import DataError, nearest
 from lostmotion.quantities import spell_unit
+from lostmotion.recording.joined import join_times
 from lostmotion.recording.units import name_and_unit
 
 Array = NDArray[np.float64]
@@ -42,6 +43,11 @@ class Table:
             seen.setdefault(id(column), name)
         return tuple(seen.values())
 
+    @property
+    def unread(self) -> tuple[str, ...]:
+        """The reasons of the columns that cannot be read, each once."""
+        return tuple(dict.fromkeys(self.refused.values()))
+
     def column(self, name: str, source: str) -> Array:
         """Return a column (n,); raise `DataError` with the reason where there is none; `source` is the file."""
         if name in self.columns:
@@ -66,12 +72,13 @@ def make_table(
     """Return a table in which each column has the unit that is stated for it, or else the one in its name.
 
     This is the one rule for units, for files of every format and for data frames. Columns with a unit in their name are
-    available without it too.
+    available without it too. Times in several columns are joined to one.
     """
-    begun, why = starts or {}, refused or {}
+    begun, why, joined = starts or {}, refused or {}, join_times(columns)
+    columns = {**columns, **{name: time for name, time in joined.items() if name not in columns}}
     parted = {name: name_and_unit(name) for name in (*columns, *why)}
     known = {name: spell_unit((units or {}).get(name, "")) or spell_unit(parted[name][1]) for name in columns}
-    known |= dict.fromkeys(begun, "s")
+    known |= dict.fromkeys((*begun, *joined), "s")
     count = Counter([*parted, *(short for name, (short, _) in parted.items() if short != name)])
     also = {short: name for name, (short, _) in parted.items() if short != name and count[short] == 1}
     return Table(

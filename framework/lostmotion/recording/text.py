@@ -21,18 +21,20 @@ from numpy.typing import NDArray
 from lostmotion.errors import DataError
 from lostmotion.recording.column_names import MILLISECONDS, has_foreign_name
 from lostmotion.recording.footer import drop_footer
-from lostmotion.recording.header import HEAD, Header, cells_of, find_header, is_comment
+from lostmotion.recording.header import HEAD, Header, cells_of, find_header, is_comment, number_names
 from lostmotion.recording.limits import check_columns, check_line, check_numbers
 from lostmotion.recording.lvm import FIRST, read_lvm
 from lostmotion.recording.numbers import RAW, Mark, NumberColumn, choose_mark, is_missing
 from lostmotion.recording.stamps import Stamps
 from lostmotion.recording.table import Table, make_table
+from lostmotion.recording.units import name_and_unit
 
 Array = NDArray[np.float64]
 AT_ONCE = 4096
 """Lines that are processed at once where each cell is parsed separately."""
-ENCODINGS = ("cp932", "cp1251", "euc_jp", "koi8-r", "cp866", "gbk")
-"""Encodings of Japanese, Russian and Chinese, in the order in which they are tried."""
+ENCODINGS = ("cp932", "cp1251", "euc_jp", "koi8-r", "cp866", "gbk", "cp949", "big5")
+"""Encodings of Japanese, Russian, Chinese and Korean, in the order in which they are tried."""
+_CONTROL = re.compile(rb"[\x00-\x08\x0b\x0e-\x1f]")
 _BLOCK = 1 << 20
 _UTF_16 = (b"\xff\xfe", b"\xfe\xff")
 
@@ -117,7 +119,15 @@ def _encoding(path: Path) -> str:
         head = raw.read(4096)
         if head.startswith(_UTF_16):
             return "utf-16"
-        if any(byte < 32 and byte not in b"\t\n\r\f" for byte in head):
+        if 0 in head[1::2] and 0 not in head[::2] and head[1::2].count(0) > len(head) // 4:
+            return "utf-16-le"
+        if len(control := _CONTROL.findall(head)) in range(1, len(head) // 100):
+            line = head[: head.index(control[0])].count(b"\n") + 1
+            raise DataError(
+                f"{path.name}, line {line}: there is the control character {control[0]!r}, as after an error of the"
+                " connection: remove the line"
+            )
+        if control:
             raise DataError(f"{path.name} is not text: give the file its true ending, or export the recording as csv")
         raw.seek(0)
         decoder = codecs.getincrementaldecoder("utf-8")()
@@ -219,14 +229,11 @@ def _trim_row(row: str, separator: str | None) -> str:
 
 def _read_cells(text: _Text) -> Table:
     """Return the table of a file in which every cell is parsed separately."""
-    header, twice = text.header, _find_twice(text.header.names)
-    count: Counter[str] = Counter()
+    header, names = text.header, number_names(text.header.names)
     columns: list[NumberColumn | _StampColumn | None] = []
     for place, given in enumerate(header.names):
-        count[given] += 1
-        name = f"{given} {count[given]}" if given in twice else given
         kind = _StampColumn if given in header.stamped else NumberColumn
-        columns.append(kind(name) if given and place != header.dated else None)
+        columns.append(kind(names[place]) if given and place != header.dated else None)
     rows_read, last = 0, 0
     with text.rows() as rows:
         filled = drop_footer(
@@ -236,15 +243,9 @@ def _read_cells(text: _Text) -> Table:
         while block := list(islice(filled, AT_ONCE)):
             _add_rows(text, columns, block)
             rows_read, last = rows_read + len(block), block[-1][0]
-    units = dict(zip((one.name for one in columns if one), (u for u in _units_in_order(header, columns)), strict=True))
-    return _collect(
-        text, [one for one in columns if one], units, header.first if last - header.first + 1 == rows_read else 0
-    )
-
-
-def _units_in_order(header: Header, columns: Sequence[object | None]) -> Iterator[str]:
-    """Yield the unit of each column that is read."""
-    yield from (header.units.get(name, "") for name, one in zip(header.names, columns, strict=True) if one)
+    kept = [one for one in columns if one]
+    units = {one.name: header.units.get(one.name, "") for one in kept}
+    return _collect(text, kept, units, header.first if last - header.first + 1 == rows_read else 0)
 
 
 def _collect(text: _Text, columns: list[NumberColumn | _StampColumn], units: dict[str, str], line: int) -> Table:
@@ -264,14 +265,12 @@ def _collect(text: _Text, columns: list[NumberColumn | _StampColumn], units: dic
             except DataError as err:
                 refused[one.name] = str(err)
             continue
-        if one.wrong and not (one.meant or one.numbers):
-            continue  # a column of words
         own = mark or (next(iter(one.proof)) if len(one.proof) == 1 else None)
-        if why := one.refusal(own):
+        if why := one.refusal(own, units[one.name] or name_and_unit(one.name)[1]):
             refused[one.name] = f"{file}, {why}"
         else:
             found[one.name] = one.finish(own or "point")
-            units[one.name] = next(iter(one.units), "") or units[one.name]
+            units[one.name] = units[one.name] or next(iter(one.units), "")
     _add_milliseconds(found, starts)
     if refused and not found:
         raise DataError(next(iter(refused.values())))

@@ -42,12 +42,6 @@ class EvenClock:
     start: float
 
 
-def check_time(time: Array, source: str) -> tuple[float, tuple[str, ...]]:
-    """Return the sampling step (s) of the time column (n,), and notes, as `even_clock` finds them."""
-    clock = even_clock(time, source)
-    return clock.dt, clock.notes
-
-
 def even_clock(time: Array, source: str, line: int = 0) -> EvenClock:
     """Return the even grid (s) of a time column (n,); raise `DataError` where there is none.
 
@@ -64,6 +58,8 @@ def even_clock(time: Array, source: str, line: int = 0) -> EvenClock:
         steps = np.diff(time)
     check_step(max(float(np.median(steps)), SHORTEST), source)
     rounding = resolution(time)
+    if not _mean_step(steps, rounding) > 0.0:
+        _refuse_repeats(time, source, line)
     dt = check_step(_mean_step(steps, rounding), source)
     if rounding > 2 * dt:
         _refuse_rounding(time, rounding, source, line)
@@ -83,6 +79,16 @@ def _find_alone(steps: Array) -> NDArray[np.intp]:
     usual = float(np.median(steps))
     odd = np.flatnonzero(np.abs(steps - usual) > 0.5 * usual)
     return odd if 0 < odd.size < 3 and steps.size > 100 else np.empty(0, dtype=np.intp)
+
+
+def _refuse_repeats(time: Array, source: str, line: int) -> None:
+    """Raise `DataError` for stamps of which most repeat the one before, each as often as the others."""
+    repeated = np.flatnonzero(np.diff(time) == 0.0)
+    raise DataError(
+        f"{source}: {repeated.size} of {time.size} stamps repeat the one before (the first is"
+        f" {name_sample(int(repeated[0]) + 1, line)}): remove these rows where the readings repeat too, or give rate ="
+        f" {(time.size - 1) / float(np.ptp(time)):.4g} in place of time"
+    )
 
 
 def _refuse_rounding(time: Array, rounding: float, source: str, line: int) -> None:

@@ -19,28 +19,9 @@ from lostmotion.recording.column_names import KINDS, kind_named, names_time
 from lostmotion.recording.spec import Channel
 
 Array = NDArray[np.float64]
-_PREFIXES = ("", "p", "n", "u", "µ", "μ", "m", "c", "d", "k", "M", "G")
-_WITH_PREFIX = (
-    "s",
-    "m",
-    "g",
-    "N",
-    "Nm",
-    "V",
-    "A",
-    "Hz",
-    "Pa",
-    "W",
-    "J",
-    "bar",
-    "rad",
-    "K",
-    "T",
-    "C",
-    "Ohm",
-    "ohm",
-    "Ω",
-)
+_PREFIXES = ("", "p", "n", "u", "µ", "μ", "m", "c", "d", "da", "k", "M", "G")
+_WITH_PREFIX = ("s", "m", "g", "N", "Nm", "V", "A", "Hz", "Pa", "W", "J", "bar", "rad", "K", "T", "C", "Ohm", "ohm",
+                "Ω")  # fmt: skip
 _LONG_PREFIXES = ("", "nano", "micro", "milli", "centi", "kilo", "mega")
 _LONG = ("newton", "meter", "metre", "second", "gram", "radian", "volt", "ampere", "amp", "hertz", "pascal", "watt",
          "joule")  # fmt: skip
@@ -49,9 +30,11 @@ _PLAIN = {
     "°", "°C", "degC", "degF", "°F", "celsius", "kelvin", "%", "‰", "percent", "rpm", "rev", "turn", "turns", "in",
     "inch", "inches", "ft", "foot", "feet", "mil", "mph", "lb", "lbf", "lbs", "kip", "psi", "oz", "ozf", "kgf", "kp",
     "gf", "g_0", "g_n", "gn", "g0", "count", "counts", "digit", "digits", "LSB", "dB", "ppm", "arcmin", "arcsec", "gon",
-    "pound", "pounds", "pound_force", "force_pound", "U", "Umdr", "r", "rps", "dps", "gee", "Nmm", "Ncm", "mils",
+    "pound", "pounds", "pound_force", "force_pound", "thou", "micron", "angstrom", "grad", "klbf", "dyne", "d", "day",
+    "days", "U", "Umdr", "r", "rps", "dps", "gee", "Nmm", "Ncm", "mils",
     "Grad", "Newton", "Newtons", "Millimeter", "Millimeters", "Millimetre", "Millimetres", "Meter", "Meters", "Sekunde",
     "Sekunden", "Second", "Seconds", "Volt", "Volts", "Amp", "Amps", "Ampere", "Degrees", "Degree", "Radians", "RPM",
+    "Sec", "SEC", "Secs",
 }  # fmt: skip
 _ATOMS = (
     _PLAIN
@@ -60,33 +43,48 @@ _ATOMS = (
 )
 _POWER = re.compile(r"(?:\*\*|\^)\s*\(?\s*[+-]?\d\s*\)?|(?<=[^\W\d_])-?\d(?!\w)|[²³⁻¹]")
 _BETWEEN = re.compile(r"[*/·⋅()\s]+")
-_BRACKETS = re.compile(r"(.*\S)\s*(?:\[([^\[\]]+)\]|\(((?:[^()]|\([^()]*\))+)\))")
-_COMMA = re.compile(r"(.*?\S)\s*,\s*([^,(\[]+?)\s*(?:\(.*\)|\[.*\])?")
-"""A name, a unit behind a comma, and perhaps a remark in brackets, as loggers of HOBO write it."""
+_GROUPS = re.compile(r"\[([^\[\]]+)\]|\{([^{}]+)\}|<([^<>]+)>|\(((?:[^()]|\([^()]*\))+)\)")
+"""A part of a name in brackets."""
+_LISTED = re.compile(r"(.*?\S)(?:\s*[,;]\s*|\s+in\s+|\s+[-\u2013]\s+)([^,(\[]+?)\s*(?:\(.*\)|\[.*\])?")
+"""A name, a unit behind a comma, a dash or `in`, and perhaps a remark in brackets, as loggers of HOBO write it."""
+_CAMEL = re.compile(r"(.*[a-z])((?:[A-Z][a-z]*|MS|US|NS|RPM)(?:Per[A-Z][a-z]*2?)?)")
+"""A name with a unit that begins with a capital letter, `positionMm`."""
+_CAPITALS = {
+    "M": "m", "MM": "mm", "CM": "cm", "UM": "um", "IN": "in", "INCH": "inch", "FT": "ft", "S": "s", "SEC": "s",
+    "MS": "ms", "US": "us", "MIN": "min", "KN": "kN", "LBF": "lbf", "KGF": "kgf", "DEG": "deg", "RAD": "rad", "G": "g",
+    "NM": "Nm", "MV": "mV", "MA": "mA", "HZ": "Hz", "MILS": "mils", "SECONDS": "s", "KIP": "kip", "LBS": "lbs",
+}  # fmt: skip
+"""Units in names that consist of capital letters."""
+_RATES = re.compile(r"(u?m|mm|cm|in|ft|m?rad|deg|rev)(?:_?p|_?per_?)s(?:ec(?:ond)?)?_?(2?)")
+_SHORT_RATES = re.compile(r"(m|mm|rad|deg)_?s(_?2)?")
 _DOUBTFUL = {"in", "rev", "turn", "turns", "count", "counts", "mil", "foot", "digit", "digits", "cm", "pm", "nm", "dm",
              "cd", "dN", "mg", "kg", "ft", "gon"}  # fmt: skip
 """Words that may be a unit, or a part of a name."""
 _OTHER = {"mV", "uV", "kV", "mA", "uA", "kA", "Hz", "kHz", "degC", "bar", "kPa", "MPa", "Pa", "psi", "counts"}
 _NONE = re.compile(r"(?!)")
+RAW = frozenset(("V", "mV", "uV", "µV", "kV", "A", "mA", "uA", "kA", "%", "counts", "count", "digits", "digit", "LSB"))
+"""Units of readings that a factor may turn into a quantity of mechanics."""
 _ELECTRICAL = {
     "V": re.compile(r"volt|spannung|supply|(^|_)u($|_)|(^|_)v($|_)", re.IGNORECASE),
     "A": re.compile(r"current|strom|amp|(^|_)i($|_)", re.IGNORECASE),
 }
-_WRAPPED = re.compile(r"\[(.*)\]|\((.*)\)")
+_WRAPPED = re.compile(r"\[(.*)\]|\((.*)\)|\{(.*)\}|<(.*)>")
+_UNIT_WORD = re.compile(r"(?:units?|einheit(?:en)?)\s*[:=]\s*", re.IGNORECASE)
 LONGEST = 40
 """The greatest number of characters of a unit in a header."""
 EMPTY = {"", "-", "--", "1"}
 """Cells of a line of units that mean: no unit."""
 
 PER_SECOND = {"s": 1.0, "ms": 1e3, "us": 1e6, "ns": 1e9}
-SECONDS = {"min": 60.0, "h": 3600.0}
+SECONDS = {"min": 60.0, "h": 3600.0, "d": 86400.0}
 _ALIASES = {
-    "s": ("s", "sec", "secs", "second", "seconds", "Second", "Seconds"),
-    "ms": ("ms", "msec", "millisecond", "milliseconds"),
-    "us": ("us", "µs", "μs", "usec", "microsecond", "microseconds"),
+    "s": ("s", "sec", "secs", "second", "seconds", "Second", "Seconds", "Sec", "SEC", "Secs"),
+    "ms": ("ms", "msec", "millisecond", "milliseconds", "millis"),
+    "us": ("us", "µs", "μs", "usec", "microsecond", "microseconds", "micros"),
     "ns": ("ns", "nsec", "nanosecond", "nanoseconds"),
     "min": ("min", "minute", "minutes"),
     "h": ("h", "hr", "hrs", "hour", "hours"),
+    "d": ("d", "day", "days"),
 }
 TIME_UNITS = {alias: unit for unit, aliases in _ALIASES.items() for alias in aliases}
 """The spellings of units of time, each with its standard name."""
@@ -107,36 +105,78 @@ def is_unit(text: str) -> bool:
 
 def split_name(name: str) -> tuple[str, str]:
     """Return the name of a column without its unit in brackets or behind a comma, and that unit, which may be empty."""
-    found = _BRACKETS.fullmatch(name.strip())
-    unit = (found[2] or found[3]).strip() if found else ""
-    if found and is_unit(unit):
-        return found[1].rstrip(" ,"), unit
-    listed = _COMMA.fullmatch(name.strip())
-    return (listed[1], listed[2].strip()) if listed and is_unit(listed[2]) else (name, "")
+    text = name.strip()
+    for found in reversed([*_GROUPS.finditer(text)]):
+        bare = f"{text[: found.start()].rstrip(' ,')}{text[found.end() :]}".strip()
+        if bare and (unit := _unit_in_name(bare, next(filter(None, found.groups())))):
+            return bare, unit
+    listed = _LISTED.fullmatch(text)
+    unit = _unit_in_name(listed[1], listed[2]) if listed else ""
+    return (listed[1], unit) if listed and unit else (name, "")
+
+
+def strange_unit(name: str) -> str:
+    """Return the word in square, curly or pointed brackets at the end of a name if it is no known unit; else ""."""
+    *_, last = (None, *_GROUPS.finditer(name))
+    if last is None or last[4] or name[last.end() :].strip() or split_name(name)[1]:
+        return ""
+    word = next(filter(None, last.groups())).strip()
+    return "" if word.isdigit() or word in EMPTY else word
+
+
+def _unit_in_name(head: str, word: str) -> str:
+    """Return the unit that a word beside the name `head` means, or an empty text.
+
+    `MM` is mm, and in a name of capital letters `M` is m. `nm` of a torque is a newton metre, `G` of an acceleration is
+    that of gravity, and `lbs` or `lb` of a force is a pound-force.
+    """
+    word, kind = word.strip(), kind_named(head)
+    if word.isupper() and (head.isupper() or len(word) > 1):
+        spelt = re.sub(r"[A-Z]+", lambda found: _CAPITALS.get(found[0], found[0]), word)
+        word = spelt if is_unit(spelt) else word
+    if kind == "force" and (torque := re.fullmatch(r"([mk]?)nm", word)):
+        return f"{torque[1]}Nm"
+    if kind == "force" and word in ("lb", "lbs"):
+        return "lbf"
+    return "g" if word == "G" and kind == "acceleration" else word if is_unit(word) else ""
 
 
 def name_and_unit(name: str) -> tuple[str, str]:
     """Return the name of a column without its unit, and that unit, which may be empty.
 
-    The unit is in brackets, `Force [N]`, behind a comma, `Force, N`, or at the end, `force_N`, `Time/ms`, `v_mm_per_s`.
-    At the end, a single letter is a unit only of the quantity that the name says: `force_N`, but not `sensor_A`; and
-    so is a word that may have another sense, as in `force_min`.
+    The unit is in brackets, `Force [N]`, behind a comma, `Force, N`, or at the end, `force_N`, `Time/ms`, `v_mm_per_s`,
+    `positionMm`. At the end, a single letter is a unit only of the quantity that the name says: `force_N`, but not
+    `sensor_A`; and so is a word that may have another sense, as in `force_min`. A name may also be a unit of time only.
     """
     bare, unit = split_name(name)
     if unit:
         return bare, unit
-    pieces = re.split(r"([_/ .])", name)
+    pieces = re.split(r"([_/ .:@])", name)
     for count in (7, 5, 3, 1):  # pieces of the unit, with the separators between them
         head, tail = "".join(pieces[: -count - 1]), pieces[-count:]
-        if len(pieces) > count + 1 and head and is_unit(word := _join_unit(tail)) and _fits(head, word):
+        if len(pieces) > count + 1 and head and (word := _unit_at_end(head, tail)) and _fits(head, word):
             return head, word
-    return name, ""
+    if (camel := _CAMEL.fullmatch(name)) and (word := _unit_at_end(camel[1], [_lower_first(camel[2])])):
+        return (camel[1], word) if _fits(camel[1], word) else (name, "")
+    alone = TIME_UNITS.get(name.strip().rstrip("()")) if name.strip() not in ("d", "h", "min") else None
+    return name, alone or ""
 
 
-def _join_unit(pieces: Sequence[str]) -> str:
-    """Return the unit in the last pieces of a name: `m_per_s2` and `m_s2` become `m/s2`."""
-    words = [word for word in pieces[::2] if word and word != "per"]
-    return "/".join(words)
+def _lower_first(word: str) -> str:
+    """Return a word of capitals, or with a capital at its beginning, in lower case; N stays as it is."""
+    return word.lower().replace("per", "_per_") if word != "N" else word
+
+
+def _unit_at_end(head: str, tail: Sequence[str]) -> str:
+    """Return the unit in the last pieces of a name: `m_per_s2`, `m_s2` and `mps2` become `m/s^2`; "" where none is."""
+    text, kind = "".join(tail), kind_named(head)
+    rate = _RATES.fullmatch(text)
+    if rate is None and kind in ("velocity", "acceleration"):
+        short = _SHORT_RATES.fullmatch(text)
+        rate = short if short and bool(short[2]) == (kind == "acceleration") else None
+    if rate:
+        return f"{rate[1]}/s^2" if rate[2] else f"{rate[1]}/s"
+    return _unit_in_name(head, "/".join(word for word in tail[::2] if word and word != "per"))
 
 
 def _fits(head: str, unit: str) -> bool:
@@ -155,6 +195,25 @@ def kinds_of(unit: str) -> tuple[str, ...]:
     return tuple(kind for kind in KINDS if unit and _measures(unit, kind))
 
 
+def contradict(one: str, other: str) -> bool:
+    """Return whether two units cannot both be those of one column; an empty text is no unit."""
+    if not one or not other or one == other:
+        return False
+    if one in TIME_UNITS or other in TIME_UNITS:
+        return TIME_UNITS.get(one) != TIME_UNITS.get(other)
+    kinds = set(kinds_of(one)), set(kinds_of(other))
+    if kinds[0] != kinds[1]:
+        return bool(kinds[0] and kinds[1])
+    return any(abs(si_factor(one, kind)[0] / si_factor(other, kind)[0] - 1.0) > 1e-6 for kind in kinds[0])
+
+
+def check_name(name: str, unit: str) -> None:
+    """Raise `DataError` for a column whose name states another unit than the line or the attribute beside it."""
+    named = spell_unit(name_and_unit(name)[1])
+    if contradict(spell_unit(unit), named):
+        raise DataError(f"the unit of {name!r} is {named} by its name and {unit} beside it: give the true one of them")
+
+
 def _measures(unit: str, kind: str) -> bool:
     try:
         si_factor(unit, kind)
@@ -165,7 +224,9 @@ def _measures(unit: str, kind: str) -> bool:
 
 def unit_line(cells: Sequence[str]) -> list[str] | None:
     """Return the units in a line below the header, empty where a cell has none; None if it is no line of units."""
-    found = [_strip_brackets(cell.strip()) for cell in cells]
+    found = [_strip_brackets(_UNIT_WORD.sub("", cell.strip())) for cell in cells]
+    if all(cell.upper() == cell for cell in found):
+        found = [_unit_in_name("X", cell) or cell for cell in found]
     filled = [cell for cell in found if cell not in EMPTY]
     if not filled or 2 * sum(map(is_unit, filled)) < len(filled):
         return None
@@ -174,21 +235,21 @@ def unit_line(cells: Sequence[str]) -> list[str] | None:
 
 def _strip_brackets(cell: str) -> str:
     found = _WRAPPED.fullmatch(cell)
-    return (found[1] or found[2] or "").strip() if found else cell
+    return next(filter(None, found.groups()), "").strip() if found else cell
 
 
 def seconds(values: Array, unit: str, source: str) -> Array:
-    """Return a time column (n,) in s from one in s, ms, us, µs, ns, min or h; `DataError` for another unit."""
+    """Return a time column (n,) in s from one in s, ms, us, µs, ns, min, h or d; `DataError` for another unit."""
     known = TIME_UNITS.get(spell_unit(unit))
     if known is None:
-        raise DataError(f"{source}: time in {unit[:LONGEST]!r} is not understood: expected s, ms, us, ns, min or h")
+        raise DataError(f"{source}: time in {unit[:LONGEST]!r} is not understood: expected s, ms, us, ns, min, h or d")
     if known == "s":
         return values
     return values / PER_SECOND[known] if known in PER_SECOND else values * SECONDS[known]
 
 
 def time_unit(name: str, table_unit: str | None, given: str | None) -> tuple[str, tuple[str, ...]]:
-    """Return the unit of a time column (s, ms, us, ns, min or h; "" where none is stated), and notes on its origin.
+    """Return the unit of a time column (s, ms, us, ns, min, h or d; "" where none is stated), and notes on its origin.
 
     The unit that is given is used; `DataError` is raised where the file contradicts it. Otherwise the unit in the file
     is used, then the one in the name (`time_ms`, `Time/ms`).
@@ -200,7 +261,8 @@ def time_unit(name: str, table_unit: str | None, given: str | None) -> tuple[str
     wanted = TIME_UNITS.get(spell_unit(given))
     if wanted is None:
         raise DataError(
-            f"the unit {given[:LONGEST]!r} of the time column {name!r} is not a time: expected s, ms, us, ns, min or h"
+            f"the unit {given[:LONGEST]!r} of the time column {name!r} is not a time: expected s, ms, us, ns, min, h or"
+            " d"
         )
     if found and found != wanted:
         raise DataError(

@@ -18,6 +18,9 @@ from lostmotion.recording.value_checks import fill_lost, runs_of
 from lostmotion.settings import DEFAULT, RecordingSettings
 
 Array = NDArray[np.float64]
+JUMP, WHOLE = 0.75, 1e-12
+"""A counter overflows when it jumps by this share of its range, and by at most the rest of it elsewhere; the error of
+whole numbers that were converted to SI units."""
 QUIET, MOSTLY = 0.05, 0.9
 """An input is impulsive when more than the second share of its samples is below the first share of its peak."""
 SEGMENTS, HEARD = 16, 1e-3
@@ -58,6 +61,7 @@ def warnings_of(
     pairs = [(inputs[0], sensors[0])] if len(inputs) == 1 else []
     return (
         *(note for role, signal in each for note in note_angle(signal, f"the {role} {signal.column!r}", limits)),
+        *(note for s in sensors for note in note_overflow(s, f"the response {s.column!r}")),
         *(note for pair in pairs for note in note_units(*pair, limits)),
         *(note for s in sensors for note in note_frozen(s.values, f"the response {s.column!r}", dt, limits)),
         *(note for role, s in each for note in note_far(s.values, f"the {role} {s.column!r}", limits)),
@@ -66,6 +70,23 @@ def warnings_of(
         *(note for pair in pairs for note in note_power(*pair, dt, limits)),
         *(note for u, z in pairs if not is_impulsive(u.values) for note in note_drift(u.values, z.values, dt, limits)),
     )
+
+
+def note_overflow(signal: CheckedChannel, what: str) -> Iterator[str]:
+    """Yield a note when a channel of whole numbers jumps by 2^16 or 2^32, as a counter that overflows does."""
+    counts = signal.values / signal.factor
+    seen = counts[np.isfinite(counts)]
+    if seen.size < 2 or np.abs(seen - np.rint(seen)).max() > WHOLE * max(1.0, float(np.abs(seen).max())):
+        return
+    steps, width = np.abs(np.diff(seen)), float(np.ptp(seen)) + 1.0
+    for bits in (16, 32):
+        size = 2.0**bits
+        jumps = steps > JUMP * size
+        if jumps.any() and width <= size and steps[~jumps].max(initial=0.0) < (1.0 - JUMP) * size:
+            yield (
+                f"{what} jumps by about {size:.0f} at {int(jumps.sum())} samples: a counter of {bits} bits that"
+                f" overflows? Undo it, for instance by numpy.unwrap(x, period={size:.0f})"
+            )
 
 
 def is_impulsive(values: Array) -> bool:
