@@ -67,11 +67,9 @@ def command(
 def _diagnose_one(
     ctx: click.Context, case: Path, out: Path, *, quiet: bool, seed: int, jobs: int, settings: Settings
 ) -> None:
-    from lostmotion.case.load import parse_case
-    from lostmotion.simulators import INVERSE
+    from lostmotion.robots import is_robot_case
 
-    model = parse_case(case).get("model")
-    if isinstance(model, dict) and {INVERSE, *registry_of(ctx).names("simulator")} & model.keys():
+    if is_robot_case(case, registry_of(ctx)):
         _diagnose_robot(ctx, case, out, quiet=quiet, settings=settings)
         return
     from lostmotion.case import GUESSED

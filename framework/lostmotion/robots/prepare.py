@@ -8,14 +8,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lostmotion.contracts import Term
-from lostmotion.errors import DataError
+from lostmotion.errors import CaseError, DataError, nearest
 from lostmotion.evidence.bare import Budget
 from lostmotion.likelihood.sensors import measure_white_noise
 from lostmotion.parts import Array
 from lostmotion.robots.arm import TapedArm
 from lostmotion.robots.candidates import list_effects, make_screen, relinearise
 from lostmotion.robots.discrepancy import LARGE, SIZES, make_discrepancy, make_none
-from lostmotion.robots.effects import ArmCoordinate, measure_scales
+from lostmotion.robots.effects import ArmCoordinate, ArmEffect, measure_scales
 from lostmotion.robots.hypothesis import ArmFrame, fit_hypothesis, list_base
 from lostmotion.robots.log import RobotLog
 from lostmotion.robots.search import ArmSearch, Say
@@ -34,11 +34,15 @@ SECONDS = 600.0
 
 @dataclass(frozen=True)
 class SearchOptions:
-    """How a search is done: the tolerance of known values, the most effects of a set, and its processor time (s)."""
+    """How a search is done: the tolerance of known values, the most effects of a set, and its processor time (s).
+
+    `asked` are the effects that are tried, by name or as NAME@PLACE; all, if empty.
+    """
 
     tolerance: float = 0.02
     most: int = MOST_EFFECTS
     budget: float = SECONDS
+    asked: tuple[str, ...] = ()
 
 
 def make_arm(
@@ -97,11 +101,23 @@ def prepare_search(
         make_discrepancy(arm, arm.tape.path, arm.tape.path.a, scales, options.tolerance, known, sizes)
         for sizes in (SIZES, LARGE)
     ]
-    effects = list_effects(arm, scales, terms, simulator.points, plain)
+    effects = _choose_effects(list_effects(arm, scales, terms, simulator.points, plain), options.asked)
     screen = make_screen(arm, effects, arm.tape.path.a)
     frame = ArmFrame(arm, (), base, both[0], last)
     search = ArmSearch(frame, screen, both[1], arm.log.samples, options.most, Budget(seconds=options.budget), say)
     return search, np.concatenate([[c.mean for c in base], np.zeros(len(both[0].columns))])
+
+
+def _choose_effects(effects: Sequence[ArmEffect], asked: Sequence[str]) -> list[ArmEffect]:
+    """Return the effects that are asked for by name or as NAME@PLACE, or all; raise `CaseError` for an unknown one."""
+    names = {effect.key.partition("@")[0]: None for effect in effects} | {effect.key: None for effect in effects}
+    for wanted in asked:
+        if wanted not in names:
+            short = [name for name in names if "@" not in name]
+            raise CaseError(
+                f"no mechanism {wanted!r} can act in this robot{nearest(wanted, names)}: there are {', '.join(short)}"
+            )
+    return [e for e in effects if not asked or {e.key, e.key.partition("@")[0]} & set(asked)]
 
 
 def _filter_path(arm: TapedArm, base: Sequence[ArmCoordinate], last: int) -> tuple[Path, Array]:
