@@ -70,7 +70,7 @@ def _diagnose_one(
     from lostmotion.robots import is_robot_case
 
     if is_robot_case(case, registry_of(ctx)):
-        _diagnose_robot(ctx, case, out, quiet=quiet, settings=settings)
+        _diagnose_robot(ctx, case, out, quiet=quiet, jobs=jobs, settings=settings)
         return
     from lostmotion.case import GUESSED
     from lostmotion.diagnosis.run import run_diagnosis
@@ -82,11 +82,11 @@ def _diagnose_one(
     click.echo(str(out / "report.html"))
 
 
-def _diagnose_robot(ctx: click.Context, case: Path, out: Path, *, quiet: bool, settings: Settings) -> None:
+def _diagnose_robot(ctx: click.Context, case: Path, out: Path, *, quiet: bool, jobs: int, settings: Settings) -> None:
     from lostmotion.robots.run import run_robot
 
     with show_progress("diagnose", quiet=quiet) as say:
-        found = run_robot(case, out, registry_of(ctx), budget=settings.select.budget or None, say=say)
+        found = run_robot(case, out, registry_of(ctx), budget=settings.select.budget or None, jobs=jobs, say=say)
     for sentence in found.says:
         click.echo(sentence)
     click.echo(str(out / "report.html"))

@@ -92,7 +92,9 @@ def diagnose(
     with show_progress("diagnose", quiet=not progress, lines=False) as say:
         if asked.robot is not None:
             names = () if terms == "all" else list_texts(terms)
-            made = diagnose_robot(asked.robot, known_to, terms=names, budget=limits.select.budget or None, say=say)
+            made = diagnose_robot(
+                asked.robot, known_to, terms=names, budget=limits.select.budget or None, jobs=jobs, say=say
+            )
             found = RobotResult(made.result, made.arrays, made.written)
         else:
             done = diagnose_prepared(

@@ -99,7 +99,7 @@ def list_promises(screen: Screen, beside: ArmHypothesis, price: float, temper: f
     e, v = seen.here.errors, seen.here.variances
     slopes = more @ (-e / v)
     cross = (seen.errors[used] / v) @ more.T
-    own = seen.gradient[used] - seen.precision[used] * (seen.at[used] - seen.middle[used])
+    own = seen.gradient[used] - frame.weigh(beside.choice)[used] * (seen.at[used] - seen.middle[used])
     pulled = np.linalg.solve(beside.precision, np.column_stack([cross, own]))
     best: dict[str, ArmPromise] = {}
     size = np.sqrt(np.sum(more * more / v, axis=1))

@@ -36,13 +36,15 @@ SECONDS = 600.0
 class SearchOptions:
     """How a search is done: the tolerance of known values, the most effects of a set, and its processor time (s).
 
-    `asked` are the effects that are tried, by name or as NAME@PLACE; all, if empty.
+    `asked` are the effects that are tried, by name or as NAME@PLACE; all, if empty. `jobs` is the number
+    of threads.
     """
 
     tolerance: float = 0.02
     most: int = MOST_EFFECTS
     budget: float = SECONDS
     asked: tuple[str, ...] = ()
+    jobs: int = 1
 
 
 def make_arm(
@@ -104,8 +106,9 @@ def prepare_search(
     effects = _choose_effects(list_effects(arm, scales, terms, simulator.points, plain), options.asked)
     screen = make_screen(arm, effects, arm.tape.path.a)
     frame = ArmFrame(arm, (), base, both[0], last)
-    search = ArmSearch(frame, screen, both[1], arm.log.samples, options.most, Budget(seconds=options.budget), say)
-    return search, np.concatenate([[c.mean for c in base], np.zeros(len(both[0].columns))])
+    budget = Budget(seconds=options.budget)
+    search = ArmSearch(frame, screen, both[1], arm.log.samples, options.most, budget, options.jobs, say)
+    return search, np.concatenate([at, np.zeros(len(both[0].columns))])
 
 
 def _choose_effects(effects: Sequence[ArmEffect], asked: Sequence[str]) -> list[ArmEffect]:

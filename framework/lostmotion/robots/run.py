@@ -74,7 +74,7 @@ def save_robot(folder: Path, result: RobotDiagnosis, arrays: xr.Dataset, written
 
 
 def run_robot(
-    path: Path, out: Path, registry: Registry, *, budget: float | None = None, say: Say = lambda _: None
+    path: Path, out: Path, registry: Registry, *, budget: float | None = None, jobs: int = 1, say: Say = lambda _: None
 ) -> RobotDiagnosis:
     """Return the diagnosis of the case of a robot, after writing its files and the changed model into a folder.
 
@@ -83,7 +83,7 @@ def run_robot(
     say("reading the case")
     case = load_robot_case(path, registry)
     folder = folder_for(out)
-    made = diagnose_robot(case, registry, budget=budget, say=say)
+    made = diagnose_robot(case, registry, budget=budget, jobs=jobs, say=say)
     say("report")
     save_robot(folder, made.result, made.arrays, made.written)
     return made.result
@@ -96,11 +96,13 @@ def diagnose_robot(
     *,
     terms: Sequence[str] = (),
     budget: float | None = None,
+    jobs: int = 1,
     say: Say = lambda _: None,
 ) -> RobotOutput:
     """Return the output of the diagnosis of a robot; raise `CaseError` where a check of the log fails.
 
-    `terms` are the mechanisms that are tried, by name or as NAME@PLACE; all, if empty.
+    `terms` are the mechanisms that are tried, by name or as NAME@PLACE; all, if empty. `jobs` is the number of threads,
+    on which the result does not depend.
     """
     say("tape")
     simulator = case.model.simulator
@@ -108,7 +110,9 @@ def diagnose_robot(
     checks = check_log(plain, simulator)
     if stopped := [check.says for check in checks if check.stop]:
         raise CaseError(" ".join(stopped))
-    options = SearchOptions(case.model.tolerance, budget=SECONDS if budget is None else budget, asked=tuple(terms))
+    options = SearchOptions(
+        case.model.tolerance, budget=SECONDS if budget is None else budget, asked=tuple(terms), jobs=jobs
+    )
     search, start = prepare_search(plain, simulator, _make_library(registry), case.coordinates, options, say)
     search.run(start)
     if not search.found:

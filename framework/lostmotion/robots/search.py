@@ -11,6 +11,7 @@ import numpy as np
 from lostmotion.evidence.bare import Budget
 from lostmotion.evidence.search import compute_probabilities
 from lostmotion.inference.penalties import compute_unknown_price
+from lostmotion.kernels.threads import each
 from lostmotion.parts import Array
 from lostmotion.robots.candidates import ArmPromise, Screen, list_gear_promises, list_promises
 from lostmotion.robots.discrepancy import Discrepancy
@@ -44,6 +45,7 @@ class ArmSearch:
     samples: int
     most: int
     budget: Budget
+    jobs: int = 1
     say: Say = lambda _: None
     found: dict[Terms, ArmHypothesis] = field(default_factory=dict)
     extended: set[Terms] = field(default_factory=set)
@@ -104,33 +106,41 @@ class ArmSearch:
         wanted += [(p, (math.log(SMALL),)) for p in more if p.gain > 0.0 and p.effect.key not in known]
         wanted += [(p, (0.0, math.log(SMALL))) for p in gears if p.gain > 0.0]
         self.say(f"fits beside {name_set(target.terms)}: {', '.join(p.effect.key for p, _ in wanted) or 'none'}")
-        for promise, shifts in wanted:
+
+        def fit(one: tuple[ArmPromise, tuple[float, ...]]) -> ArmHypothesis | None:
             if self.budget.spent:
                 self.skipped = True
-                return
-            self._weigh_beside(target, promise, shifts)
+                return None
+            return self._fit_beside(target, *one)
+
+        for made in each(fit, wanted, self.jobs):
+            self._keep(made)
 
     def _make_small(self, target: ArmHypothesis) -> ArmHypothesis | None:
         """Return the hypothesis with a small random force, at which slopes of effects that look like noise show."""
         at = target.at.copy()
         at[: len(self.frame.arm.joints)] += math.log(SMALL)
-        seen, kept = target.frame.expand(at, target.choice)
+        seen, kept = target.frame.expand(at)
         if not math.isfinite(float(kept.seen.log_likelihood)):
             return None
-        precision = seen.information[np.ix_(target.used, target.used)] + np.diag(seen.precision[target.used])
+        precision = seen.information[np.ix_(target.used, target.used)] + np.diag(
+            target.frame.weigh(target.choice)[target.used]
+        )
         return replace(target, at=at, expansion=seen, kept=kept, precision=precision)
 
-    def _weigh_beside(self, target: ArmHypothesis, promise: ArmPromise, shifts: tuple[float, ...]) -> None:
-        """Fit a set with one more effect, in place of simpler ones that it contains."""
+    def _fit_beside(
+        self, target: ArmHypothesis, promise: ArmPromise, shifts: tuple[float, ...]
+    ) -> ArmHypothesis | None:
+        """Return the fitted set with one more effect, in place of simpler ones that it contains."""
         kept = [e for e in target.frame.effects if e.key not in promise.effect.extends]
         effects = tuple(sorted((*kept, promise.effect), key=lambda e: e.key))
         if frozenset(e.key for e in effects) in self.found:
-            return
+            return None
         moved = target if promise.shift is None else self._move(target, promise.shift)
         known = self._read(moved) | {
             c.key: c.place(promise.start.get(c.key, c.value(c.mean))) for c in promise.effect.coordinates
         }
-        self.weigh(effects, self._vary_levels(self._place(effects, known), shifts), target)
+        return self._fit(effects, self._vary_levels(self._place(effects, known), shifts), target)
 
     def _move(self, one: ArmHypothesis, shift: Array) -> ArmHypothesis:
         """Return a hypothesis with the coefficients of its discrepancy where a promise expects them."""
@@ -141,6 +151,11 @@ class ArmSearch:
         """Return starts with other random forces, whose logarithms are shifted."""
         first = np.arange(len(at)) < len(self.frame.arm.joints)
         return [np.where(first, at + shift, at) for shift in shifts]
+
+    @property
+    def _levels(self) -> int:
+        """The number of coordinates that are levels of random forces and of noise."""
+        return len(self.frame.arm.joints) + len(self.frame.arm.log.picks)
 
     def _read(self, one: ArmHypothesis) -> dict[str, float]:
         """Return the coordinates of a hypothesis by key, those of the discrepancy by number."""
@@ -155,17 +170,26 @@ class ArmSearch:
         return np.array([*own, *more])
 
     def weigh(self, effects: tuple[ArmEffect, ...], starts: list[Array], beside: ArmHypothesis | None = None) -> None:
-        """Fit a set of effects from several starts, and keep the best fit with its density of held-out data."""
+        """Fit a set of effects from several starts, and keep the best fit."""
+        self._keep(self._fit(effects, starts, beside))
+
+    def _fit(
+        self, effects: tuple[ArmEffect, ...], starts: list[Array], beside: ArmHypothesis | None
+    ) -> ArmHypothesis | None:
+        """Return the best fit of a set of effects from several starts, with its density of held-out data."""
         frame = replace(self.frame, effects=effects)
         price = sum(self.price + effect.price for effect in effects)
         choice = beside.choice if beside is not None else None
         made = [fit_hypothesis(frame, start, price, choice) for start in starts]
         fitted = [one for one in made if one is not None]
-        if fitted:
-            self._keep(max(fitted, key=lambda one: one.log_evidence))
+        return self._score(max(fitted, key=lambda one: one.log_evidence)) if fitted else None
 
-    def _keep(self, made: ArmHypothesis) -> None:
-        made = replace(made, heldout=score_heldout(made, self.frame.last, self.samples))
+    def _score(self, made: ArmHypothesis) -> ArmHypothesis:
+        return replace(made, heldout=score_heldout(made, self.frame.last, self.samples))
+
+    def _keep(self, made: ArmHypothesis | None) -> None:
+        if made is None:
+            return
         known = self.found.get(made.terms)
         better = known is None or made.log_evidence + made.heldout > known.log_evidence + known.heldout
         if math.isfinite(made.heldout) and better:
@@ -179,7 +203,11 @@ class ArmSearch:
             terms = frozenset(e.key for e in rest)
             if (target.terms, terms) not in self.dropped:
                 self.dropped.add((target.terms, terms))
-                self.weigh(rest, self._vary_levels(self._place(rest, known)), target)
+                start = self._place(rest, known)
+                if terms in self.found:
+                    levels = self.found[terms].at[: self._levels]
+                    start[: len(levels)] = levels
+                self.weigh(rest, [start], target)
 
     def weigh_unknown(self, target: ArmHypothesis) -> None:
         """Fit a set with a smooth force that is larger than the usual discrepancy."""
@@ -192,7 +220,7 @@ class ArmSearch:
             return
         usual = [len(force.options) for force in target.frame.discrepancy.forces]
         if any(option >= count for option, count in zip(made.choice, usual, strict=True)):
-            self._keep(replace(made, unknown=True))
+            self._keep(self._score(replace(made, unknown=True)))
 
 
 def _widen(target: ArmHypothesis, large: Discrepancy) -> tuple[int, ...]:

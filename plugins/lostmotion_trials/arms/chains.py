@@ -40,7 +40,9 @@ def _hide_viscous(arm: Chain, j: int, force: float, rng: np.random.Generator) ->
 
 def _hide_ripple(arm: Chain, j: int, force: float, rng: np.random.Generator) -> Truth:
     arm.ripple[j], arm.order[j] = _size(rng, force), rng.uniform(30.0, 90.0)
-    return Truth("cogging", arm.joints[j], {"force": float(arm.ripple[j]), "pitch": 2.0 * math.pi / float(arm.order[j])})
+    return Truth(
+        "cogging", arm.joints[j], {"force": float(arm.ripple[j]), "pitch": 2.0 * math.pi / float(arm.order[j])}
+    )
 
 
 def _hide_spring(arm: Chain, j: int, force: float, rng: np.random.Generator) -> Truth:

@@ -8,6 +8,7 @@ Source: Featherstone, Rigid Body Dynamics Algorithms (2008), chapter 5.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numba
@@ -76,7 +77,7 @@ class Chain:
         """Return the torques (samples, n) without friction: what a controller feeds forward."""
         bodies, found = self.bodies(), np.zeros_like(q)
         for k in range(len(q)):
-            _invert(q[k], v[k], a[k], GRAVITY, *bodies, found[k])
+            _find_torque(q[k], v[k], a[k], GRAVITY, *bodies, found[k])
         return np.asarray(found + self.armature * a + self.damping * v)
 
 
@@ -88,11 +89,12 @@ def draw_chain(rng: np.random.Generator, joints: int) -> Chain:
     centre = rng.uniform(-0.06, 0.06, (n, 3))
     inertia = mass[:, None] * rng.uniform(0.002, 0.006, (n, 3))
     inertia = np.maximum(inertia, 0.55 * inertia.sum(axis=1, keepdims=True) * np.array([0.6, 0.6, 0.6]))
-    none = {name: np.zeros(n) for name in ("friction", "excess", "backward", "ripple", "spring", "offset", "delay")}
     return Chain(
         turn=0.5 * math.pi * np.array(_TURNS[:n]), place=np.array(_PLACES[:n], dtype=float), mass=mass, centre=centre,
         inertia=inertia, tip=np.array([0.03, 0.0, 0.15]), armature=armature, damping=1.5 * armature * spread[2],
-        stribeck=np.full(n, 0.1), order=np.full(n, 60.0), gain=np.ones(n), **none,
+        stribeck=np.full(n, 0.1), order=np.full(n, 60.0), gain=np.ones(n),
+        friction=np.zeros(n), excess=np.zeros(n), backward=np.zeros(n), ripple=np.zeros(n), spring=np.zeros(n),
+        offset=np.zeros(n), delay=np.zeros(n),
     )  # fmt: skip
 
 
@@ -132,7 +134,7 @@ def record_chain(
     )  # fmt: skip
     late = np.round(arm.delay / STEP).astype(np.int64)
     gains = np.outer((600.0, 30.0), 2.0 * arm.armature)
-    seen, told = _integrate(q, v, feed, noise, kicks, gains, *arm.bodies(), table, late, steps, dt)
+    seen, told = _simulate(q, v, feed, noise, kicks, gains, *arm.bodies(), table, late, steps, dt)
     return Log(np.asarray(dt * np.arange(samples), dtype=float), told + errors, seen)
 
 
@@ -251,3 +253,7 @@ def _integrate(q, v, feed, noise, kicks, gains, turn, place, mass, centre, inert
             w = new
             x += 0.5 * h * w
     return seen, told
+
+
+_find_torque: Callable[..., None] = _invert
+_simulate: Callable[..., tuple[Array, Array]] = _integrate
