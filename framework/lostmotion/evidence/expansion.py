@@ -48,19 +48,24 @@ class Expansion:
         return self.score(self.here)
 
     def score(self, there: Innovations) -> Array:
-        """Return the gradient (n,) at one-step errors of another point, where the derivatives are the same."""
+        """Return the gradient (n,) at one-step errors of another point, where the derivatives are the same.
+
+        It is not finite where the filter has nearly diverged.
+        """
         e, v = there.errors.ravel(), there.variances.ravel()
-        return np.asarray(self.errors @ (-e / v) + self.variances @ (0.5 * (e * e / v - 1.0) / v))
+        with np.errstate(over="ignore", invalid="ignore"):
+            return np.asarray(self.errors @ (-e / v) + self.variances @ (0.5 * (e * e / v - 1.0) / v))
 
     @cached_property
     def information(self) -> Array:
-        """The expected information (n, n) of the log-likelihood."""
+        """The expected information (n, n) of the log-likelihood; not finite where the filter has nearly diverged."""
         v = self.here.variances
-        scaled = self.errors / np.sqrt(v)
-        found = scaled @ scaled.T
         moved = np.flatnonzero(self.variances.any(axis=1))
-        spread = self.variances[moved] / (math.sqrt(2.0) * v)
-        found[np.ix_(moved, moved)] += spread @ spread.T
+        with np.errstate(over="ignore", invalid="ignore"):
+            scaled = self.errors / np.sqrt(v)
+            found = scaled @ scaled.T
+            spread = self.variances[moved] / (math.sqrt(2.0) * v)
+            found[np.ix_(moved, moved)] += spread @ spread.T
         return np.asarray(found)
 
     def list_indices(self, *names: str) -> NDArray[np.intp]:

@@ -102,6 +102,10 @@ class ArmFrame:
             moved = at.copy()
             moved[i] += step
             seen = self.run(moved, last=last, force=force).seen
+            if not seen.finite:
+                step = -step
+                moved[i] = at[i] + step
+                seen = self.run(moved, last=last, force=force).seen
             errors[i] = (seen.errors - kept.seen.errors).ravel() / step
             variances[i] = (seen.variances - kept.seen.variances).ravel() / step
         gears = {e.joint: e.make(self.read(at)) for e in self.gears}
@@ -193,6 +197,8 @@ def fit_hypothesis(frame: ArmFrame, start: Array, price: float, choice: Choice |
     damping = 0.0
     for _ in range(ROUNDS):
         seen, kept = frame.expand(at)
+        if not np.isfinite(seen.information).all():
+            return None
         chosen = _choose_forces(frame, seen, chosen)
         at = np.where(np.concatenate([np.ones(own, bool), frame.discrepancy.widths(chosen) > 0.0]), at, 0.0)
         used, precision = _find_precision(frame, seen, chosen)
@@ -225,6 +231,8 @@ def _step(
     total = 0.0
     for _ in range(MOST_STEPS):
         pull = seen.score(errors)[used] - weights * (at[used] - seen.middle[used])
+        if not np.isfinite(pull).all():
+            break
         step = np.zeros(len(at))
         step[used] = np.linalg.solve(precision + damping * np.diag(np.diag(precision)), pull)
         step[:own] = np.clip(step[:own], -LONGEST_STEP, LONGEST_STEP)
