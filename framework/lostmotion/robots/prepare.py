@@ -27,7 +27,7 @@ FITTED = 0.7
 FORCE = 0.02
 """The random force to start from, as a share of the torque."""
 MOST_EFFECTS = 4
-"""The largest number of effects in a set."""
+"""The largest number of effects in a set; with more joints one more than joints."""
 SECONDS = 600.0
 """The processor time of a search (s)."""
 
@@ -107,7 +107,8 @@ def prepare_search(
     screen = make_screen(arm, effects, arm.tape.path.a)
     frame = ArmFrame(arm, (), base, both[0], last)
     budget = Budget(seconds=options.budget)
-    search = ArmSearch(frame, screen, both[1], arm.log.samples, options.most, budget, options.jobs, say)
+    most = max(options.most, len(arm.joints) + 1) if len(arm.joints) > 2 else options.most
+    search = ArmSearch(frame, screen, both[1], arm.log.samples, most, budget, options.jobs, say)
     return search, np.concatenate([at, np.zeros(len(both[0].columns))])
 
 
