@@ -5,7 +5,8 @@
 
 Each arm has two joints, random masses, and one effect of random size at a random joint, or none. Its log comes from an
 integrator of its own (`lostmotion_trials.integrators`). With more `--joints` it moves in space. `--wrong` is the share
-(sd) by which inertias and damping of the machine differ from those of its model. One line of JSON for each arm goes to a file in FOLDER as it is done.
+(sd) by which inertias and damping of the machine differ from those of its model. One line of JSON for each arm goes to
+a file in FOLDER as it is done.
 """
 
 from __future__ import annotations

@@ -28,7 +28,7 @@ FORCE = 0.02
 """The random force to start from, as a share of the torque."""
 MOST_EFFECTS = 4
 """The largest number of effects in a set; with more joints one more than joints."""
-SECONDS = 600.0
+SECONDS = 1200.0
 """The processor time of a search (s)."""
 
 
