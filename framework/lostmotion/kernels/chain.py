@@ -125,15 +125,8 @@ def filter_chain(  # type: ignore[no-untyped-def]
     A, T, F, E = np.zeros((L, L)), np.zeros((L, L)), np.zeros((L, L)), np.zeros((L, n))
     Y, y, g, d, f, up = np.zeros((n, L)), np.zeros(n), np.zeros(L), np.zeros(L), np.zeros(L), np.zeros(L)
     own, desk, noise = np.zeros((16, STRIDE)), np.zeros((8, STRIDE)), np.zeros((n, n))
-    rates, places = np.zeros(L - n, dtype=np.int64), np.zeros(L - n, dtype=np.int64)
-    count = 0
-    for i in range(n):
-        rates[count], places[count] = n + i, i
-        count += 1
-        if motors[i] >= 0:
-            rates[count], places[count] = motors[i] + 1, motors[i]
-            count += 1
-    rates, places = rates[:count], places[:count]
+    places = np.concatenate((np.arange(n), np.arange(2 * n, L, 2)))
+    rates = np.concatenate((np.arange(n, 2 * n), np.arange(2 * n + 1, L, 2)))
     active = np.zeros(n, dtype=np.bool_)
     for a in range(len(joints)):
         active[joints[a]] = True
@@ -261,7 +254,6 @@ def filter_chain(  # type: ignore[no-untyped-def]
                     p, u = places[i], rates[j]
                     P[p, u] = 0.5 * hs * (P[rates[i], u] + T[u, rates[i]]) + T[u, p]
                     P[u, p] = P[p, u]
-            for i in range(len(rates)):
                 for j in range(i + 1):
                     p, q = places[i], places[j]
                     P[p, q] = 0.5 * hs * (P[p, rates[j]] + T[p, rates[j]]) + T[p, q]
