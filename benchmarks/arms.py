@@ -1,10 +1,12 @@
 """Robot arms with a hidden effect: how often joint and physics are both named, and how often a name is false.
 
     python benchmarks/arms.py --arms 24 --empty 10 --wrong 0.02 --seed 0 --out FOLDER
+    python benchmarks/arms.py --joints 7 --effects 2 --arms 10 --out FOLDER
 
 Each arm has two joints, random masses, and one effect of random size at a random joint, or none. Its log comes from an
-integrator of its own (`lostmotion_trials.integrators.arm`). `--wrong` is the share (sd) by which inertias and damping
-of the machine differ from those of its model. One line of JSON for each arm goes to a file in FOLDER as it is done.
+integrator of its own (`lostmotion_trials.integrators`). With more `--joints` it moves in space. `--wrong` is the share
+(sd) by which inertias and damping of the machine differ from those of its model. One line of JSON for each arm goes to
+a file in FOLDER as it is done.
 """
 
 from __future__ import annotations
@@ -12,38 +14,47 @@ from __future__ import annotations
 import argparse
 import json
 import time
+from collections.abc import Sequence
 from pathlib import Path
 
 from lostmotion.registry import Registry
-from lostmotion.robots.arm_case import load_robot_case
-from lostmotion.robots.arm_run import diagnose_robot
+from lostmotion.robots.case import load_robot_case
+from lostmotion.robots.run import diagnose_robot
+from lostmotion_trials.arms.chains import CHAIN_EFFECTS, draw_hidden_chain, write_chain_case
 from lostmotion_trials.arms.draw import EFFECTS, Truth, draw_arm, write_case
 
 SURE = 0.95
 
 
-def judge(truth: Truth, found: list[dict[str, object]]) -> str:
-    """Return the outcome: right, physics, joint, false, silent or empty."""
-    named = [f for f in found if f["probability"] > SURE]  # type: ignore[operator]
-    if truth.mechanism == "none":
-        return "false" if named else "empty"
-    pairs = {(f["mechanism"], f["at"]) for f in named}
-    if pairs == {(truth.mechanism, truth.at)}:
-        return "right"
-    if (truth.mechanism, truth.at) in pairs:
-        return "right and more"
-    if not named:
+def judge(truths: Sequence[Truth], found: list[dict[str, object]]) -> str:
+    """Return the outcome: right, right and more, in part, other physics, wrong joint, silent, empty or false."""
+    pairs = {(f["mechanism"], str(f["at"])) for f in found if f["probability"] > SURE}  # type: ignore[operator]
+    hidden = {(truth.mechanism, truth.at) for truth in truths}
+    if not hidden:
+        return "false" if pairs else "empty"
+    if not pairs:
         return "silent"
-    joint = truth.at.partition(".")[0]
-    return "other physics" if all(str(at).partition(".")[0] == joint for _, at in pairs) else "wrong joint"
+    if pairs >= hidden:
+        return "right" if pairs == hidden else "right and more"
+    joints = {at.partition(".")[0] for _, at in hidden}
+    if any(at.partition(".")[0] not in joints for _, at in pairs):
+        return "wrong joint"
+    return "in part" if pairs < hidden else "other physics"
 
 
 def run(number: int, effect: str, options: argparse.Namespace, registry: Registry) -> dict[str, object]:
     """Return the outcome of one arm."""
-    model, truth, log = draw_arm(number, options.seed, effect, options.wrong)
-    case = write_case(options.out / f"arm{number:03d}", number, model, log)
+    folder = options.out / f"arm{number:03d}"
+    if options.joints == 2:
+        model, truth, log = draw_arm(number, options.seed, effect, options.wrong)
+        truths: tuple[Truth, ...] = (truth,) if effect != "none" else ()
+        case = write_case(folder, number, model, log)
+    else:
+        names = [] if effect == "none" else [effect, *list(CHAIN_EFFECTS)[number % 5 :][: options.effects - 1]]
+        chain, truths, log = draw_hidden_chain(number, options.seed, names, options.joints, options.wrong)
+        case = write_chain_case(folder, f"Chain {number}", chain, log)
     begun = time.process_time()
-    output = diagnose_robot(load_robot_case(case, registry), registry)
+    output = diagnose_robot(load_robot_case(case, registry), registry, jobs=options.jobs)
     found = [
         {
             "mechanism": m.mechanism, "at": m.at, "probability": m.probability,
@@ -54,7 +65,8 @@ def run(number: int, effect: str, options: argparse.Namespace, registry: Registr
     first = output.result.ranking[0]
     fit = output.result.fit
     return {
-        "number": number, "outcome": judge(truth, found), "truth": [truth.mechanism, truth.at, dict(truth.values)],
+        "number": number, "outcome": judge(truths, found),
+        "truth": [[t.mechanism, t.at, dict(t.values)] for t in truths],
         "found": found, "gain": first.log_evidence_gain, "before": fit.before.nrmse, "after": fit.after.nrmse,
         "seconds": time.process_time() - begun,
     }  # fmt: skip
@@ -68,11 +80,14 @@ def main() -> None:
     parser.add_argument("--wrong", type=float, default=0.0)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--only", default="")
+    parser.add_argument("--joints", type=int, default=2)
+    parser.add_argument("--effects", type=int, default=1)
+    parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--out", type=Path, required=True)
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
     registry, file = Registry.discover(), options.out / "rows.jsonl"
-    effects = options.only.split(",") if options.only else list(EFFECTS)
+    effects = options.only.split(",") if options.only else list(EFFECTS if options.joints == 2 else CHAIN_EFFECTS)
     plan = [effects[i % len(effects)] for i in range(options.arms)] + ["none"] * options.empty
     done = {json.loads(line)["number"] for line in file.read_text().splitlines()} if file.exists() else set()
     for number, effect in enumerate(plan):

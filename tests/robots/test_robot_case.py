@@ -166,3 +166,24 @@ def test_mjcf_needs_mujoco_or_reads_it(tmp_path):
     assert done.exit_code == 0, done.output
     assert json.loads((tmp_path / "out" / "diagnosis.json").read_text())["verdict"] == "adequate"
     assert "<mujoco" in (tmp_path / "out" / "arm_found.xml").read_text()
+
+
+@pytest.mark.slow
+def test_a_batch_diagnoses_robots_and_sets_faults_aside(tmp_path):
+    good = write(tmp_path / "good", Arm(friction=np.array([0.0, 0.4])), samples=1500)
+    bad = write(tmp_path / "bad", change=swap, samples=1500)
+    command = ["diagnose", str(good), str(bad), "--out", str(tmp_path / "out"), "--quiet", "--budget", "4"]
+    done = CliRunner().invoke(main, command)
+    assert done.exit_code == 1, done.output
+    assert "1 of 2 cases diagnosed, 1 set aside" in done.output
+    assert "look swapped" in done.output
+    rows = (tmp_path / "out" / "summary.csv").read_text().splitlines()
+    assert any("coulomb_friction@elbow" in row for row in rows)
+    result = tmp_path / "out" / "good-case" / "diagnosis.json"
+    made = result.stat().st_mtime_ns
+    assert CliRunner().invoke(main, command).exit_code == 1
+    assert result.stat().st_mtime_ns == made  # an existing diagnosis is not repeated
+    with (good.parent / "my_model.py").open("a", encoding="utf-8") as stream:
+        stream.write("\n")
+    assert CliRunner().invoke(main, command).exit_code == 1
+    assert result.stat().st_mtime_ns != made

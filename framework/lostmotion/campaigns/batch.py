@@ -21,8 +21,12 @@ from lostmotion.preparation.prepare import case_of
 from lostmotion.provenance import digest, origin_of, provenance
 from lostmotion.registry import Registry
 from lostmotion.results.diagnosis import Diagnosis
+from lostmotion.results.robots import RobotDiagnosis, is_robot_result
+from lostmotion.robots import is_robot_case
+from lostmotion.robots.case import load_robot_case
+from lostmotion.robots.run import FOUND_MODEL, make_robot_origin, run_robot
 from lostmotion.settings import DEFAULT, Settings
-from lostmotion.storage import folder_for, load_result, writing
+from lostmotion.storage import folder_for, load_json, load_result, writing
 
 FILES = ("report.html", "diagnosis.json", "arrays.nc")
 """The files of a diagnosis. The report is written last and removed first: where it exists, the others are complete."""
@@ -69,31 +73,45 @@ class Batch:
         """Make the diagnosis of a case in its folder, unless it exists there."""
         if not self._is_current(path, place):
             _remove_results(place)
-            run_diagnosis(path, place, self._registry(), seed=self.seed, jobs=1, settings=self.settings)
+            known = self._registry()
+            if is_robot_case(path, known):
+                run_robot(path, place, known, budget=self._budget)
+            else:
+                run_diagnosis(path, place, known, seed=self.seed, jobs=1, settings=self.settings)
 
     def _is_current(self, path: Path, place: Path) -> bool:
         """Return whether a diagnosis exists that was made from the present inputs, versions and settings."""
         if not all((place / name).is_file() for name in FILES):
             return False
         registry = self._registry()
-        case = case_of(path, registry)
-        files = {spec.label: digest(case.folder / spec.file) for spec in case.recordings}
-        wanted = origin_of("diagnose", {}, self.seed, {**registry.origins(), "case": case.digest, **files})
         try:
             made = _load_diagnosis(place).provenance
         except DataError:
             return False
+        if is_robot_case(path, registry):
+            return made == make_robot_origin(load_robot_case(path, registry), registry, self._budget)
+        case = case_of(path, registry)
+        files = {spec.label: digest(case.folder / spec.file) for spec in case.recordings}
+        wanted = origin_of("diagnose", {}, self.seed, {**registry.origins(), "case": case.digest, **files})
         thresholds = made.settings.get("thresholds")
         return replace(made, settings={}) == wanted and thresholds == self.settings.as_dict()
+
+    @property
+    def _budget(self) -> float | None:
+        """The processor time (s) of a search, where one is given."""
+        return self.settings.select.budget or None
 
     def _registry(self) -> Registry:
         """Return a registry for one case, so that its plugins are not available to other cases."""
         return Registry.discover(self.plugins)
 
 
-def _load_diagnosis(place: Path) -> Diagnosis:
+def _load_diagnosis(place: Path) -> Diagnosis | RobotDiagnosis:
     """Return the diagnosis in a folder; raise `DataError` where there is no complete one."""
-    return load_result(Diagnosis, place / "diagnosis.json", "run the same command again")
+    file, hint = place / "diagnosis.json", "run the same command again"
+    if is_robot_result(load_json(file, hint)):
+        return load_result(RobotDiagnosis, file, hint)
+    return load_result(Diagnosis, file, hint)
 
 
 def run_batch(batch: Batch, *, jobs: int, say: Say = lambda _done, _of: None) -> list[BatchRow]:
@@ -134,7 +152,7 @@ def _join_name(parts: Sequence[str], depth: int) -> str:
 def _remove_results(place: Path) -> None:
     """Remove the files of a diagnosis, and its folder if it is empty then."""
     with writing(place):
-        for name in FILES:
+        for name in (*FILES, FOUND_MODEL):
             (place / name).unlink(missing_ok=True)
     with suppress(OSError):
         place.rmdir()

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from lostmotion.codec import described, to_plain
 from lostmotion.results.diagnosis import Diagnosis, Mechanism, ParameterSets
+from lostmotion.results.robots import RobotDiagnosis
 from lostmotion.storage import whole
 
 SUMMARY = "summary.csv"
@@ -53,7 +54,7 @@ class Move:
     moved_by: float = described("the change over the first median")
 
 
-def make_row(name: str, diagnosis: Diagnosis) -> BatchRow:
+def make_row(name: str, diagnosis: Diagnosis | RobotDiagnosis) -> BatchRow:
     """Return the row of a case from its diagnosis."""
     found, fit = diagnosis.found, diagnosis.fit
     return BatchRow(

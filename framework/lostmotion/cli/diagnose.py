@@ -67,12 +67,10 @@ def command(
 def _diagnose_one(
     ctx: click.Context, case: Path, out: Path, *, quiet: bool, seed: int, jobs: int, settings: Settings
 ) -> None:
-    from lostmotion.case.reading import parse_case
-    from lostmotion.simulators import INVERSE
+    from lostmotion.robots import is_robot_case
 
-    model = parse_case(case).get("model")
-    if isinstance(model, dict) and {INVERSE, *registry_of(ctx).names("simulator")} & model.keys():
-        _diagnose_robot(ctx, case, out, quiet=quiet, settings=settings)
+    if is_robot_case(case, registry_of(ctx)):
+        _diagnose_robot(ctx, case, out, quiet=quiet, jobs=jobs, settings=settings)
         return
     from lostmotion.case import GUESSED
     from lostmotion.diagnosis.diagnosis_run import run_diagnosis
@@ -86,11 +84,11 @@ def _diagnose_one(
     click.echo(str(out / "report.html"))
 
 
-def _diagnose_robot(ctx: click.Context, case: Path, out: Path, *, quiet: bool, settings: Settings) -> None:
-    from lostmotion.robots.arm_run import run_robot
+def _diagnose_robot(ctx: click.Context, case: Path, out: Path, *, quiet: bool, jobs: int, settings: Settings) -> None:
+    from lostmotion.robots.run import run_robot
 
     with show_progress("diagnose", quiet=quiet) as say:
-        found = run_robot(case, out, registry_of(ctx), budget=settings.select.budget or None, say=say)
+        found = run_robot(case, out, registry_of(ctx), budget=settings.select.budget or None, jobs=jobs, say=say)
     for sentence in found.says:
         click.echo(sentence)
     click.echo(str(out / "report.html"))

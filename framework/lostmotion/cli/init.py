@@ -16,6 +16,7 @@ from lostmotion.cli._lazy import PluginName, examples, flatten_text, registry_of
         "lostmotion init run1.csv",
         "lostmotion init run1.csv --drive F --response enc --model lin_backlash --out case.toml",
         "lostmotion init emps.mat --drive vir --response qm --unit vir=N --factor vir=35.15 --unit qm=m",
+        "lostmotion init log.csv --mujoco arm.xml --torque motor",
         "lostmotion init decay.csv --rate 2048 --drive none --response acc --unit acc=g",
     )
 )
@@ -34,6 +35,11 @@ from lostmotion.cli._lazy import PluginName, examples, flatten_text, registry_of
               " counts of an encoder: they are summed.")  # fmt: skip
 @click.option("--model", type=PluginName("model"), default="", help="Model of the machine (`plugins` lists them),"
               " or equations of motion separated by semicolons.")  # fmt: skip
+@click.option("--mujoco", metavar="FILE", type=click.Path(path_type=Path), help="MJCF file of a robot, whose joints are"
+              " matched with columns by name.")  # fmt: skip
+@click.option("--urdf", metavar="FILE", type=click.Path(path_type=Path), help="The same for a URDF file.")
+@click.option("--torque", type=click.Choice(["motor", "link"]), help="The side of the gear where the torque of a robot"
+              " was measured: motor for currents and commands, link for a sensor behind the gear.")  # fmt: skip
 @click.option("--force", is_flag=True, help="Overwrite an existing case.")
 @click.pass_context
 def command(
@@ -46,6 +52,8 @@ def command(
     The units in the file decide, or the column names where there are no units; options correct a wrong guess. Each
     guessed line of the case has a comment.
 
+    With --mujoco or --urdf it is a case of a robot: each joint gets the columns that have its name or its number.
+
     Exit status 0 when the case can be used; 2 when a role cannot be determined or the recording cannot be used. The
     message then names the option that helps.
     """
@@ -54,20 +62,50 @@ def command(
 
     if out.exists() and not force:
         raise click.UsageError(f"{out} exists already: give another --out, or --force")
+    gains = {name: _parse_number(name, value) for name, value in _split_pairs(factors, "--factor")}
+    stated = dict(_split_pairs(units, "--unit"))
+    robots = {kind: file for kind in ("mujoco", "urdf") if (file := roles[kind]) is not None}
+    if robots:
+        _write_robot_case(ctx, recording, out, robots, {**roles, "model": model}, stated, gains)
+        return
+    if roles["torque"]:
+        raise click.UsageError("--torque belongs to a robot: give --mujoco FILE or --urdf FILE too")
     wishes = GivenRoles(
         roles["time"],
         roles["rate"],
         roles["drive"],
         roles["response"],
-        dict(_split_pairs(units, "--unit")),
+        stated,
         differences,
     )
-    gains = {name: _parse_number(name, value) for name, value in _split_pairs(factors, "--factor")}
     draft = write_first_case(recording, out, wishes, registry_of(ctx), model, gains)
     for line in draft.found:
         click.echo(flatten_text(line))
     for note in draft.notes:
         click.echo(f"  please check: {flatten_text(note)}")
+    click.echo(f"{out} is written. Check it, then run: lostmotion diagnose {shlex.quote(str(out))} --out result")
+
+
+def _write_robot_case(
+    ctx: click.Context, log: Path, out: Path, robots: dict[str, Path], roles: dict[str, Any], units: dict[str, str],
+    factors: dict[str, float],
+) -> None:  # fmt: skip
+    from lostmotion.robots.beginning import RobotRoles, write_robot_case
+
+    for name in ("model", "drive", "response"):
+        if roles[name]:
+            raise click.UsageError(f"--{name} does not belong to a robot: leave it out, or --mujoco and --urdf")
+    if len(robots) > 1:
+        raise click.UsageError("--mujoco and --urdf name two models: give one of them")
+    ((kind, file),) = robots.items()
+    given = RobotRoles(roles["time"], roles["rate"], roles["torque"], units, factors)
+    draft = write_robot_case(log, out, kind, file, given, registry_of(ctx))
+    for line in draft.found:
+        click.echo(flatten_text(line))
+    for note in draft.notes:
+        click.echo(f"  please check: {flatten_text(note)}")
+    if not roles["torque"]:
+        click.echo('  please add: torque = "motor" or "link", the side of the gear where the torque was measured')
     click.echo(f"{out} is written. Check it, then run: lostmotion diagnose {shlex.quote(str(out))} --out result")
 
 

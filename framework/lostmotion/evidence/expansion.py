@@ -43,21 +43,30 @@ class Expansion:
     blocks: Mapping[str, slice]
 
     @cached_property
-    def scores(self) -> Array:
-        """The score of each reading, (n, readings): its contribution to the gradient of the log-likelihood."""
-        e, v = self.here.errors, self.here.variances
-        return np.asarray(self.errors * (-e / v) + self.variances * (0.5 * (e * e / v - 1.0) / v))
-
-    @cached_property
     def gradient(self) -> Array:
         """The gradient (n,) of the log-likelihood."""
-        return np.asarray(self.scores.sum(axis=1))
+        return self.score(self.here)
+
+    def score(self, there: Innovations) -> Array:
+        """Return the gradient (n,) at one-step errors of another point, where the derivatives are the same.
+
+        It is not finite where the filter has nearly diverged.
+        """
+        e, v = there.errors.ravel(), there.variances.ravel()
+        with np.errstate(over="ignore", invalid="ignore"):
+            return np.asarray(self.errors @ (-e / v) + self.variances @ (0.5 * (e * e / v - 1.0) / v))
 
     @cached_property
     def information(self) -> Array:
-        """The expected information (n, n) of the log-likelihood."""
+        """The expected information (n, n) of the log-likelihood; not finite where the filter has nearly diverged."""
         v = self.here.variances
-        return np.asarray((self.errors / v) @ self.errors.T + 0.5 * (self.variances / v**2) @ self.variances.T)
+        moved = np.flatnonzero(self.variances.any(axis=1))
+        with np.errstate(over="ignore", invalid="ignore"):
+            scaled = self.errors / np.sqrt(v)
+            found = scaled @ scaled.T
+            spread = self.variances[moved] / (math.sqrt(2.0) * v)
+            found[np.ix_(moved, moved)] += spread @ spread.T
+        return np.asarray(found)
 
     def list_indices(self, *names: str) -> NDArray[np.intp]:
         """Return the indices of the coordinates of some blocks."""
@@ -87,7 +96,9 @@ class Expansion:
 
     def measure_scatter_of(self, rows: NDArray[np.intp]) -> float:
         """Return the same for the coordinates with some indices."""
-        sums = np.array([part.sum(axis=1) for part in np.array_split(self.scores[rows], BLOCKS, axis=1)])
+        e, v = self.here.errors, self.here.variances
+        scores = self.errors[rows] * (-e / v) + self.variances[rows] * (0.5 * (e * e / v - 1.0) / v)
+        sums = np.array([part.sum(axis=1) for part in np.array_split(scores, BLOCKS, axis=1)])
         stated = np.diag(self.information)[rows]
         told = stated > 0.0
         if not told.any():

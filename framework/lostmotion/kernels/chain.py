@@ -124,7 +124,9 @@ def filter_chain(  # type: ignore[no-untyped-def]
     x, P = x0.copy(), P0.copy()
     A, T, F, E = np.zeros((L, L)), np.zeros((L, L)), np.zeros((L, L)), np.zeros((L, n))
     Y, y, g, d, f, up = np.zeros((n, L)), np.zeros(n), np.zeros(L), np.zeros(L), np.zeros(L), np.zeros(L)
-    own, desk = np.zeros((16, STRIDE)), np.zeros((8, STRIDE))
+    own, desk, noise = np.zeros((16, STRIDE)), np.zeros((8, STRIDE)), np.zeros((n, n))
+    places = np.concatenate((np.arange(n), np.arange(2 * n, L, 2)))
+    rates = np.concatenate((np.arange(n, 2 * n), np.arange(2 * n + 1, L, 2)))
     active = np.zeros(n, dtype=np.bool_)
     for a in range(len(joints)):
         active[joints[a]] = True
@@ -207,15 +209,12 @@ def filter_chain(  # type: ignore[no-untyped-def]
                 A[w + 1, n + i] = hs * light * a2
                 up[i] = stiff * stiff * left
             for i in range(n):
-                r = 0.0
                 for j in range(n):
-                    r += W[k, i, j] * y[j]
-                f[n + i] = r
-                for b in range(L):
-                    r = 0.0
-                    for j in range(n):
-                        r += W[k, i, j] * Y[j, b]
-                    A[n + i, b] = hs * r
+                    r = W[k, i, j]
+                    f[n + i] += r * y[j]
+                    r *= hs
+                    for b in range(L):
+                        A[n + i, b] += r * Y[j, b]
                 A[n + i, n + i] += 1.0
             for i in range(n):
                 for b in range(L):
@@ -232,23 +231,38 @@ def filter_chain(  # type: ignore[no-untyped-def]
                     A[w, w + 1] += 0.5 * hs
                     x[w] += hs * (x[w + 1] + 0.5 * hs * f[w + 1])
                     x[w + 1] += hs * f[w + 1]
-            for a in range(L):
+            for i in range(len(rates)):  # P = A P A', of which only the rows of velocities in A are full
+                u, p = rates[i], places[i]
                 for b in range(L):
+                    T[u, b] = 0.0
+                for c in range(L):
+                    r = A[u, c]
+                    for b in range(L):
+                        T[u, b] += r * P[c, b]
+                for b in range(L):
+                    T[p, b] = 0.5 * hs * (T[u, b] + P[u, b]) + P[p, b]
+            for i in range(len(rates)):
+                u = rates[i]
+                for j in range(i + 1):
                     r = 0.0
                     for c in range(L):
-                        r += A[a, c] * P[c, b]
-                    T[a, b] = r
-            for a in range(L):
-                for b in range(a + 1):
-                    r = 0.0
-                    for c in range(L):
-                        r += T[a, c] * A[b, c]
-                    P[a, b] = r
-                    P[b, a] = r
+                        r += T[u, c] * A[rates[j], c]
+                    P[u, rates[j]] = r
+                    P[rates[j], u] = r
+            for i in range(len(rates)):
+                for j in range(len(rates)):
+                    p, u = places[i], rates[j]
+                    P[p, u] = 0.5 * hs * (P[rates[i], u] + T[u, rates[i]]) + T[u, p]
+                    P[u, p] = P[p, u]
+                for j in range(i + 1):
+                    p, q = places[i], places[j]
+                    P[p, q] = 0.5 * hs * (P[p, rates[j]] + T[p, rates[j]]) + T[p, q]
+                    P[q, p] = P[p, q]
             if keep:
                 T[:] = A @ F
                 F[:] = T
                 E[:] = A @ E
+            noise[:] = 0.0
             for i in range(n):
                 w = motors[i]
                 force = S[i] * hs
@@ -268,12 +282,16 @@ def filter_chain(  # type: ignore[no-untyped-def]
                         E[n + a, i] += hs * W[k, a, i]
                         E[a, i] += 0.5 * hs * hs * W[k, a, i]
                 for a in range(n):
+                    r = W[k, a, i] * force
                     for b in range(n):
-                        more = W[k, a, i] * W[k, b, i] * force
-                        P[n + a, n + b] += more
-                        P[a, b] += more * hs * hs / 3.0
-                        P[a, n + b] += 0.5 * more * hs
-                        P[n + a, b] += 0.5 * more * hs
+                        noise[a, b] += r * W[k, b, i]
+            for a in range(n):
+                for b in range(n):
+                    more = noise[a, b]
+                    P[n + a, n + b] += more
+                    P[a, b] += more * hs * hs / 3.0
+                    P[a, n + b] += 0.5 * more * hs
+                    P[n + a, b] += 0.5 * more * hs
             for i in range(n):
                 if not active[i]:
                     continue

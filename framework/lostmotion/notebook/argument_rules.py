@@ -10,11 +10,12 @@ from lostmotion.case import Prior
 from lostmotion.contracts import Model
 from lostmotion.errors import CaseError
 from lostmotion.registry import Registry
+from lostmotion.robots.model import RobotModel
 
 
 def modelled(value: Any, name: str) -> Any:
-    """Return a model, its class, its name or equations; raise `CaseError` for anything else."""
-    if isinstance(value, Model) or (isinstance(value, type) and issubclass(value, Model)):
+    """Return a model, its class, its name or equations, or that of a robot; raise `CaseError` for anything else."""
+    if isinstance(value, (Model, RobotModel)) or (isinstance(value, type) and issubclass(value, Model)):
         return value
     if isinstance(value, type) or not isinstance(value, (str, Sequence)) or not value:
         raise CaseError(f"{name} is {describe(value)}: expected a model, its name, or equations as text")

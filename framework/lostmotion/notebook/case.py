@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import os
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -16,28 +17,38 @@ from lostmotion.case import GUESSED, WRITTEN, CaseFile, Experiment, Prior, Senso
 from lostmotion.contracts import Model
 from lostmotion.equations import name_inputs
 from lostmotion.errors import CaseError, PluginError, nearest
-from lostmotion.notebook.argument_rules import KNOWN, PRIORS, modelled
+from lostmotion.notebook.robots import make_robot_case, make_robot_recording
+from lostmotion.notebook.rules import KNOWN, PRIORS, modelled
 from lostmotion.preparation.prepare import Prepared, case_of, prepare_loaded
 from lostmotion.preparation.vetting import make_plugin
 from lostmotion.recording import Recording, load_recording
 from lostmotion.registry import Registry, default
+from lostmotion.robots import is_robot_case
+from lostmotion.robots.case import RobotCase, load_robot_case
+from lostmotion.robots.model import RobotModel, make_robot_model
 from lostmotion.settings import DEFAULT, Settings, read
 from lostmotion.storage import folder_for, save_table
 from lostmotion.written import Written, is_equation, model_of
 
 
 @checked(
-    text=words,
+    text=maybe(words),
     units=maybe(mapping(text, "{'k': 'N/m'}")),
     motion=maybe(choice("translation", "rotation")),
     params=words,
 )
-def model(text: str | Sequence[str], **options: Any) -> Model:
-    """Return a model by its name, or one made from equations of motion: `lm.model("m*x'' + c*x' + k*x = force")`.
+def model(text: str | Sequence[str] | None = None, **options: Any) -> Any:
+    """Return a model by its name, one made from equations of motion, or the simulation of a robot.
 
-    `options` are fields of a model with a name, or `units` (SI, by parameter), `motion` and `params` for equations.
-    Raises `PluginError` for an unknown name and `CaseError` for an equation that cannot be read, with the position.
+    `lm.model("m*x'' + c*x' + k*x = force")`: `options` are fields of a model with a name, or `units` (SI, by
+    parameter), `motion` and `params` for equations. `lm.model(mujoco="arm.xml", joints=["shoulder"], torque="motor")`,
+    or `urdf=`, or `inverse=` a function of q, v, a, each (samples, joints), or "my_model.py:inverse": `joints` are
+    those that move, `torque` is the side of the gear where it was measured, "motor" or "link", `tolerance` the share
+    within which values of the model are known, `hold` "step" or "smooth". Raises `PluginError` for an unknown name and
+    `CaseError` for what cannot be read.
     """
+    if text is None:
+        return make_robot_model(**options)
     lines = (text,) if isinstance(text, str) else tuple(text)
     if len(lines) == 1 and not is_equation(lines[0]):
         found: Model = default().make("model", lines[0], **options)
@@ -70,20 +81,21 @@ def _list_recordings(given: Any) -> tuple[Recording, ...]:
 class Case:
     """Recordings, a model, known values (SI), and the priors of the estimated parameters.
 
-    `recordings` is one recording or several with the same sensors. `model` is a model, a name, or equations. `truth`
+    `recordings` is one recording or several with the same sensors. `model` is a model, a name, or equations, or the
+    simulation of a robot, which needs one recording with the torque and the position of each joint. `truth`
     holds true values, which only appear in figures and tables. `sensor` describes the noise that several recordings
     share. `notes` are sentences on what was supposed. Raises `CaseError` for a case that is not valid.
     """
 
     recordings: Recording | Sequence[Recording]
-    model: Model | type[Model] | str | Sequence[str]
+    model: Model | type[Model] | RobotModel | str | Sequence[str]
     known: Mapping[str, float] = field(default_factory=dict)
     estimate: Mapping[str, Prior] = field(default_factory=dict)
     title: str = "case"
     truth: Mapping[str, float] = field(default_factory=dict)
     sensor: SensorSpec = field(default_factory=SensorSpec)
     experiment: Experiment = field(default_factory=Experiment)
-    file: CaseFile | None = field(default=None, repr=False)
+    file: CaseFile | RobotCase | None = field(default=None, repr=False)
     notes: tuple[str, ...] = field(default=(), repr=False)
 
     def __post_init__(self) -> None:
@@ -94,6 +106,9 @@ class Case:
         check_same_sensors(tuple(_describe_sensors(one) for one in several))
         if both := sorted(set(self.known) & set(self.estimate)):
             raise CaseError(f"{both[0]!r} is both known and estimated: remove it from one of the two")
+        if isinstance(self.model, RobotModel):
+            self._place_robot(self.model, several)
+            return
         made, notes = self._name_inputs(self._make_model())
         object.__setattr__(self, "model", made)
         object.__setattr__(self, "notes", (*self.notes, *notes))
@@ -102,6 +117,19 @@ class Case:
                 self, "recordings", tuple(_rename_coordinate(one, made.coordinates[0]) for one in several)
             )
 
+    def _place_robot(self, model: RobotModel, several: Sequence[Recording]) -> None:
+        """Keep the case of a robot as `file`, made of its recording unless it was read."""
+        if len(several) > 1:
+            raise CaseError(f"the case has {len(several)} recordings: a robot is diagnosed from one; give the longest")
+        if not isinstance(self.file, RobotCase):
+            made = make_robot_case(several[0], model, self.known, self.estimate, self.title)
+            object.__setattr__(self, "file", made)
+
+    @property
+    def robot(self) -> RobotCase | None:
+        """The case of a robot; None for any other case."""
+        return self.file if isinstance(self.file, RobotCase) else None
+
     def _make_model(self) -> Model:
         """Return the model as an instance, from an instance, a class, a name or equations."""
         given = self.model
@@ -109,10 +137,11 @@ class Case:
             return given
         if isinstance(given, type):
             return given()
-        lines = (given,) if isinstance(given, str) else tuple(given)
-        if len(lines) == 1 and not is_equation(lines[0]):
-            return model(lines[0])
-        return model(lines, params=[key for key in (*self.known, *self.estimate) if "." not in key])
+        lines: tuple[str, ...] = (given,) if isinstance(given, str) else tuple(given)  # type: ignore[arg-type]
+        named = len(lines) == 1 and not is_equation(lines[0])
+        more = {} if named else {"params": [key for key in (*self.known, *self.estimate) if "." not in key]}
+        made: Model = model(lines[0] if named else lines, **more)
+        return made
 
     def _name_inputs(self, made: Model) -> tuple[Model, tuple[str, ...]]:
         """Return a model whose equations name the recorded inputs, and a sentence where they did not."""
@@ -136,6 +165,10 @@ class Case:
     ) -> Case:
         """Return the case of a `case.toml` with loaded recordings; raise `CaseError` or `DataError` if unusable."""
         known = registry or default()
+        if is_robot_case(Path(path), known):
+            robot = load_robot_case(Path(path), known)
+            seen = make_robot_recording(robot)
+            return cls(seen, robot.model, robot.known, robot.estimate, robot.title, file=robot)
         file = case_of(Path(path), known)
         loaded = tuple(load_recording(spec, file.folder, read(settings).recording) for spec in file.recordings)
         made = make_plugin(known, "model", file.model)
@@ -158,13 +191,25 @@ class Case:
 
         No file is written where the model cannot be named in a file.
         """
-        model, place = self._model_table(), folder_for(Path(folder))
-        entries = [_write_recording(one, place) for one in self._recordings]
+        place = Path(folder)
+        model = self._robot_table(self.robot, place) if self.robot is not None else self._model_table()
+        place = folder_for(place)
+        written = self._recordings if self.robot is None else (make_robot_recording(self.robot),)
+        entries = [_write_recording(one, place) for one in written]
         content: dict[str, Any] = {"title": self.title, "recordings": entries, "model": model}
         content |= {"guessed": [note.removeprefix(GUESSED) for note in self.notes]} if self.notes else {}
         content |= self._further_tables()
         dump_case(content, place / "case.toml")
         return place / "case.toml"
+
+    def _robot_table(self, robot: RobotCase, folder: Path) -> dict[str, Any]:
+        """Return the table `[model]` of a robot; raise `CaseError` for a function that no file holds."""
+        made = robot.model
+        if not made.source:
+            raise CaseError('no file holds the function: write it into a file, and give inverse="my_model.py:inverse"')
+        source = Path(os.path.relpath(made.source, folder)).as_posix()
+        table = {made.kind: source, "joints": list(made.joints), "torque": made.side, "tolerance": made.tolerance}
+        return {**table, "known": dict(self.known), "estimate": {k: _format_prior(p) for k, p in self.estimate.items()}}
 
     def _further_tables(self) -> dict[str, Any]:
         """Return the tables `[truth]`, `[sensor]` and `[experiment]`, except empty ones."""
@@ -202,6 +247,8 @@ class Case:
 
     def prepare(self, registry: Registry, terms: str | Sequence[str] = "all", settings: Settings = DEFAULT) -> Prepared:
         """Return the prepared case for the stages, with the candidate terms: "all", or names of terms."""
+        if isinstance(self.file, RobotCase):
+            raise CaseError("the case is that of a robot, whose parameters diagnose estimates: call lm.diagnose(case)")
         file = self.file or self._make_case_file()
         made = self._model
         if isinstance(made, Written) or made.name not in registry.names("model"):
@@ -242,9 +289,8 @@ class Case:
 
     def __repr__(self) -> str:
         names = ", ".join(one.name for one in self._recordings)
-        return (
-            f"<Case {self.title!r}: {self._model.name} on {names}; known {[*self.known]}, estimated {[*self.estimate]}>"
-        )
+        name = self.model.label if isinstance(self.model, RobotModel) else self._model.name
+        return f"<Case {self.title!r}: {name} on {names}; known {[*self.known]}, estimated {[*self.estimate]}>"
 
 
 def _rename_coordinate(recording: Recording, coordinate: str) -> Recording:

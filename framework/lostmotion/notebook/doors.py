@@ -34,17 +34,30 @@ from lostmotion.notebook.check_result import CheckResult, load_check
 from lostmotion.notebook.diagnosis_result import DiagnosisResult, load_diagnosis
 from lostmotion.notebook.posterior import IdentificationResult, load_identification
 from lostmotion.notebook.recorded import read_recorded_case
+from lostmotion.notebook.robots import RERUN_HINT, RobotResult, load_robot
+from lostmotion.notebook.rules import CASE
 from lostmotion.offers import RESULT
 from lostmotion.progress import show_progress
 from lostmotion.recording import Recording
 from lostmotion.recording.formats import is_recording
 from lostmotion.recording.value_checks import fill_lost
 from lostmotion.registry import Registry, default
+from lostmotion.results.robots import is_robot_result
+from lostmotion.robots.model import RobotModel
 from lostmotion.settings import DEFAULT, Settings, read
+from lostmotion.storage import load_json
 
-Modelled = Model | type[Model] | str | Sequence[str]
+Modelled = Model | type[Model] | RobotModel | str | Sequence[str]
+
+
+def load_any_diagnosis(folder: Path) -> DiagnosisResult | RobotResult:
+    """Return the diagnosis of a robot or of another machine that is stored in a folder."""
+    robot = is_robot_result(load_json(folder / "diagnosis.json", RERUN_HINT))
+    return load_robot(folder) if robot else load_diagnosis(folder)
+
+
 LOADERS: Mapping[str, Callable[[Path], Any]] = {
-    "diagnosis.json": load_diagnosis,
+    "diagnosis.json": load_any_diagnosis,
     "check.json": load_check,
     "identification.json": load_identification,
 }
@@ -64,7 +77,7 @@ def diagnose(
     out: str | Path | None = None,
     registry: Registry | None = None,
     settings: Settings | Mapping[str, float] | None = None,
-) -> DiagnosisResult:
+) -> DiagnosisResult | RobotResult:
     """Return the diagnosis of a case: the physics that its model does not include.
 
     `case` is a `Case`, the path of a `case.toml`, or a `Recording` or the path of one, together with a `model`: then
@@ -73,15 +86,24 @@ def diagnose(
     `settings` changes thresholds, such as `{"select.decisive": 4.0}` (`lostmotion.settings` lists them). Raises
     `CaseError` or `DataError` where the case cannot be used, with the message of the command line.
     """
-    from lostmotion.diagnosis.diagnosis_run import diagnose_prepared
+    from lostmotion.diagnosis.run import diagnose_prepared
+    from lostmotion.robots.run import diagnose_robot
 
     known_to, limits = registry or default(), read(settings)
     asked = make_case(case, model, known, estimate, known_to, limits=limits)
+    found: DiagnosisResult | RobotResult
     with show_progress("diagnose", quiet=not progress, lines=False) as say:
-        done = diagnose_prepared(
-            asked.prepare(known_to, terms, limits), known_to, seed=seed, jobs=jobs, say=say, settings=limits
-        )
-    found = DiagnosisResult(done.result, done.arrays, known_to, done.outcome)
+        if asked.robot is not None:
+            names = () if terms == "all" else list_texts(terms)
+            made = diagnose_robot(
+                asked.robot, known_to, terms=names, budget=limits.select.budget or None, jobs=jobs, say=say
+            )
+            found = RobotResult(made.result, made.arrays, made.written)
+        else:
+            done = diagnose_prepared(
+                asked.prepare(known_to, terms, limits), known_to, seed=seed, jobs=jobs, say=say, settings=limits
+            )
+            found = DiagnosisResult(done.result, done.arrays, known_to, done.outcome)
     if out is not None:
         found.save(out)
     return found
@@ -228,6 +250,8 @@ def _guess_case(
     from lostmotion.preparation.beginning import guesses, sizes_of
 
     first = Case(recording, given, known, estimate, recording.name)
+    if first.robot is not None:
+        return first
     machine: Any = first.model
     response = recording.sensors[0]
     pushed = next((a for a in recording.inputs if a.attrs["quantity"] in ("force", "torque")), None)

@@ -14,12 +14,13 @@ from lostmotion.notebook.case import Case
 from lostmotion.preparation.beginning import write_first_case
 from lostmotion.recording.outline import GivenRoles
 from lostmotion.registry import Registry
+from lostmotion.robots.model import RobotModel
 from lostmotion.settings import Settings
 
 
 def read_recorded_case(
     path: Path,
-    given: Model | type[Model] | str | Sequence[str] | None,
+    given: Model | type[Model] | RobotModel | str | Sequence[str] | None,
     known: Mapping[str, float],
     estimate: Mapping[str, Prior],
     registry: Registry,
@@ -29,7 +30,7 @@ def read_recorded_case(
 
     `known` and `estimate` replace guesses.
     """
-    if isinstance(given, (Model, type)):
+    if isinstance(given, (Model, RobotModel, type)):
         raise CaseError("beside the file of a recording the model is a name or equations: make a Recording for others")
     words = given if isinstance(given, str) else ";".join(given or ())
     with TemporaryDirectory() as spare:

@@ -12,6 +12,11 @@ from lostmotion.results.diagnosis import SCHEMA, Candidate, Confusion, HeldOutSc
 from lostmotion.results.mismatch import UnexplainedForce
 
 
+def is_robot_result(plain: Mapping[str, object]) -> bool:
+    """Return whether the content of a `diagnosis.json` is that of a robot."""
+    return "joints" in plain
+
+
 @dataclass(frozen=True)
 class Check:
     """Something that was looked at before any fit."""

@@ -125,8 +125,9 @@ class TapedArm:
         base = ("damping", "armature", "stiffness", "rest")
         own = tuple(tuple(self.get(values, kind).tolist()) for kind in base)
         key = (changed, own, soft, steps)
-        if key in self._cache:
-            return self._cache[key]
+        known = self._cache.get(key)
+        if known is not None:
+            return known
         stiffness, damping, bias, mass, q0, v0 = self._middle
         loss, armature, spring, rest = (self.get(values, kind) for kind in base)
         loss[list(soft)], armature[list(soft)] = 0.0, 0.0
@@ -142,8 +143,9 @@ class TapedArm:
         free = bias - np.einsum("kij,kj->ki", damping, v0)
         if len(self._cache) > 40 // n:
             self._cache.clear()
-        self._cache[key] = inverse, kq, kv, free
-        return self._cache[key]
+        made_now = inverse, kq, kv, free
+        self._cache[key] = made_now
+        return made_now
 
     def count_steps(self, gears: Mapping[int, Gear]) -> int:
         """Return the number of steps of the filter within a sample that gears need."""

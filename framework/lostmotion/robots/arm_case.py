@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,8 +11,8 @@ import numpy as np
 
 from lostmotion.case import Prior
 from lostmotion.case.fields import Fields
-from lostmotion.case.reading import parse_case, read_prior
-from lostmotion.errors import nearest
+from lostmotion.case.load import parse_case, read_prior
+from lostmotion.errors import CaseError, nearest
 from lostmotion.parts import Array
 from lostmotion.provenance import digest
 from lostmotion.quantities import DAMPING, FORCE, INERTIA, STIFFNESS, Dimension, si_factor
@@ -22,11 +22,11 @@ from lostmotion.recording.table import Table
 from lostmotion.registry import Registry
 from lostmotion.robots.arm_effects import ArmCoordinate
 from lostmotion.robots.log import RobotLog, find_stale, measure_clock, resample
-from lostmotion.robots.user import FunctionSimulator
+from lostmotion.robots.model import HOLDS, SIDES, TOLERANCE, WHICH_SIDE, RobotModel, make_simulator
 from lostmotion.simulators import INVERSE, Simulator
 
 TOP = ("title", "plugins", "recordings", "model", "truth")
-RECORDING = ("file", "time", "rate", "inputs", "sensors", "hold", "t_start", "t_end", "name")
+RECORDING = ("file", "time", "rate", "inputs", "sensors", "hold", "t_start", "t_end", "name", "start")
 MODEL = ("joints", "torque", "tolerance", "known", "estimate")
 ENTRY = ("column", "unit", "factor")
 ORDERS = {"position": 0, "velocity": 1}
@@ -34,27 +34,39 @@ KINDS: Mapping[str, Dimension] = {
     "damping": DAMPING, "frictionloss": FORCE, "armature": INERTIA, "stiffness": STIFFNESS, "mass": INERTIA,
 }  # fmt: skip
 """The values of a model that may be estimated, with their dimensions."""
-TOLERANCE = 0.02
-WHICH_SIDE = (
-    "lacks 'torque': on which side of the gear is the torque measured? Write torque = \"motor\" for motor currents and"
-    ' commands, or torque = "link" for a sensor behind the gear'
-)
 
 
 @dataclass(frozen=True, eq=False)
 class RobotCase:
-    """A case of a robot: its log, simulator, side of the torque sensor, and values that are known or estimated."""
+    """A case of a robot: its log, its model, and values of the model that are known (SI) or estimated.
+
+    `inputs` are digests of its files by name.
+    """
 
     title: str
     log: RobotLog
-    simulator: Simulator
-    side: str
-    tolerance: float
+    model: RobotModel
     known: Mapping[str, float]
-    estimate: Mapping[str, ArmCoordinate]
+    estimate: Mapping[str, Prior]
     inputs: Mapping[str, str]
-    kind: str
-    file: str
+
+    def __post_init__(self) -> None:
+        simulator = self.model.simulator
+        allowed = [*simulator.linear, *(f"{j}.{kind}" for j in simulator.joints for kind in KINDS if kind != "mass")]
+        for table, names in (("known", self.known), ("estimate", self.estimate)):
+            for name in names:
+                if name not in allowed:
+                    raise CaseError(
+                        f"{table} has the unknown value {name!r}{nearest(name, allowed)}: the model has"
+                        f" {', '.join(allowed)}"
+                    )
+        if both := sorted(set(self.known) & set(self.estimate)):
+            raise CaseError(f"{both[0]!r} is both known and estimated: remove it from one of the two")
+
+    @property
+    def coordinates(self) -> dict[str, ArmCoordinate]:
+        """The coordinates of the estimated values, by name."""
+        return {key: make_coordinate(key, prior) for key, prior in self.estimate.items()}
 
 
 def load_robot_case(path: Path, registry: Registry) -> RobotCase:
@@ -68,33 +80,24 @@ def load_robot_case(path: Path, registry: Registry) -> RobotCase:
     if len(recordings) > 1:
         raise top.error(f"has {len(recordings)} recordings: a robot is diagnosed from one log; give the longest one")
     kind = next(kind for kind in kinds if kind in model.values)
-    simulator = _make_simulator(model, kind, path.parent, registry)
+    source = model.text(kind) if kind == INVERSE else model.path(kind)
+    simulator = make_simulator(kind, source, model.texts("joints"), registry, folder=path.parent, refuse=model.error)
     if "torque" not in model.values:
         raise model.error(WHICH_SIDE)
-    side = model.choice("torque", ("motor", "link"))
-    log, sha = _read_log(recordings[0], path.parent, simulator)
-    known = model.maybe_table("known").numbers()
-    allowed = {*simulator.linear, *(f"{j}.{kind}" for j in simulator.joints for kind in KINDS if kind != "mass")}
-    _check_names(model, "known", known, allowed)
-    fields = model.maybe_table("estimate")
-    _check_names(model, "estimate", fields.values, allowed)
-    priors = {key: read_prior(fields.table(key)) for key in fields.values}
+    side = model.choice("torque", SIDES)
     tolerance = model.positive("tolerance") if "tolerance" in model.values else TOLERANCE
-    file = path.parent / model.text(kind).partition(":")[0]
-    inputs = {"case": digest(path), log.name: sha} | ({file.name: digest(file)} if file.is_file() else {})
-    made = {key: make_coordinate(key, prior) for key, prior in priors.items()}
+    log, sha = _read_log(recordings[0], path.parent, simulator)
+    made = RobotModel(simulator, kind, str(path.parent / source), side, tolerance, log.hold)
+    fields = model.maybe_table("estimate")
+    file = made.file
     return RobotCase(
-        top.maybe_text("title") or path.stem, log, simulator, side, tolerance, known, made, inputs, kind, str(file)
+        top.maybe_text("title") or path.stem,
+        log,
+        made,
+        model.maybe_table("known").numbers(),
+        {key: read_prior(fields.table(key)) for key in fields.values},
+        {"case": digest(path), log.name: sha} | ({file.name: digest(file)} if file is not None else {}),
     )
-
-
-def _check_names(model: Fields, table: str, names: Iterable[str], allowed: Iterable[str]) -> None:
-    allowed = list(allowed)
-    for name in names:
-        if name not in allowed:
-            raise model.error(
-                f"has the unknown value {name!r} in {table}{nearest(name, allowed)}: the model has {', '.join(allowed)}"
-            )
 
 
 def make_coordinate(key: str, prior: Prior) -> ArmCoordinate:
@@ -111,24 +114,6 @@ def make_coordinate(key: str, prior: Prior) -> ArmCoordinate:
         return ArmCoordinate(key, unit, prior.start() / unit, 1.0, False, low, high, False, kind)
     middle, unit = prior.bell
     return ArmCoordinate(key, unit, middle / unit, 1.0, False, low, high, False, kind)
-
-
-def _make_simulator(model: Fields, kind: str, folder: Path, registry: Registry) -> Simulator:
-    """Return the simulator that a case names."""
-    joints = model.texts("joints")
-    if kind == INVERSE:
-        if not joints:
-            raise model.error('lacks \'joints\': add their names in the order of the columns, ["shoulder", "elbow"]')
-        return FunctionSimulator.load(model.text(INVERSE), folder, joints)
-    file = folder / model.path(kind)
-    if not file.is_file():
-        raise model.error(
-            f"names the file {model.text(kind)!r}, which does not exist beside the case: correct the name"
-        )
-    made: Simulator = registry.load("simulator", kind)(file=str(file), moving=joints)
-    if not made.joints:
-        raise model.error(f"names {model.text(kind)!r}, in which no joint moves")
-    return made
 
 
 def _read_log(fields: Fields, folder: Path, simulator: Simulator) -> tuple[RobotLog, str]:
@@ -148,7 +133,7 @@ def _read_log(fields: Fields, folder: Path, simulator: Simulator) -> tuple[Robot
         notes = (*notes, f"{stale.sum()} samples repeat all readings of the one before and are left out.")
         time, columns = time[~stale], columns[~stale]
     clock = measure_clock(time, path.name)
-    hold = fields.choice("hold", ("step", "smooth")) if "hold" in fields.values else "step"
+    hold = fields.choice("hold", HOLDS) if "hold" in fields.values else "step"
     u, _ = resample(time, columns[:, :n], clock, step=hold == "step")
     z, gaps = resample(time, columns[:, n:], clock, step=False)
     z[gaps] = np.nan
@@ -212,7 +197,7 @@ def _list_inputs(fields: Fields, simulator: Simulator) -> list[LogColumn]:
     for entry in fields.entries("inputs"):
         entry.only(("input", *ENTRY))
         joint, quantity = _split(entry, "input", "torque", simulator)
-        if quantity != "torque":
+        if quantity not in ("torque", "force"):
             raise entry.error(
                 f"has the input {entry.text('input')!r}: only measured or commanded torques can be used,"
                 f" '{joint}.torque'; set points need the controller in the model"
@@ -230,7 +215,7 @@ def _list_sensors(fields: Fields, simulator: Simulator) -> list[tuple[LogColumn,
     """Return the readings with joint and order, positions of all joints first."""
     found = []
     for entry in fields.entries("sensors"):
-        entry.only(("channel", "name", "noise", *ENTRY))
+        entry.only(("channel", "name", "noise", "zero", *ENTRY))
         joint, quantity = _split(entry, "channel", "position", simulator)
         if quantity in ORDERS:
             found.append((_read_entry(entry, quantity), (simulator.joints.index(joint), ORDERS[quantity])))

@@ -13,7 +13,6 @@ Smooth forces over position and velocity have no linear part: an unknown stiffne
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -53,38 +52,41 @@ class SmoothTorque:
 
 
 Choice = tuple[int, ...]
-"""The option of each smooth force; -1 where it is absent."""
+"""The option of each smooth force, -1 where it is absent; then that of `LOOSER`."""
+LOOSER = (1.0, 3.0)
+"""Values of the model are known within its tolerance, or all of them less well by this factor."""
 
 
 @dataclass(frozen=True, eq=False)
 class Discrepancy:
     """The columns of forces, and the prior standard deviation of each coefficient.
 
-    `fixed` (columns,) are the widths of those that are no smooth force, zero elsewhere. `shape` is that of a force,
-    (samples, n).
+    `fixed` (columns,) are the widths of those that are no smooth force, zero elsewhere; `known` (columns,) marks the
+    values of the model among them. `shape` is that of a force, (samples, n).
     """
 
     columns: tuple[Column, ...]
     fixed: Array
+    known: NDArray[np.bool_]
     forces: tuple[SmoothTorque, ...]
     shape: tuple[int, int]
 
     @property
     def none(self) -> Choice:
         """The choice without any smooth force."""
-        return (-1,) * len(self.forces)
+        return (*(-1,) * len(self.forces), 0)
 
     def widths(self, choice: Choice) -> Array:
         """Return the prior standard deviation of each coefficient."""
-        found = self.fixed.copy()
-        for force, option in zip(self.forces, choice, strict=True):
+        found = np.where(self.known, LOOSER[choice[-1]] * self.fixed, self.fixed)
+        for force, option in zip(self.forces, choice[:-1], strict=True):
             if option >= 0:
                 found[force.columns] = force.options[option]
         return found
 
     def price(self, choice: Choice) -> float:
         """Return the log penalty of a choice: each force that is present has one of its options."""
-        return sum(math.log(len(f.options)) for f, option in zip(self.forces, choice, strict=True) if option >= 0)
+        return sum(math.log(len(f.options)) for f, option in zip(self.forces, choice[:-1], strict=True) if option >= 0)
 
     @cached_property
     def matrix(self) -> Array:
@@ -115,6 +117,7 @@ class Discrepancy:
             for at, force in enumerate(self.forces):
                 weights = [weigh(option, at) for option in range(-1, len(force.options))]
                 best[at] = int(np.argmax(weights)) - 1
+            best[-1] = int(np.argmax([weigh(option, len(self.forces)) for option in range(len(LOOSER))]))
             if best == before:
                 break
         return tuple(best)
@@ -127,6 +130,7 @@ def make_discrepancy(
     """Return the discrepancy of an arm along a path; values that are `estimated` are not in it."""
     fixed = _list_known(arm, path, accelerations, scales, tolerance, estimated)
     columns, widths, forces = [c for c, _ in fixed], [w for _, w in fixed], []
+    known = [c.name in arm.values for c in columns]
     time = np.asarray(np.arange(len(path.q)) * arm.log.dt, dtype=float)
     for j, scale in enumerate(scales):
         for over, x in (("position", path.q[:, j]), ("velocity", path.v[:, j]), ("time", time)):
@@ -136,12 +140,13 @@ def make_discrepancy(
             widths += [0.0] * len(waves)
             options = [size * scale.force * weights for size in sizes for weights in map(_weigh_waves, LENGTHS)]
             forces.append(SmoothTorque(j, over, place, np.array(options)))
-    return Discrepancy(tuple(columns), np.array(widths), tuple(forces), path.q.shape)
+    known += [False] * (len(columns) - len(known))
+    return Discrepancy(tuple(columns), np.array(widths), np.array(known), tuple(forces), path.q.shape)
 
 
 def make_none(arm: TapedArm) -> Discrepancy:
     """Return a discrepancy without any column."""
-    return Discrepancy((), np.zeros(0), (), (arm.log.samples, len(arm.joints)))
+    return Discrepancy((), np.zeros(0), np.zeros(0, dtype=bool), (), (arm.log.samples, len(arm.joints)))
 
 
 def _make_waves(x: Array, *, linear: bool) -> Array:
@@ -191,17 +196,3 @@ def _list_known(
         if name in arm.values:
             add(name, -1, -weigh_part(arm, name, accelerations), tolerance * abs(arm.values[name]))
     return found
-
-
-def list_indices(part: slice) -> NDArray[np.intp]:
-    """Return the indices of a slice."""
-    return np.arange(part.start, part.stop)
-
-
-def describe_sizes(discrepancy: Discrepancy, choice: Choice, joints: tuple[str, ...]) -> Mapping[str, float]:
-    """Return the standard deviation of each smooth force that is present, by `over@joint`, in N m."""
-    return {
-        f"{f.over}@{joints[f.joint]}": float(np.sqrt(np.sum(f.options[option] ** 2)))
-        for f, option in zip(discrepancy.forces, choice, strict=True)
-        if option >= 0
-    }

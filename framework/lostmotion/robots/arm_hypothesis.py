@@ -32,6 +32,9 @@ NUDGE = 1e-3
 SHARE = 0.02
 ROUNDS, CLOSE = 25, 0.05
 """The largest number of rounds of a fit, and the gain of a round after which it ends."""
+MOST_STEPS, CHORD, LONGEST_STEP = 8, 0.1, 1.5
+"""The largest number of steps with the same derivatives, the share of their gain below which the next one is not worth
+it, and the longest step of a coordinate."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,8 +92,8 @@ class ArmFrame:
             last=self.last if last is None else last, keep=keep, **more,  # type: ignore[arg-type]
         )  # fmt: skip
 
-    def expand(self, at: Array, choice: Choice, *, last: int | None = None) -> tuple[Expansion, FilteredLog]:
-        """Return the expansion of the one-step errors at coordinates."""
+    def expand(self, at: Array, *, last: int | None = None) -> tuple[Expansion, FilteredLog]:
+        """Return the expansion of the one-step errors at coordinates; its prior is that of the own ones."""
         kept = self.run(at, last=last, keep=True)
         own, force = len(self.own), self.discrepancy.force(at[len(self.own) :])
         errors, variances = np.zeros((2, len(at), kept.seen.errors.size))
@@ -99,14 +102,19 @@ class ArmFrame:
             moved = at.copy()
             moved[i] += step
             seen = self.run(moved, last=last, force=force).seen
+            if not seen.finite:
+                step = -step
+                moved[i] = at[i] + step
+                seen = self.run(moved, last=last, force=force).seen
             errors[i] = (seen.errors - kept.seen.errors).ravel() / step
             variances[i] = (seen.variances - kept.seen.variances).ravel() / step
         gears = {e.joint: e.make(self.read(at)) for e in self.gears}
         errors[own:] = self.arm.differentiate(kept, self.discrepancy.columns, gears)
         middle = np.concatenate([[c.mean for c in self.own], np.zeros(len(at) - own)])
+        known = np.concatenate([[1.0 / c.sd**2 for c in self.own], np.zeros(len(at) - own)])
         flat = Innovations(kept.seen.errors.ravel(), kept.seen.variances.ravel(), kept.seen.finite)
         blocks = {"own": slice(0, own), "discrepancy": slice(own, len(at))}
-        return Expansion(flat, at, errors, variances, middle, self.weigh(choice), blocks), kept
+        return Expansion(flat, at, errors, variances, middle, known, blocks), kept
 
     def weigh(self, choice: Choice) -> Array:
         """Return the prior precision of all coordinates; infinite where a coefficient is absent."""
@@ -121,10 +129,11 @@ class ArmFrame:
         w, c = widths[widths > 0.0], rest[widths > 0.0]
         return own - float(np.sum(0.5 * (c / w) ** 2 + np.log(w) + 0.5 * math.log(2.0 * math.pi)))
 
-    def target(self, at: Array, choice: Choice) -> float:
-        """Return log-likelihood plus log prior density at coordinates."""
-        found = float(self.run(at).seen.log_likelihood)
-        return found + self.log_prior(at, choice) if math.isfinite(found) else -math.inf
+    def target(self, at: Array, choice: Choice) -> tuple[float, Innovations]:
+        """Return log-likelihood plus log prior density at coordinates, and the one-step errors there."""
+        seen = self.run(at).seen
+        found = float(seen.log_likelihood)
+        return found + self.log_prior(at, choice) if math.isfinite(found) else -math.inf, seen
 
     def clip(self, at: Array) -> Array:
         """Return coordinates within their bounds."""
@@ -182,33 +191,24 @@ class ArmHypothesis:
 def fit_hypothesis(frame: ArmFrame, start: Array, price: float, choice: Choice | None = None) -> ArmHypothesis | None:
     """Return the fitted hypothesis from start coordinates; None where the filter diverges."""
     at, chosen = frame.clip(start), choice or frame.discrepancy.none
-    if not math.isfinite(frame.target(at, chosen)):
+    if not math.isfinite(frame.target(at, chosen)[0]):
         return None
     own = len(frame.own)
     damping = 0.0
     for _ in range(ROUNDS):
-        seen, kept = frame.expand(at, chosen)
+        seen, kept = frame.expand(at)
+        if not np.isfinite(seen.information).all():
+            return None
         chosen = _choose_forces(frame, seen, chosen)
         at = np.where(np.concatenate([np.ones(own, bool), frame.discrepancy.widths(chosen) > 0.0]), at, 0.0)
-        here = frame.target(at, chosen)
         used, precision = _find_precision(frame, seen, chosen)
-        pull = seen.gradient[used] - frame.weigh(chosen)[used] * (at[used] - seen.middle[used])
-        gain = -math.inf
-        for _ in range(6):
-            step = np.zeros(len(at))
-            step[used] = np.linalg.solve(precision + damping * np.diag(np.diag(precision)), pull)
-            step[:own] = np.clip(step[:own], -1.5, 1.5)
-            there = frame.clip(at + step)
-            gain = frame.target(there, chosen) - here
-            if gain > -1e-6:
-                at = there
-                damping *= 0.1
-                break
-            damping = max(10.0 * damping, 0.1)
+        there, gain, damping = _step(frame, (seen, chosen), at, (used, precision), damping)
         if gain < CLOSE:
             break
-    seen, kept = frame.expand(at, chosen)
-    used, precision = _find_precision(frame, seen, chosen)
+        at = there
+    if not np.array_equal(at, seen.at):
+        seen, kept = frame.expand(at)
+        used, precision = _find_precision(frame, seen, chosen)
     target = float(seen.here.log_likelihood) + frame.log_prior(at, chosen) - frame.discrepancy.price(chosen)
     sign, size = np.linalg.slogdet(precision)
     if sign <= 0 or not math.isfinite(target):
@@ -218,12 +218,42 @@ def fit_hypothesis(frame: ArmFrame, start: Array, price: float, choice: Choice |
     return ArmHypothesis(frame, at, chosen, evidence, 0.0, price, scatter, seen, kept, used, precision)
 
 
+def _step(
+    frame: ArmFrame, around: tuple[Expansion, Choice], at: Array, local: tuple[NDArray[np.intp], Array], damping: float
+) -> tuple[Array, float, float]:
+    """Return better coordinates, the gain, and the damping of the next step.
+
+    After a damped step of Gauss-Newton, further ones use the same derivatives as long as they gain.
+    """
+    (seen, choice), (used, precision) = around, local
+    own, weights = len(frame.own), frame.weigh(choice)[used]
+    here, errors = frame.target(at, choice)
+    total = 0.0
+    for _ in range(MOST_STEPS):
+        pull = seen.score(errors)[used] - weights * (at[used] - seen.middle[used])
+        if not np.isfinite(pull).all():
+            break
+        step = np.zeros(len(at))
+        step[used] = np.linalg.solve(precision + damping * np.diag(np.diag(precision)), pull)
+        step[:own] = np.clip(step[:own], -LONGEST_STEP, LONGEST_STEP)
+        there = frame.clip(at + step)
+        target, then = frame.target(there, choice)
+        gain = target - here
+        if gain > -1e-6:
+            at, here, errors, total = there, target, then, total + gain
+            damping *= 0.1
+            if gain < max(CLOSE, CHORD * total):
+                break
+        elif total > 0.0:
+            break
+        else:
+            damping = max(10.0 * damping, 0.1)
+    return at, total, damping
+
+
 def _choose_forces(frame: ArmFrame, seen: Expansion, choice: Choice) -> Choice:
     """Return the best sizes and lengths of the smooth forces, with the own coordinates re-optimised."""
-    own = np.arange(len(frame.own))
-    more = np.arange(len(frame.own), len(seen.at))
-    free = replace(seen, precision=np.concatenate([seen.precision[own], np.zeros(len(more))]))
-    gradient, information = free.profile(own, more)
+    gradient, information = seen.profile(np.arange(len(frame.own)), np.arange(len(frame.own), len(seen.at)))
     return frame.discrepancy.choose(gradient, information, choice)
 
 
@@ -239,7 +269,7 @@ def score_heldout(found: ArmHypothesis, first: int, last: int) -> float:
     frame, picks = found.frame, len(found.frame.arm.log.picks)
 
     def expand(step: Array) -> Expansion:
-        return cut_before(frame.expand(frame.clip(found.at + step), found.choice, last=last)[0], first * picks)
+        return cut_before(frame.expand(frame.clip(found.at + step), last=last)[0], first * picks)
 
     def score(step: Array) -> float:
         moved = frame.run(frame.clip(found.at + step), last=last).seen

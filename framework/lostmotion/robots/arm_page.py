@@ -111,7 +111,7 @@ def make_ranking_table(evidence: RobotEvidence) -> Grid:
     return Grid(["set of mechanisms", "places", "gain in log evidence", "probability"], rows)
 
 
-def draw_missing(evidence: RobotEvidence) -> Figure | None:
+def draw_missing(evidence: RobotEvidence) -> Figure:
     """Return the missing torque of each joint over its position and its velocity."""
     arrays = evidence.arrays
     joints = [row.joint for row in evidence.result.joints]
@@ -138,7 +138,7 @@ def caption_missing(evidence: RobotEvidence) -> str:
     )
 
 
-def draw_prediction(evidence: RobotEvidence) -> Figure | None:
+def draw_prediction(evidence: RobotEvidence) -> Figure:
     """Return errors of free runs over held-out data, before and after, for each position."""
     arrays = evidence.arrays
     names = [str(x) for x in arrays["reading"].values]

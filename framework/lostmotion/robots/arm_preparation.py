@@ -8,15 +8,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lostmotion.contracts import Term
-from lostmotion.errors import DataError
+from lostmotion.errors import CaseError, DataError, nearest
 from lostmotion.evidence.bare import Budget
 from lostmotion.likelihood.sensors import measure_white_noise
 from lostmotion.parts import Array
 from lostmotion.robots.arm import TapedArm
-from lostmotion.robots.arm_discrepancy import LARGE, SIZES, make_discrepancy, make_none
-from lostmotion.robots.arm_effects import ArmCoordinate, measure_scales
-from lostmotion.robots.arm_hypothesis import ArmFrame, fit_hypothesis, list_base
-from lostmotion.robots.arm_search import ArmSearch, Say
+from lostmotion.robots.candidates import list_effects, make_screen, relinearise
+from lostmotion.robots.discrepancy import LARGE, SIZES, make_discrepancy, make_none
+from lostmotion.robots.effects import ArmCoordinate, ArmEffect, measure_scales
+from lostmotion.robots.hypothesis import ArmFrame, fit_hypothesis, list_base
 from lostmotion.robots.log import RobotLog
 from lostmotion.robots.promises import list_effects, make_screen, relinearise
 from lostmotion.robots.tape import Path, make_part, make_tape, smooth_path
@@ -27,18 +27,24 @@ FITTED = 0.7
 FORCE = 0.02
 """The random force to start from, as a share of the torque."""
 MOST_EFFECTS = 4
-"""The largest number of effects in a set."""
-SECONDS = 600.0
+"""The largest number of effects in a set; with more joints one more than joints."""
+SECONDS = 1200.0
 """The processor time of a search (s)."""
 
 
 @dataclass(frozen=True)
 class SearchOptions:
-    """How a search is done: the tolerance of known values, the most effects of a set, and its processor time (s)."""
+    """How a search is done: the tolerance of known values, the most effects of a set, and its processor time (s).
+
+    `asked` are the effects that are tried, by name or as NAME@PLACE; all, if empty. `jobs` is the number
+    of threads.
+    """
 
     tolerance: float = 0.02
     most: int = MOST_EFFECTS
     budget: float = SECONDS
+    asked: tuple[str, ...] = ()
+    jobs: int = 1
 
 
 def make_arm(
@@ -97,11 +103,25 @@ def prepare_search(
         make_discrepancy(arm, arm.tape.path, arm.tape.path.a, scales, options.tolerance, known, sizes)
         for sizes in (SIZES, LARGE)
     ]
-    effects = list_effects(arm, scales, terms, simulator.points, plain)
+    effects = _choose_effects(list_effects(arm, scales, terms, simulator.points, plain), options.asked)
     screen = make_screen(arm, effects, arm.tape.path.a)
     frame = ArmFrame(arm, (), base, both[0], last)
-    search = ArmSearch(frame, screen, both[1], arm.log.samples, options.most, Budget(seconds=options.budget), say)
-    return search, np.concatenate([[c.mean for c in base], np.zeros(len(both[0].columns))])
+    budget = Budget(seconds=options.budget)
+    most = max(options.most, len(arm.joints) + 1) if len(arm.joints) > 2 else options.most
+    search = ArmSearch(frame, screen, both[1], arm.log.samples, most, budget, options.jobs, say)
+    return search, np.concatenate([at, np.zeros(len(both[0].columns))])
+
+
+def _choose_effects(effects: Sequence[ArmEffect], asked: Sequence[str]) -> list[ArmEffect]:
+    """Return the effects that are asked for by name or as NAME@PLACE, or all; raise `CaseError` for an unknown one."""
+    names = {effect.key.partition("@")[0]: None for effect in effects} | {effect.key: None for effect in effects}
+    for wanted in asked:
+        if wanted not in names:
+            short = [name for name in names if "@" not in name]
+            raise CaseError(
+                f"no mechanism {wanted!r} can act in this robot{nearest(wanted, names)}: there are {', '.join(short)}"
+            )
+    return [e for e in effects if not asked or {e.key, e.key.partition("@")[0]} & set(asked)]
 
 
 def _filter_path(arm: TapedArm, base: Sequence[ArmCoordinate], last: int) -> tuple[Path, Array]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -41,6 +42,9 @@ from lostmotion.robots.tape import Path as RobotPath
 from lostmotion.simulators import FoundMechanism
 from lostmotion.storage import StoredArray, dataset_of, folder_for, save_datasets, save_json, save_text
 
+if TYPE_CHECKING:
+    import xarray as xr
+
 Say = Callable[[str], None]
 USUAL = 0.03
 """A random force above this share of the torque is more than the usual noise of a drive."""
@@ -49,22 +53,28 @@ FOUND_MODEL = "arm_found.xml"
 
 @dataclass(frozen=True, eq=False)
 class RobotOutput:
-    """The output of a diagnosis: the result, the search it comes from, and the arrays of the page."""
+    """The output of a diagnosis: the result, the search it comes from, the arrays of the page, and the changed model.
+
+    `written` is the text of the model with what was found; None where the model has no file.
+    """
 
     result: RobotDiagnosis
     search: ArmSearch
-    arrays: dict[str, StoredArray]
-    coords: dict[str, StoredArray]
+    arrays: xr.Dataset
+    written: str | None
 
-    def save(self, folder: Path) -> None:
-        """Write `diagnosis.json`, `arrays.nc` and `report.html` into a folder."""
-        save_datasets(folder / "arrays.nc", {None: dataset_of(self.arrays, self.coords, {"title": self.result.title})})
-        save_json(folder / "diagnosis.json", to_plain(self.result))
-        write_robot_report(folder)
+
+def save_robot(folder: Path, result: RobotDiagnosis, arrays: xr.Dataset, written: str | None) -> None:
+    """Write `diagnosis.json`, `arrays.nc`, `report.html` and, where there is one, the changed model into a folder."""
+    if written is not None:
+        save_text(folder / FOUND_MODEL, written)
+    save_datasets(folder / "arrays.nc", {None: arrays})
+    save_json(folder / "diagnosis.json", to_plain(result))
+    write_robot_report(folder)
 
 
 def run_robot(
-    path: Path, out: Path, registry: Registry, *, budget: float | None = None, say: Say = lambda _: None
+    path: Path, out: Path, registry: Registry, *, budget: float | None = None, jobs: int = 1, say: Say = lambda _: None
 ) -> RobotDiagnosis:
     """Return the diagnosis of the case of a robot, after writing its files and the changed model into a folder.
 
@@ -73,40 +83,50 @@ def run_robot(
     say("reading the case")
     case = load_robot_case(path, registry)
     folder = folder_for(out)
-    output = diagnose_robot(case, registry, budget=budget, say=say)
+    made = diagnose_robot(case, registry, budget=budget, jobs=jobs, say=say)
     say("report")
-    output.save(folder)
-    written = case.simulator.write_found(list_changes(output), case.known)
-    if written is not None:
-        save_text(folder / FOUND_MODEL, written[0])
-    return output.result
+    save_robot(folder, made.result, made.arrays, made.written)
+    return made.result
 
 
 @hold_linear_algebra()
 def diagnose_robot(
-    case: RobotCase, registry: Registry, *, budget: float | None = None, say: Say = lambda _: None
+    case: RobotCase,
+    registry: Registry,
+    *,
+    terms: Sequence[str] = (),
+    budget: float | None = None,
+    jobs: int = 1,
+    say: Say = lambda _: None,
 ) -> RobotOutput:
-    """Return the output of the diagnosis of a robot; raise `CaseError` where a check of the log fails."""
+    """Return the output of the diagnosis of a robot; raise `CaseError` where a check of the log fails.
+
+    `terms` are the mechanisms that are tried, by name or as NAME@PLACE; all, if empty. `jobs` is the number of threads,
+    on which the result does not depend.
+    """
     say("tape")
-    plain = make_arm(case.simulator, case.log, case.side, known=case.known)
-    checks = check_log(plain, case.simulator)
+    simulator = case.model.simulator
+    plain = make_arm(simulator, case.log, case.model.side, known=case.known)
+    checks = check_log(plain, simulator)
     if stopped := [check.says for check in checks if check.stop]:
         raise CaseError(" ".join(stopped))
-    terms = [registry.make("term", name) for name in registry.names("term")]
-    options = SearchOptions(case.tolerance, budget=SECONDS if budget is None else budget)
-    search, start = prepare_search(plain, case.simulator, terms, case.estimate, options, say)
+    options = SearchOptions(
+        case.model.tolerance, budget=SECONDS if budget is None else budget, asked=tuple(terms), jobs=jobs
+    )
+    search, start = prepare_search(plain, simulator, _make_library(registry), case.coordinates, options, say)
     search.run(start)
     if not search.found:
         raise CaseError(
             "the model diverges from the log at any level of noise: check units, signs and the order of the joints"
         )
-    return _make_output(case, plain, search, checks, terms)
+    return _make_output(case, plain, search, checks, registry)
 
 
 def _make_output(
-    case: RobotCase, plain: TapedArm, search: ArmSearch, checks: Sequence[Check], terms: Sequence[Term]
+    case: RobotCase, plain: TapedArm, search: ArmSearch, checks: Sequence[Check], registry: Registry
 ) -> RobotOutput:
-    motions = dict(zip(case.simulator.joints, case.simulator.moves, strict=True))
+    simulator = case.model.simulator
+    motions = dict(zip(simulator.joints, simulator.moves, strict=True))
     nominal, best = search.found[frozenset()], search.best
     before, after = predict_heldout(nominal), predict_heldout(best)
     found = list_findings(search, motions)
@@ -130,7 +150,7 @@ def _make_output(
         fit=HeldOutScores(
             _score(before, case.log.joints), _score(after, case.log.joints), float(np.mean(after.floor)), "s", 1.0
         ),
-        model=Labels(Path(case.file).name, " + ".join([Path(case.file).name, *sorted(best.terms)])),
+        model=Labels(case.model.label, " + ".join([case.model.label, *sorted(best.terms)])),
         joints=rows,
         noise=_list_noise(best, motions),
         recordings=(
@@ -138,10 +158,18 @@ def _make_output(
                 case.log.name, case.log.samples, 1.0 / case.log.dt, None, tuple(f"{j}.torque" for j in case.log.joints)
             ),
         ),
-        notes=_write_notes(case, search, terms),
-        provenance=_make_origin(case, search),
+        notes=_write_notes(case, search, registry),
+        provenance=make_robot_origin(case, registry, search.budget.seconds),
     )
-    return RobotOutput(result, search, *_list_arrays(case, seen, missing, (before, after)))
+    written = simulator.write_found(_list_changes(found), case.known)
+    arrays, coords = _list_arrays(case, seen, missing, (before, after))
+    return RobotOutput(
+        result, search, dataset_of(arrays, coords, {"title": case.title}), None if written is None else written[0]
+    )
+
+
+def _make_library(registry: Registry) -> list[Term]:
+    return [registry.make("term", name) for name in registry.names("term")]
 
 
 def _average_path(path: RobotPath, dt: float) -> RobotPath:
@@ -201,16 +229,18 @@ def _list_noise(one: ArmHypothesis, motions: dict[str, str]) -> dict[str, Interv
     return found
 
 
-def _write_notes(case: RobotCase, search: ArmSearch, terms: Sequence[Term]) -> tuple[str, ...]:
+def _write_notes(case: RobotCase, search: ArmSearch, registry: Registry) -> tuple[str, ...]:
     """Return limitations and remarks."""
     notes = list(case.log.notes)
-    if case.simulator.step is not None and case.simulator.step > 5e-4:
+    step = case.model.simulator.step
+    if step is not None and step > 5e-4:
         notes.append(
-            f"The model integrates with steps of {1e3 * case.simulator.step:g} ms. The diagnosis does not depend on"
+            f"The model integrates with steps of {1e3 * step:g} ms. The diagnosis does not depend on"
             " them, because it uses the exact equations of motion; a simulation with these steps has errors of its own."
         )
     if search.skipped:
         notes.append("The processor time was used up before the search had ended: give --budget SECONDS for more.")
+    terms = _make_library(registry)
     aside = sorted(term.name for term in terms if not can_act(term) and term.acts == "motion")
     notes.append(f"Not tried at joints, because they have states or need other places: {', '.join(aside)}.")
     if search.temper > 1.5:
@@ -221,12 +251,14 @@ def _write_notes(case: RobotCase, search: ArmSearch, terms: Sequence[Term]) -> t
     return tuple(notes)
 
 
-def _make_origin(case: RobotCase, search: ArmSearch) -> Origin:
+def make_robot_origin(case: RobotCase, registry: Registry, budget: float | None) -> Origin:
+    """Return the origin of the diagnosis of a case; `budget` is the processor time of its search (s)."""
+    model = case.model
     settings = {
-        "simulator": case.kind, "joints": list(case.simulator.joints), "torque": case.side, "hold": case.log.hold,
-        "tolerance": case.tolerance, "known": dict(case.known), "most": search.most, "budget": search.budget.seconds,
+        "simulator": model.kind, "joints": list(model.joints), "torque": model.side, "hold": case.log.hold,
+        "tolerance": model.tolerance, "known": dict(case.known), "budget": SECONDS if budget is None else budget,
     }  # fmt: skip
-    return origin_of("diagnose", settings, None, case.inputs)
+    return origin_of("diagnose", settings, None, {**registry.origins(), **case.inputs})
 
 
 def _list_arrays(
@@ -254,10 +286,10 @@ def _list_arrays(
     return arrays, coords
 
 
-def list_changes(output: RobotOutput) -> tuple[FoundMechanism, ...]:
+def _list_changes(found: Sequence[Mechanism]) -> tuple[FoundMechanism, ...]:
     """Return the named mechanisms for a simulator, which writes them into its own file."""
     return tuple(
         FoundMechanism(m.mechanism, m.at, {name: x.median for name, x in m.parameters.items()}, m.says)
-        for m in output.result.found
+        for m in found
         if m.mechanism != UNKNOWN
     )

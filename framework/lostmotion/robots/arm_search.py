@@ -11,11 +11,12 @@ import numpy as np
 from lostmotion.evidence.bare import Budget
 from lostmotion.evidence.search import compute_probabilities
 from lostmotion.inference.penalties import compute_unknown_price
+from lostmotion.kernels.threads import each
 from lostmotion.parts import Array
-from lostmotion.robots.arm_discrepancy import Discrepancy
-from lostmotion.robots.arm_effects import ArmEffect
-from lostmotion.robots.arm_hypothesis import ArmFrame, ArmHypothesis, fit_hypothesis, score_heldout
-from lostmotion.robots.promises import ArmPromise, Screen, list_gear_promises, list_promises
+from lostmotion.robots.candidates import Group, Screen, list_gear_promises, list_groups, list_promises
+from lostmotion.robots.discrepancy import Discrepancy
+from lostmotion.robots.effects import ArmEffect
+from lostmotion.robots.hypothesis import ArmFrame, ArmHypothesis, fit_hypothesis, score_heldout
 
 Say = Callable[[str], None]
 Terms = frozenset[str]
@@ -44,6 +45,7 @@ class ArmSearch:
     samples: int
     most: int
     budget: Budget
+    jobs: int = 1
     say: Say = lambda _: None
     found: dict[Terms, ArmHypothesis] = field(default_factory=dict)
     extended: set[Terms] = field(default_factory=set)
@@ -95,52 +97,69 @@ class ArmSearch:
     def extend(self, target: ArmHypothesis) -> None:
         """Fit the sets with one more effect that promise to be better."""
         temper, small = self.temper, self._make_small(target)
-        usual = list_promises(self.screen, target, self.price, temper)[:MOST_FITTED]
+        promises = list_promises(self.screen, target, self.price, temper)
+        usual, groups = promises[:MOST_FITTED], list_groups(promises, self.most - len(target.terms))
         known = {p.effect.key for p in usual}
         more = list_promises(self.screen, small, self.price, temper)[:MOST_SMALL] if small is not None else []
         low = target.at[: len(self.frame.arm.joints)] + math.log(SMALL)
         gears = list_gear_promises(self.screen, target, low, self.price, temper)[:MOST_GEARS]
-        wanted: list[tuple[ArmPromise, tuple[float, ...]]] = [(p, (0.0,)) for p in usual if p.gain > 0.0]
-        wanted += [(p, (math.log(SMALL),)) for p in more if p.gain > 0.0 and p.effect.key not in known]
-        wanted += [(p, (0.0, math.log(SMALL))) for p in gears if p.gain > 0.0]
-        self.say(f"fits beside {name_set(target.terms)}: {', '.join(p.effect.key for p, _ in wanted) or 'none'}")
-        for promise, shifts in wanted:
+        wanted: list[tuple[Group, tuple[float, ...]]] = [(group, (0.0,)) for group in groups]
+        wanted += [((p,), (0.0,)) for p in usual if p.gain > 0.0]
+        wanted += [((p,), (math.log(SMALL),)) for p in more if p.gain > 0.0 and p.effect.key not in known]
+        wanted += [((p,), (0.0, math.log(SMALL))) for p in gears if p.gain > 0.0]
+        told = [name_set(frozenset(p.effect.key for p in group)) for group, _ in wanted]
+        self.say(f"fits beside {name_set(target.terms)}: {', '.join(told) or 'none'}")
+
+        def fit(one: tuple[Group, tuple[float, ...]]) -> ArmHypothesis | None:
             if self.budget.spent:
                 self.skipped = True
-                return
-            self._weigh_beside(target, promise, shifts)
+                return None
+            return self._fit_beside(target, *one)
+
+        for made in each(fit, wanted, self.jobs):
+            self._keep(made)
 
     def _make_small(self, target: ArmHypothesis) -> ArmHypothesis | None:
         """Return the hypothesis with a small random force, at which slopes of effects that look like noise show."""
         at = target.at.copy()
         at[: len(self.frame.arm.joints)] += math.log(SMALL)
-        seen, kept = target.frame.expand(at, target.choice)
+        seen, kept = target.frame.expand(at)
         if not math.isfinite(float(kept.seen.log_likelihood)):
             return None
-        precision = seen.information[np.ix_(target.used, target.used)] + np.diag(seen.precision[target.used])
+        precision = seen.information[np.ix_(target.used, target.used)] + np.diag(
+            target.frame.weigh(target.choice)[target.used]
+        )
         return replace(target, at=at, expansion=seen, kept=kept, precision=precision)
 
-    def _weigh_beside(self, target: ArmHypothesis, promise: ArmPromise, shifts: tuple[float, ...]) -> None:
-        """Fit a set with one more effect, in place of simpler ones that it contains."""
-        kept = [e for e in target.frame.effects if e.key not in promise.effect.extends]
-        effects = tuple(sorted((*kept, promise.effect), key=lambda e: e.key))
+    def _fit_beside(self, target: ArmHypothesis, group: Group, shifts: tuple[float, ...]) -> ArmHypothesis | None:
+        """Return the fitted set with further effects, in place of simpler ones that they contain."""
+        replaced = {key for promise in group for key in promise.effect.extends}
+        kept = [e for e in target.frame.effects if e.key not in replaced]
+        effects = tuple(sorted((*kept, *(promise.effect for promise in group)), key=lambda e: e.key))
         if frozenset(e.key for e in effects) in self.found:
-            return
-        moved = target if promise.shift is None else self._move(target, promise.shift)
-        known = self._read(moved) | {
-            c.key: c.place(promise.start.get(c.key, c.value(c.mean))) for c in promise.effect.coordinates
+            return None
+        known = self._read(self._move(target, [p.shift for p in group if p.shift is not None]))
+        known |= {
+            c.key: c.place(promise.start.get(c.key, c.value(c.mean)))
+            for promise in group
+            for c in promise.effect.coordinates
         }
-        self.weigh(effects, self._vary_levels(self._place(effects, known), shifts), target)
+        return self._fit(effects, self._vary_levels(self._place(effects, known), shifts), target)
 
-    def _move(self, one: ArmHypothesis, shift: Array) -> ArmHypothesis:
-        """Return a hypothesis with the coefficients of its discrepancy where a promise expects them."""
+    def _move(self, one: ArmHypothesis, shifts: list[Array]) -> ArmHypothesis:
+        """Return a hypothesis with the coefficients of its discrepancy where promises expect them."""
         of_discrepancy = np.arange(len(one.at)) >= len(one.frame.own)
-        return replace(one, at=one.at + np.where(of_discrepancy, shift, 0.0))
+        return replace(one, at=one.at + np.where(of_discrepancy, sum(shifts), 0.0))
 
     def _vary_levels(self, at: Array, shifts: tuple[float, ...] = (0.0, math.log(SMALL))) -> list[Array]:
         """Return starts with other random forces, whose logarithms are shifted."""
         first = np.arange(len(at)) < len(self.frame.arm.joints)
         return [np.where(first, at + shift, at) for shift in shifts]
+
+    @property
+    def _levels(self) -> int:
+        """The number of coordinates that are levels of random forces and of noise."""
+        return len(self.frame.arm.joints) + len(self.frame.arm.log.picks)
 
     def _read(self, one: ArmHypothesis) -> dict[str, float]:
         """Return the coordinates of a hypothesis by key, those of the discrepancy by number."""
@@ -155,17 +174,26 @@ class ArmSearch:
         return np.array([*own, *more])
 
     def weigh(self, effects: tuple[ArmEffect, ...], starts: list[Array], beside: ArmHypothesis | None = None) -> None:
-        """Fit a set of effects from several starts, and keep the best fit with its density of held-out data."""
+        """Fit a set of effects from several starts, and keep the best fit."""
+        self._keep(self._fit(effects, starts, beside))
+
+    def _fit(
+        self, effects: tuple[ArmEffect, ...], starts: list[Array], beside: ArmHypothesis | None
+    ) -> ArmHypothesis | None:
+        """Return the best fit of a set of effects from several starts, with its density of held-out data."""
         frame = replace(self.frame, effects=effects)
         price = sum(self.price + effect.price for effect in effects)
         choice = beside.choice if beside is not None else None
         made = [fit_hypothesis(frame, start, price, choice) for start in starts]
         fitted = [one for one in made if one is not None]
-        if fitted:
-            self._keep(max(fitted, key=lambda one: one.log_evidence))
+        return self._score(max(fitted, key=lambda one: one.log_evidence)) if fitted else None
 
-    def _keep(self, made: ArmHypothesis) -> None:
-        made = replace(made, heldout=score_heldout(made, self.frame.last, self.samples))
+    def _score(self, made: ArmHypothesis) -> ArmHypothesis:
+        return replace(made, heldout=score_heldout(made, self.frame.last, self.samples))
+
+    def _keep(self, made: ArmHypothesis | None) -> None:
+        if made is None:
+            return
         known = self.found.get(made.terms)
         better = known is None or made.log_evidence + made.heldout > known.log_evidence + known.heldout
         if math.isfinite(made.heldout) and better:
@@ -174,12 +202,23 @@ class ArmSearch:
     def drop_each(self, target: ArmHypothesis) -> None:
         """Weigh a set without each of its effects in turn, starting from the set."""
         known = self._read(target)
+
+        def fit(rest: tuple[ArmEffect, ...]) -> ArmHypothesis | None:
+            start, terms = self._place(rest, known), frozenset(e.key for e in rest)
+            if terms in self.found:
+                levels = self.found[terms].at[: self._levels]
+                start[: len(levels)] = levels
+            return self._fit(rest, [start], target)
+
+        wanted = []
         for effect in target.frame.effects:
             rest = tuple(e for e in target.frame.effects if e is not effect)
-            terms = frozenset(e.key for e in rest)
-            if (target.terms, terms) not in self.dropped:
-                self.dropped.add((target.terms, terms))
-                self.weigh(rest, self._vary_levels(self._place(rest, known)), target)
+            pair = (target.terms, frozenset(e.key for e in rest))
+            if pair not in self.dropped:
+                self.dropped.add(pair)
+                wanted.append(rest)
+        for made in each(fit, wanted, self.jobs):
+            self._keep(made)
 
     def weigh_unknown(self, target: ArmHypothesis) -> None:
         """Fit a set with a smooth force that is larger than the usual discrepancy."""
@@ -191,13 +230,14 @@ class ArmSearch:
         if made is None:
             return
         usual = [len(force.options) for force in target.frame.discrepancy.forces]
-        if any(option >= count for option, count in zip(made.choice, usual, strict=True)):
-            self._keep(replace(made, unknown=True))
+        if any(option >= count for option, count in zip(made.choice[:-1], usual, strict=True)):
+            self._keep(self._score(replace(made, unknown=True)))
 
 
 def _widen(target: ArmHypothesis, large: Discrepancy) -> tuple[int, ...]:
     """Return the choice of a hypothesis among the options of a larger discrepancy, whose first ones are the same."""
-    return tuple(min(option, len(f.options) - 1) for option, f in zip(target.choice, large.forces, strict=True))
+    options = zip(target.choice[:-1], large.forces, strict=True)
+    return (*(min(option, len(f.options) - 1) for option, f in options), target.choice[-1])
 
 
 def name_set(terms: Terms) -> str:

@@ -135,7 +135,7 @@ def measure_forces(found: ArmHypothesis) -> dict[tuple[str, str], float]:
     """Return the rms of each smooth force that is present, by joint and what it depends on (N m)."""
     frame = found.frame
     rest, told = found.at[len(frame.own) :], {}
-    for force, option in zip(frame.discrepancy.forces, found.choice, strict=True):
+    for force, option in zip(frame.discrepancy.forces, found.choice[:-1], strict=True):
         if option >= 0:
             made = rest[force.columns] @ frame.discrepancy.matrix[force.columns, :, force.joint]
             told[frame.arm.joints[force.joint], force.over] = float(np.sqrt(np.mean(made**2)))

@@ -42,6 +42,29 @@ class ArmPromise:
     shift: Array | None = None
 
 
+Group = tuple[ArmPromise, ...]
+"""Effects that are proposed together."""
+MOST_GROUPS = 2
+"""The number of laws that are proposed at several joints at once."""
+
+
+def list_groups(promises: Sequence[ArmPromise], most: int) -> list[Group]:
+    """Return proposals of two to `most` effects at once: a law at several joints, and the best law of each joint.
+
+    Forces at different joints hardly share an explanation, so that their promises add up.
+    """
+    laws = [p for p in promises if p.gain > 0.0 and isinstance(p.effect, LawEffect)]
+    by_law: dict[str, list[ArmPromise]] = {}
+    by_joint: dict[int, ArmPromise] = {}
+    for promise in laws:  # the best first
+        assert isinstance(promise.effect, LawEffect)  # noqa: S101 - as chosen above
+        by_law.setdefault(promise.effect.term.name, []).append(promise)
+        by_joint.setdefault(promise.effect.joint, promise)
+    ranked = sorted(by_law.values(), key=lambda group: -sum(p.gain for p in group))[:MOST_GROUPS]
+    found = [tuple(group[:most]) for group in (*ranked, list(by_joint.values()))]
+    return list({frozenset(p.effect.key for p in group): group for group in found if len(group) > 1}.values())
+
+
 def list_effects(
     arm: TapedArm, scales: Sequence[JointScales], terms: Iterable[Term], points: Sequence[str], plain: FilteredLog
 ) -> list[ArmEffect]:
@@ -99,7 +122,7 @@ def list_promises(screen: Screen, beside: ArmHypothesis, price: float, temper: f
     e, v = seen.here.errors, seen.here.variances
     slopes = more @ (-e / v)
     cross = (seen.errors[used] / v) @ more.T
-    own = seen.gradient[used] - seen.precision[used] * (seen.at[used] - seen.middle[used])
+    own = seen.gradient[used] - frame.weigh(beside.choice)[used] * (seen.at[used] - seen.middle[used])
     pulled = np.linalg.solve(beside.precision, np.column_stack([cross, own]))
     best: dict[str, ArmPromise] = {}
     size = np.sqrt(np.sum(more * more / v, axis=1))

@@ -12,12 +12,15 @@ from lostmotion.errors import CaseError, nearest
 from lostmotion.parts import Array
 from lostmotion.simulators import Simulator
 
+Function = Callable[[Array, Array, Array], Any]
+"""Inverse dynamics: torques (samples, n) of positions, velocities and accelerations (samples, n)."""
+
 
 @dataclass(frozen=True)
 class FunctionSimulator(Simulator):
     """The simulation of a function `inverse(q, v, a)` that returns torques; all arrays are (samples, joints)."""
 
-    function: Callable[[Array, Array, Array], Any]
+    function: Function
     names: tuple[str, ...]
     name: ClassVar[str] = "inverse"
     paper: ClassVar[str] = "Featherstone, Rigid Body Dynamics Algorithms (2008), chapter 5"
