@@ -18,8 +18,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from lostmotion.registry import Registry
-from lostmotion.robots.case import load_robot_case
-from lostmotion.robots.run import diagnose_robot
+from lostmotion.robots.arm_case import load_robot_case
+from lostmotion.robots.arm_run import diagnose_robot
 from lostmotion_trials.arms.chains import CHAIN_EFFECTS, draw_hidden_chain, write_chain_case
 from lostmotion_trials.arms.draw import EFFECTS, Truth, draw_arm, write_case
 

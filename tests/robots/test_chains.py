@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from lostmotion.robots.arm_preparation import SearchOptions, make_arm, prepare_search
+from lostmotion.robots.arm_search import find_probabilities
 from lostmotion.robots.log import RobotLog
-from lostmotion.robots.prepare import SearchOptions, make_arm, prepare_search
-from lostmotion.robots.search import find_probabilities
 from lostmotion.robots.user import FunctionSimulator
 from lostmotion_trials.arms.chains import draw_hidden_chain, format_mjcf
 from lostmotion_trials.integrators.chain import draw_chain, plan_chain, record_chain

@@ -8,7 +8,7 @@ import pytest
 from click.testing import CliRunner
 
 from lostmotion.cli import main
-from lostmotion.robots.beginning import match_columns
+from lostmotion.robots.arm_first_case import match_columns
 from lostmotion_trials.integrators.arm import Arm, record_motion
 
 pytest.importorskip("mujoco", reason="MJCF and URDF need the extra mujoco")

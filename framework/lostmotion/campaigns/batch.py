@@ -23,8 +23,8 @@ from lostmotion.registry import Registry
 from lostmotion.results.diagnosis import Diagnosis
 from lostmotion.results.robots import RobotDiagnosis, is_robot_result
 from lostmotion.robots import is_robot_case
-from lostmotion.robots.case import load_robot_case
-from lostmotion.robots.run import FOUND_MODEL, make_robot_origin, run_robot
+from lostmotion.robots.arm_case import load_robot_case
+from lostmotion.robots.arm_run import FOUND_MODEL, make_robot_origin, run_robot
 from lostmotion.settings import DEFAULT, Settings
 from lostmotion.storage import folder_for, load_json, load_result, writing
 

@@ -85,7 +85,7 @@ def _diagnose_one(
 
 
 def _diagnose_robot(ctx: click.Context, case: Path, out: Path, *, quiet: bool, jobs: int, settings: Settings) -> None:
-    from lostmotion.robots.run import run_robot
+    from lostmotion.robots.arm_run import run_robot
 
     with show_progress("diagnose", quiet=quiet) as say:
         found = run_robot(case, out, registry_of(ctx), budget=settings.select.budget or None, jobs=jobs, say=say)

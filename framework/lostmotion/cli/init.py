@@ -90,7 +90,7 @@ def _write_robot_case(
     ctx: click.Context, log: Path, out: Path, robots: dict[str, Path], roles: dict[str, Any], units: dict[str, str],
     factors: dict[str, float],
 ) -> None:  # fmt: skip
-    from lostmotion.robots.beginning import RobotRoles, write_robot_case
+    from lostmotion.robots.arm_first_case import RobotRoles, write_robot_case
 
     for name in ("model", "drive", "response"):
         if roles[name]:

@@ -10,7 +10,7 @@ from lostmotion.case import Prior
 from lostmotion.contracts import Model
 from lostmotion.errors import CaseError
 from lostmotion.registry import Registry
-from lostmotion.robots.model import RobotModel
+from lostmotion.robots.arm_model import RobotModel
 
 
 def modelled(value: Any, name: str) -> Any:

@@ -17,15 +17,15 @@ from lostmotion.case import GUESSED, WRITTEN, CaseFile, Experiment, Prior, Senso
 from lostmotion.contracts import Model
 from lostmotion.equations import name_inputs
 from lostmotion.errors import CaseError, PluginError, nearest
-from lostmotion.notebook.robots import make_robot_case, make_robot_recording
-from lostmotion.notebook.rules import KNOWN, PRIORS, modelled
+from lostmotion.notebook.argument_rules import KNOWN, PRIORS, modelled
+from lostmotion.notebook.robot_objects import make_robot_case, make_robot_recording
 from lostmotion.preparation.prepare import Prepared, case_of, prepare_loaded
 from lostmotion.preparation.vetting import make_plugin
 from lostmotion.recording import Recording, load_recording
 from lostmotion.registry import Registry, default
 from lostmotion.robots import is_robot_case
-from lostmotion.robots.case import RobotCase, load_robot_case
-from lostmotion.robots.model import RobotModel, make_robot_model
+from lostmotion.robots.arm_case import RobotCase, load_robot_case
+from lostmotion.robots.arm_model import RobotModel, make_robot_model
 from lostmotion.settings import DEFAULT, Settings, read
 from lostmotion.storage import folder_for, save_table
 from lostmotion.written import Written, is_equation, model_of

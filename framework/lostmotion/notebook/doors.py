@@ -34,8 +34,7 @@ from lostmotion.notebook.check_result import CheckResult, load_check
 from lostmotion.notebook.diagnosis_result import DiagnosisResult, load_diagnosis
 from lostmotion.notebook.posterior import IdentificationResult, load_identification
 from lostmotion.notebook.recorded import read_recorded_case
-from lostmotion.notebook.robots import RERUN_HINT, RobotResult, load_robot
-from lostmotion.notebook.rules import CASE
+from lostmotion.notebook.robot_objects import RERUN_HINT, RobotResult, load_robot
 from lostmotion.offers import RESULT
 from lostmotion.progress import show_progress
 from lostmotion.recording import Recording
@@ -43,7 +42,7 @@ from lostmotion.recording.formats import is_recording
 from lostmotion.recording.value_checks import fill_lost
 from lostmotion.registry import Registry, default
 from lostmotion.results.robots import is_robot_result
-from lostmotion.robots.model import RobotModel
+from lostmotion.robots.arm_model import RobotModel
 from lostmotion.settings import DEFAULT, Settings, read
 from lostmotion.storage import load_json
 
@@ -86,8 +85,8 @@ def diagnose(
     `settings` changes thresholds, such as `{"select.decisive": 4.0}` (`lostmotion.settings` lists them). Raises
     `CaseError` or `DataError` where the case cannot be used, with the message of the command line.
     """
-    from lostmotion.diagnosis.run import diagnose_prepared
-    from lostmotion.robots.run import diagnose_robot
+    from lostmotion.diagnosis.diagnosis_run import diagnose_prepared
+    from lostmotion.robots.arm_run import diagnose_robot
 
     known_to, limits = registry or default(), read(settings)
     asked = make_case(case, model, known, estimate, known_to, limits=limits)

@@ -14,7 +14,7 @@ from lostmotion.notebook.case import Case
 from lostmotion.preparation.beginning import write_first_case
 from lostmotion.recording.outline import GivenRoles
 from lostmotion.registry import Registry
-from lostmotion.robots.model import RobotModel
+from lostmotion.robots.arm_model import RobotModel
 from lostmotion.settings import Settings
 
 

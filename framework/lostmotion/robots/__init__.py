@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from lostmotion.case.load import parse_case
+from lostmotion.case.reading import parse_case
 from lostmotion.registry import Registry
 from lostmotion.simulators import INVERSE
 

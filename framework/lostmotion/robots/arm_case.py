@@ -11,7 +11,7 @@ import numpy as np
 
 from lostmotion.case import Prior
 from lostmotion.case.fields import Fields
-from lostmotion.case.load import parse_case, read_prior
+from lostmotion.case.reading import parse_case, read_prior
 from lostmotion.errors import CaseError, nearest
 from lostmotion.parts import Array
 from lostmotion.provenance import digest
@@ -21,8 +21,8 @@ from lostmotion.recording.formats import read_table
 from lostmotion.recording.table import Table
 from lostmotion.registry import Registry
 from lostmotion.robots.arm_effects import ArmCoordinate
+from lostmotion.robots.arm_model import HOLDS, SIDES, TOLERANCE, WHICH_SIDE, RobotModel, make_simulator
 from lostmotion.robots.log import RobotLog, find_stale, measure_clock, resample
-from lostmotion.robots.model import HOLDS, SIDES, TOLERANCE, WHICH_SIDE, RobotModel, make_simulator
 from lostmotion.simulators import INVERSE, Simulator
 
 TOP = ("title", "plugins", "recordings", "model", "truth")

@@ -13,10 +13,10 @@ from lostmotion.evidence.bare import Budget
 from lostmotion.likelihood.sensors import measure_white_noise
 from lostmotion.parts import Array
 from lostmotion.robots.arm import TapedArm
-from lostmotion.robots.candidates import list_effects, make_screen, relinearise
-from lostmotion.robots.discrepancy import LARGE, SIZES, make_discrepancy, make_none
-from lostmotion.robots.effects import ArmCoordinate, ArmEffect, measure_scales
-from lostmotion.robots.hypothesis import ArmFrame, fit_hypothesis, list_base
+from lostmotion.robots.arm_discrepancy import LARGE, SIZES, make_discrepancy, make_none
+from lostmotion.robots.arm_effects import ArmCoordinate, ArmEffect, measure_scales
+from lostmotion.robots.arm_hypothesis import ArmFrame, fit_hypothesis, list_base
+from lostmotion.robots.arm_search import ArmSearch, Say
 from lostmotion.robots.log import RobotLog
 from lostmotion.robots.promises import list_effects, make_screen, relinearise
 from lostmotion.robots.tape import Path, make_part, make_tape, smooth_path

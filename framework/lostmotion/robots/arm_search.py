@@ -13,10 +13,10 @@ from lostmotion.evidence.search import compute_probabilities
 from lostmotion.inference.penalties import compute_unknown_price
 from lostmotion.kernels.threads import each
 from lostmotion.parts import Array
-from lostmotion.robots.candidates import Group, Screen, list_gear_promises, list_groups, list_promises
-from lostmotion.robots.discrepancy import Discrepancy
-from lostmotion.robots.effects import ArmEffect
-from lostmotion.robots.hypothesis import ArmFrame, ArmHypothesis, fit_hypothesis, score_heldout
+from lostmotion.robots.arm_discrepancy import Discrepancy
+from lostmotion.robots.arm_effects import ArmEffect
+from lostmotion.robots.arm_hypothesis import ArmFrame, ArmHypothesis, fit_hypothesis, score_heldout
+from lostmotion.robots.promises import Group, Screen, list_gear_promises, list_groups, list_promises
 
 Say = Callable[[str], None]
 Terms = frozenset[str]

@@ -20,11 +20,11 @@ from lostmotion.report import style
 from lostmotion.results import Interval
 from lostmotion.results.diagnosis import Candidate, HeldOutScore, Mechanism
 from lostmotion.results.robots import Check, RobotDiagnosis
-from lostmotion.robots.case import RobotCase
+from lostmotion.robots.arm_case import RobotCase
+from lostmotion.robots.arm_model import RobotModel
+from lostmotion.robots.arm_page import RobotEvidence, draw_missing, draw_prediction, render
+from lostmotion.robots.arm_run import FOUND_MODEL, save_robot
 from lostmotion.robots.log import RobotLog, measure_clock, resample
-from lostmotion.robots.model import RobotModel
-from lostmotion.robots.page import RobotEvidence, draw_missing, draw_prediction, render
-from lostmotion.robots.run import FOUND_MODEL, save_robot
 from lostmotion.storage import folder_for, load_arrays, load_result, save_text
 
 if TYPE_CHECKING:

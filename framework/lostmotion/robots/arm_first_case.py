@@ -12,13 +12,13 @@ from pathlib import Path
 import numpy as np
 
 from lostmotion.errors import DataError, nearest
+from lostmotion.recording.column_names import kind_named, names_time
 from lostmotion.recording.formats import read_table
 from lostmotion.recording.table import Table
 from lostmotion.recording.units import kinds_of
-from lostmotion.recording.words import kind_named, names_time
 from lostmotion.registry import Registry
-from lostmotion.robots.case import load_robot_case
-from lostmotion.robots.model import make_simulator
+from lostmotion.robots.arm_case import load_robot_case
+from lostmotion.robots.arm_model import make_simulator
 from lostmotion.simulators import Simulator
 
 ROLES = {"force": "torque", "position": "position", "velocity": "velocity"}
