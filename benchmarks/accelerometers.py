@@ -190,9 +190,9 @@ def make_case(machine: Machine) -> Any:
 def run_machine(seed: int, number: int) -> dict[str, Any]:
     """Return what a diagnosis says of a machine, beside the truth."""
     from lostmotion.diagnosis.findings import compute_intervals, draw_parameters
-    from lostmotion.diagnosis.search import diagnose
+    from lostmotion.diagnosis.stages import diagnose
     from lostmotion.likelihood.system import System
-    from lostmotion.preparation.candidates import candidates_of
+    from lostmotion.preparation.candidate_terms import candidates_of
     from lostmotion.registry import default
 
     machine = draw_machine(seed, number)

@@ -15,8 +15,8 @@ import time
 from pathlib import Path
 
 from lostmotion.registry import Registry
-from lostmotion.robots.case import load_robot_case
-from lostmotion.robots.run import diagnose_robot
+from lostmotion.robots.arm_case import load_robot_case
+from lostmotion.robots.arm_run import diagnose_robot
 from lostmotion_trials.arms.draw import EFFECTS, Truth, draw_arm, write_case
 
 SURE = 0.95

@@ -22,7 +22,7 @@ from scipy.integrate import solve_ivp
 
 from lostmotion.case import dump_case
 from lostmotion.codec import to_plain
-from lostmotion.diagnosis.run import run_diagnosis
+from lostmotion.diagnosis.diagnosis_run import run_diagnosis
 from lostmotion.registry import Registry
 from lostmotion.results.diagnosis import Diagnosis
 

@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from lostmotion.diagnosis.compare import cut_heldout
-from lostmotion.diagnosis.search import list_fitted_keys
+from lostmotion.diagnosis.stages import list_fitted_keys
 from lostmotion.evidence.search import Budget, ExplanationSearch, compute_probabilities
 from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
 from lostmotion.kernels.threads import hold_linear_algebra

@@ -22,9 +22,9 @@ import xarray as xr
 
 import lostmotion as lm
 from fuzz_seeds import CASE, COLUMNS, TIME, N
-from lostmotion.diagnosis import run as diagnosis_run
+from lostmotion.diagnosis import diagnosis_run as diagnosis_run
 from lostmotion.errors import PluginWarning
-from lostmotion.identification import run as identification_run
+from lostmotion.identification import identification_run as identification_run
 from lostmotion.inference.setup import make_known
 from lostmotion.likelihood.system import System
 from lostmotion_chaos.defaults import DENOISER, EMBEDDER, METER, SURROGATE

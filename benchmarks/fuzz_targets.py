@@ -256,7 +256,7 @@ def report(kind, facts, arrays, seeds, rng, folder, write_only):
     if write_only:
         return
     if kind == "diagnosis":
-        from lostmotion.diagnosis.report.page import write_report as write
+        from lostmotion.diagnosis.report.diagnosis_page import write_report as write
     else:
         from lostmotion_chaos.analysis.report.page import write_analysis as write
     write(folder)

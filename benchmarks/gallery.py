@@ -23,7 +23,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from lostmotion.contracts import Assembly
-from lostmotion.diagnosis.run import run_diagnosis
+from lostmotion.diagnosis.diagnosis_run import run_diagnosis
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.system import System
 from lostmotion.registry import Registry, default

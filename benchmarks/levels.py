@@ -29,7 +29,7 @@ from scipy.optimize import minimize
 from scipy.stats import t as student
 
 from lostmotion.case import CaseFile, Prior
-from lostmotion.case.levels import Level, Measured
+from lostmotion.case.drive_levels import Level, Measured
 from lostmotion.contracts import Array, Flow
 from lostmotion.identification.sampling import identify
 from lostmotion.kernels.threads import cores

@@ -17,7 +17,7 @@ from pathlib import Path
 
 import numpy as np
 
-from lostmotion.diagnosis.run import diagnose_prepared
+from lostmotion.diagnosis.diagnosis_run import diagnose_prepared
 from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import default
 

@@ -35,7 +35,7 @@ from typing import Any
 import numpy as np
 from scipy.stats import beta
 
-from lostmotion.diagnosis.search import list_half_gaps, locate
+from lostmotion.diagnosis.stages import list_half_gaps, locate
 from lostmotion.errors import DataError
 from lostmotion.inference.candidates import compute_slopes, run_score_test
 from lostmotion.inference.odds import LikelihoodRatio, compute_log_ratios, list_likely

@@ -46,7 +46,7 @@ def track_for(study):
 
 def run(study):
     """Return what a diagnosis says of a study, as numbers and names."""
-    from lostmotion.diagnosis.search import diagnose
+    from lostmotion.diagnosis.stages import diagnose
 
     observation, start = track_for(study), time.perf_counter()
     d = diagnose(case_of(study.unknown), [observation], system_of(), rng=np.random.default_rng(0), jobs=1)
@@ -109,10 +109,8 @@ def predictions(d, observation, hidden):
 
 def truth_of(d, hidden):
     """Return the fit with every parameter at its true value and the noise levels as they were found."""
-    from lostmotion.likelihood.problem import LEVELS
-
     fit, system = d.after, d.after.problem.system
-    kept = [i for i, key in enumerate(fit.problem.keys) if key in LEVELS]
+    kept = [i for i, free in enumerate(fit.problem.free) if not free.physical]
     full = system.vector({**TRUE, FORCE: hidden})
     free = tuple(fit.problem.free[i] for i in kept)
     problem = replace(fit.problem, known=full, free=free, active=frozenset({FRICTION}))

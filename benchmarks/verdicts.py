@@ -21,7 +21,8 @@ from labelled_recorded import recorded
 from labelled_series import LabelledSeries, rule_series
 from labelled_wide import wide_series
 from lostmotion.registry import default
-from lostmotion_chaos.analysis.run import AnalysedChannel, AnalysisRequest, analyse
+from lostmotion_chaos.analysis.channel import AnalysedChannel
+from lostmotion_chaos.analysis.run import AnalysisRequest, analyse
 from lostmotion_chaos.analysis.source import Source
 
 SAID = ("periodic", "quasiperiodic", "chaotic", "stochastic", "undecided")

@@ -14,7 +14,7 @@ from lostmotion.likelihood.problem import NOISE
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import default
-from lostmotion.simulation.simulate import Plan, assembly_of, simulate
+from lostmotion.simulation.simulated_machine import Plan, assembly_of, simulate
 
 TRUTH = {"m": 1.0, "c": 8.0, "k0": 4e4, "x0": 5e-3}
 CASE = """

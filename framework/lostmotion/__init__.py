@@ -22,9 +22,9 @@ if TYPE_CHECKING:
     from lostmotion.errors import LostMotionError
     from lostmotion.errors import LostMotionError as LostmotionError
     from lostmotion.notebook.case import Case, model
+    from lostmotion.notebook.distributions import HalfNormal, LogNormal, LogUniform, Normal, Uniform
     from lostmotion.notebook.doors import diagnose, identify, load
     from lostmotion.notebook.models import simulate
-    from lostmotion.notebook.priors import HalfNormal, LogNormal, LogUniform, Normal, Uniform
     from lostmotion.recording import Recording
     from lostmotion.settings import Settings
 
@@ -37,7 +37,10 @@ __all__ = [
 _TARGETS = {
     **{name: f"notebook.doors:{name}" for name in ("diagnose", "identify", "load")},
     **{name: f"notebook.case:{name}" for name in ("Case", "model")},
-    **{name: f"notebook.priors:{name}" for name in ("HalfNormal", "LogNormal", "LogUniform", "Normal", "Uniform")},
+    **{
+        name: f"notebook.distributions:{name}"
+        for name in ("HalfNormal", "LogNormal", "LogUniform", "Normal", "Uniform")
+    },
     "LostMotionError": "errors:LostMotionError",
     "LostmotionError": "errors:LostMotionError",
     "Recording": "recording:Recording",

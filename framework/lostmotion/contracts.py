@@ -1,4 +1,4 @@
-"""The nine kinds of plugin. Subclass one of them directly, as a frozen dataclass, and name the class in a hook.
+"""The eight kinds of plugin. Subclass one of them directly, as a frozen dataclass, and name the class in a hook.
 
 `rhs`, `observe`, `force` and `rate` are scalar Python functions on NumPy arrays. The framework compiles them with numba
 into one kernel, so they may use arithmetic, branches and `math`, but no NumPy functions and no objects. A quantity that
@@ -10,7 +10,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, Literal, Self
+from typing import Any, ClassVar, Generic, Literal, Self
 
 import numpy as np
 
@@ -24,13 +24,9 @@ from lostmotion.results import Embedding, Estimate
 from lostmotion.simulators import Simulator
 from lostmotion.subjects import Attractors, Data, Flow, Motions, Orbit, Series
 
-if TYPE_CHECKING:
-    from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Smoothed
-    from lostmotion.likelihood.observation import Observation
-
 __all__ = [
     "KINDS", "PSEUDO_NEEDS", "Array", "Assembly", "Attractors", "Data", "Denoiser", "Drive", "DriveTerm", "Embedder",
-    "Engine", "Flow", "Group", "Input", "Interface", "Model", "Motion", "Motions", "Noise", "NoiseBlock",
+    "Flow", "Group", "Input", "Interface", "Model", "Motion", "Motions", "Noise", "NoiseBlock",
     "NoiseParameter", "Orbit", "Param", "Quantifier", "SensorScales", "SensorTerm", "Series", "Simulator",
     "Surrogate", "Table", "Term", "Values", "place_of", "table_of_arrays"]  # fmt: skip
 
@@ -365,36 +361,6 @@ class Denoiser(ABC):
         """
 
 
-class Engine(ABC):
-    """Filters, smooths and simulates a model with its terms at many points, thread-safe, each point independently.
-
-    A point that diverges raises no error: `Innovations.of` marks it, as in `likelihood.reference`.
-    """
-
-    name: ClassVar[str]
-    paper: ClassVar[str]
-
-    @abstractmethod
-    def filter(self, dynamics: Dynamics, observation: Observation, points: Points) -> Innovations:
-        """Return one-step errors and their variances, each (points, samples, sensors), in SI units and their squares.
-
-        A missing reading (NaN) has the error 0 and the variance 1 / (2 pi), so that it adds nothing.
-        """
-
-    @abstractmethod
-    def smooth(self, dynamics: Dynamics, observation: Observation, points: Points) -> Smoothed:
-        """Return filtered and smoothed states (samples, n) of a single point, with covariances (samples, n, n)."""
-
-    @abstractmethod
-    def simulate(
-        self, dynamics: Dynamics, points: Points, start: Array, steps: int, kicks: Array | None = None
-    ) -> Array:
-        """Return states (points, steps, n) of free runs from `start` (points, n), NaN after the last finite one.
-
-        A run begins at sample `points.first` of its drive; `kicks` (points, steps, n) are added after the first state.
-        """
-
-
 KINDS: Mapping[str, type[Any]] = {
-    c.__name__.lower(): c for c in (Model, Term, Embedder, Quantifier, Surrogate, Denoiser, Engine, Noise, Simulator)
+    c.__name__.lower(): c for c in (Model, Term, Embedder, Quantifier, Surrogate, Denoiser, Noise, Simulator)
 }

@@ -62,12 +62,6 @@ def lostmotion_denoisers() -> Mapping[str, str]:
 
 
 @hookspec
-def lostmotion_engines() -> Mapping[str, str]:
-    """Return `{"name": "package.module:Class"}` for each `Engine`: an engine that filters, smooths and simulates."""
-    raise NotImplementedError
-
-
-@hookspec
 def lostmotion_noises() -> Mapping[str, str]:
     """Return `{"name": "package.module:Class"}` for each `Noise`: noise of a sensor, a state-space block."""
     raise NotImplementedError

@@ -11,7 +11,7 @@ import pluggy
 from lostmotion import hookspecs
 from lostmotion.errors import nearest
 
-KINDS = ("model", "term", "embedder", "quantifier", "surrogate", "denoiser", "engine", "noise", "simulator")
+KINDS = ("model", "term", "embedder", "quantifier", "surrogate", "denoiser", "noise", "simulator")
 COMMAND, FUNCTION, RESULT, ROUTE, MEASURE, READER = "command", "function", "result", "route", "measure", "reader"
 _SAID = {
     **dict.fromkeys((COMMAND, FUNCTION, RESULT, ROUTE, MEASURE), "One line of help."),

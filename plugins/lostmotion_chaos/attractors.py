@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.contracts import Array, Series
-from lostmotion.diagnosis.motions import take_section
+from lostmotion.diagnosis.compared_motions import take_section
 from lostmotion.errors import LostMotionError
 from lostmotion.registry import Registry
 from lostmotion.results import Estimate

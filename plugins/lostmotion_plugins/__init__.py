@@ -1,4 +1,4 @@
-"""The built-in models, terms, engines and readers: names only, so that listing them imports neither NumPy nor numba."""
+"""The built-in models, terms, noises, simulators and readers: names only, so that listing them imports no NumPy."""
 
 from lostmotion.hookspecs import hookimpl
 
@@ -91,13 +91,6 @@ def lostmotion_noises() -> dict[str, str]:
 
 
 @hookimpl
-def lostmotion_engines() -> dict[str, str]:
-    """Return the built-in engines, which are parts of the framework itself."""
-    at = "lostmotion.likelihood"
-    return {"lanes": f"{at}.lanes:Lanes", "reference": f"{at}.reference:Reference"}
-
-
-@hookimpl
 def lostmotion_simulators() -> dict[str, str]:
     """Return the built-in simulators, under the keys that name their files in a case."""
     at = f"{_HERE}.simulators.mujoco"
@@ -108,7 +101,7 @@ def lostmotion_simulators() -> dict[str, str]:
 def lostmotion_readers() -> dict[str, tuple[str, str]]:
     """Return the readers of formats whose libraries are extras; they are parts of the framework itself."""
     at = "lostmotion.recording.readers"
-    sheet = (f"{at}.sheets:read_sheet", "lostmotion[xlsx]")
+    sheet = (f"{at}.spreadsheets:read_sheet", "lostmotion[xlsx]")
     bag = (f"{at}.bags:read_bag", "lostmotion[rosbag]")
     mdf = (f"{at}.mdf:read_mdf", "lostmotion[mf4]")
     uff = (f"{at}.uff:read_uff", "lostmotion[uff]")

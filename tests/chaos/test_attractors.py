@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from lostmotion.contracts import Motions
-from lostmotion.diagnosis.motions import take_section
+from lostmotion.diagnosis.compared_motions import take_section
 from lostmotion_chaos.attractors import MOST, measure_distances
 from lostmotion_chaos.signals.distances import distances, energy_distance, same_chance
 

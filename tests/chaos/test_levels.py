@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from lostmotion.case import CaseFile, Prior
-from lostmotion.case.levels import Level, Measured
+from lostmotion.case.drive_levels import Level, Measured
 from lostmotion.codec import to_plain
 from lostmotion.contracts import Orbit
 from lostmotion.registry import default

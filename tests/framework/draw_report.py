@@ -5,8 +5,8 @@ from pathlib import Path
 
 from report_fixture import arrays, mismatch, write
 
+from lostmotion.diagnosis.report.diagnosis_page import write_report
 from lostmotion.diagnosis.report.hero import save_hero
-from lostmotion.diagnosis.report.page import write_report
 
 home = write(Path(sys.argv[1]), mismatch(), arrays())
 print(write_report(home), save_hero(home))  # noqa: T201

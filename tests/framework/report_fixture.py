@@ -16,7 +16,7 @@ import numpy as np
 import xarray as xr
 
 from lostmotion.codec import from_plain
-from lostmotion.diagnosis.report.evidence import Evidence, make_evidence
+from lostmotion.diagnosis.report.page_data import Evidence, make_evidence
 from lostmotion.results.diagnosis import Diagnosis
 
 OMEGA, DRIVE, MASS, STIFF, GAP = 40.0, 100.0, 1.0, 4e4, 5e-3

@@ -15,7 +15,7 @@ from click.testing import CliRunner
 
 from lostmotion.campaigns import batch
 from lostmotion.campaigns.campaign import Campaign
-from lostmotion.campaigns.table import format_summary, make_row
+from lostmotion.campaigns.summary import format_summary, make_row
 from lostmotion.cli import main
 from lostmotion.errors import CaseError, DataError, PlaceError
 from lostmotion.preparation.prepare import case_of

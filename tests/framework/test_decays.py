@@ -7,8 +7,8 @@ import time
 import numpy as np
 import pytest
 
-from lostmotion.diagnosis import decays
-from lostmotion.diagnosis.decays import compute_largest_error, find_stretches, note_restarts
+from lostmotion.diagnosis import free_decays
+from lostmotion.diagnosis.free_decays import compute_largest_error, find_stretches, note_restarts
 from lostmotion.likelihood.observation import Observation
 from lostmotion.signals.decay import Decay, decay_of
 
@@ -141,12 +141,12 @@ class Known:
     ],
 )
 def test_a_run_that_diverges_or_creeps_is_no_decay(monkeypatch, course, measured):
-    monkeypatch.setattr(decays, "simulate_run", lambda p, theta, y0, start, steps: p.run[start : start + steps])
-    monkeypatch.setattr(decays, "observe_states", lambda problem, theta, states, where: states[:, 0])
+    monkeypatch.setattr(free_decays, "simulate_run", lambda p, theta, y0, start, steps: p.run[start : start + steps])
+    monkeypatch.setattr(free_decays, "observe_states", lambda problem, theta, states, where: states[:, 0])
     one = observation(noisy(swing(6.0), np.random.default_rng(5)))
     (stretch,) = find_stretches(one)
     seen = decay_of(one.response, DT)
-    ((_, made),) = decays._measure_model(Known(np.stack([course, course], axis=1)), one, [(stretch, seen)])
+    ((_, made),) = free_decays._measure_model(Known(np.stack([course, course], axis=1)), one, [(stretch, seen)])
     assert (made is not None) == measured
     if measured:
         assert compute_largest_error(seen, made, "decrement") < 0.03
@@ -156,8 +156,8 @@ def test_ten_hits_and_a_long_ring_take_less_than_a_second():
     """Cycles are passed over rather than fitted one by one: 3000 cycles, as in ten hits of 300."""
     response = noisy(swing(60.0, damping=2e-4, frequency=50.0), np.random.default_rng(6), 1e-4)
     begun = time.perf_counter()
-    found = decay_of(response, DT, most=decays.MOST_CYCLES)
+    found = decay_of(response, DT, most=free_decays.MOST_CYCLES)
     assert time.perf_counter() - begun < 1.0
-    assert 100 < found.time.size <= decays.MOST_CYCLES
+    assert 100 < found.time.size <= free_decays.MOST_CYCLES
     assert np.median(found.decrement) == pytest.approx(2.0 * np.pi * 2e-4, abs=5e-5)
     assert np.median(found.frequency) == pytest.approx(50.0, rel=1e-4)

@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import pytest
 import report_fixture as fixture
 
-from lostmotion.diagnosis.report.page import render
+from lostmotion.diagnosis.report.diagnosis_page import render
 from lostmotion.diagnosis.verdict import find_angle_unit
 from lostmotion.recording.spec import Channel, RecordingSpec
 from lostmotion.report.words import angles_in, choose_scale

@@ -7,7 +7,7 @@ import pytest
 from scipy.signal import lfilter
 from scipy.stats import binom
 
-from lostmotion.diagnosis.disagreements import compare_by_recording, compare_over_time
+from lostmotion.diagnosis.disagreement_times import compare_by_recording, compare_over_time
 from lostmotion.inference.disagreement import (
     average_windows,
     compute_recording_p,

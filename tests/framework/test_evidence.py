@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from lostmotion.inference.evidence import sample_evidence
 from lostmotion.inference.fit import Fit, LocalExpansion
+from lostmotion.inference.laplace import sample_evidence
 from lostmotion.likelihood.space import FreeParameter
 
 

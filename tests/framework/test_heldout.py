@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from lostmotion.diagnosis import run as ways
+from lostmotion.diagnosis import diagnosis_run as ways
 from lostmotion.diagnosis.compare import PARTS, is_better, is_worse
 from lostmotion.settings import DEFAULT
 
@@ -80,26 +80,13 @@ def test_sets_that_make_free_runs_worse_are_refuted_one_after_the_other(monkeypa
 
     def diagnosed(explained, withdrawn=()):
         found = tuple(sorted(explained.terms))
-        return SimpleNamespace(explained=explained, found=found, withdrawn=withdrawn, explains=True, settings=DEFAULT)
+        return SimpleNamespace(explained=explained, found=found, withdrawn=withdrawn, settings=DEFAULT)
 
     monkeypatch.setattr(ways, "compare_heldout", compare_heldout)
     monkeypatch.setattr(ways, "explain_by", explain_by)
     outcome = ways.check_heldout(diagnosed(Refuted(list(errors))), np.random.default_rng(0))
     assert "".join(outcome.diagnosis.found) == left
     assert outcome.diagnosis.withdrawn == withdrawn
-
-
-def test_a_set_with_which_more_force_is_missing_is_refuted(monkeypatch):
-    def diagnosed(explained):
-        return SimpleNamespace(
-            explained=explained, found=tuple(explained.terms), explains=not explained.terms, settings=DEFAULT
-        )
-
-    same = prediction(0.1, [0.0])
-    monkeypatch.setattr(ways, "compare_heldout", lambda d: SimpleNamespace(diagnosis=d, before=same, after=same))
-    monkeypatch.setattr(ways, "explain_by", lambda explained, d, rng, say: diagnosed(explained))
-    outcome = ways.check_heldout(diagnosed(Refuted(["a", ""])), np.random.default_rng(0))
-    assert outcome.diagnosis.found == ()
 
 
 def test_equal_models_are_confirmed_as_seldom_as_the_test_says():

@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 from lostmotion.errors import CaseError, DataError
-from lostmotion.identification.chains import group_walkers, measure_quality
+from lostmotion.identification.convergence import group_walkers, measure_quality
 from lostmotion.identification.moves import make_state
 from lostmotion.identification.sampling import SamplingPlan, ShownCoordinate, Task, TMixture, identify, make_task
 from lostmotion.likelihood.problem import FreeParameter

@@ -8,7 +8,7 @@ import pytest
 from lostmotion.contracts import Assembly
 from lostmotion.errors import ContractError, DataError
 from lostmotion.likelihood.drive import Drive
-from lostmotion.likelihood.motion import compute_derivatives
+from lostmotion.likelihood.kernel_calls import compute_derivatives
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import NOISE, RANDOM, FreeParameter, Problem, Scales
 from lostmotion.likelihood.reference import Reference

@@ -12,9 +12,9 @@ from click.testing import CliRunner
 from lostmotion import registry
 from lostmotion.cli import main
 from lostmotion.contracts import Series
-from lostmotion.diagnosis import run as diagnose
+from lostmotion.diagnosis import diagnosis_run as diagnose
 from lostmotion.errors import ContractError, PluginWarning
-from lostmotion.likelihood.motion import compute_derivatives
+from lostmotion.likelihood.kernel_calls import compute_derivatives
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.prepare import Prepared

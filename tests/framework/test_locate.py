@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from lostmotion.diagnosis.search import locate
+from lostmotion.diagnosis.stages import locate
 from lostmotion.inference.locate import describe_location, list_covariates, list_further_covariates
 from lostmotion.inference.odds import (
     LikelihoodRatio,

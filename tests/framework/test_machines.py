@@ -6,7 +6,7 @@ import pytest
 from lostmotion.errors import CaseError
 from lostmotion.likelihood.system import Clock, System
 from lostmotion.registry import default
-from lostmotion.simulation.drives import signal_of
+from lostmotion.simulation.drive_signals import signal_of
 from lostmotion_trials.coverage import machines
 from lostmotion_trials.coverage.machines import Stand, record_machine
 

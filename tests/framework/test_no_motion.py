@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from lostmotion.diagnosis.diagnosis_run import run_diagnosis
 from lostmotion.diagnosis.moving import check_motion, cut_rest, note_rest
-from lostmotion.diagnosis.run import run_diagnosis
 from lostmotion.errors import DataError
 from lostmotion.likelihood.observation import Observation
 from lostmotion.registry import Registry

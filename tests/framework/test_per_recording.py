@@ -21,7 +21,7 @@ from lostmotion.inference.setup import (
     separate_levels,
 )
 from lostmotion.likelihood.lanes import Lanes
-from lostmotion.likelihood.levels import LEAST, make_own_levels
+from lostmotion.likelihood.noise_levels import LEAST, make_own_levels
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import observe_states, predict_freely
 from lostmotion.likelihood.problem import NOISE, OFFSET, RANDOM, Problem, Scales

@@ -14,7 +14,7 @@ from lostmotion.likelihood.input_curve import REACH, InputCurve
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import NOISE, RANDOM, FreeParameter, Problem, Scales
 from lostmotion.likelihood.system import System
-from lostmotion.signals.prediction import ORDER, find_prediction, predict_before
+from lostmotion.signals.linear_prediction import ORDER, find_prediction, predict_before
 from lostmotion_plugins.models.basic import LinearOscillator
 from lostmotion_plugins.terms.drive import ExcitationDelay
 

@@ -12,14 +12,14 @@ import pytest
 
 from lostmotion.case import CaseFile, Prior
 from lostmotion.contracts import Param, Term
-from lostmotion.diagnosis.search import locate
+from lostmotion.diagnosis.stages import locate
 from lostmotion.errors import CaseError, ContractError, DataError
 from lostmotion.inference.candidates import _solve_score_test
 from lostmotion.inference.setup import make_known
 from lostmotion.likelihood.latent import LatentForce
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
-from lostmotion.preparation.candidates import candidates_of
+from lostmotion.preparation.candidate_terms import candidates_of
 from lostmotion.preparation.prepare import prepare
 from lostmotion.quantities import FORCE
 from lostmotion.registry import default

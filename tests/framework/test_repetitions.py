@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from lostmotion.diagnosis.repetitions import compute_repeated_share, count_cycles, note_repetitions
+from lostmotion.diagnosis.repetition_notes import compute_repeated_share, count_cycles, note_repetitions
 from lostmotion.likelihood.observation import Observation, find_harmonic
 
 SAMPLES, TRAIN, DT, PERIOD = 2000, 1400, 0.01, 37.7

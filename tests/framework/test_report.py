@@ -10,10 +10,10 @@ import report_fixture as made
 import xarray as xr
 
 from lostmotion.diagnosis.report import prediction
-from lostmotion.diagnosis.report.evidence import Evidence, read_evidence
+from lostmotion.diagnosis.report.diagnosis_page import SECTIONS as PLAN
+from lostmotion.diagnosis.report.diagnosis_page import write_report
 from lostmotion.diagnosis.report.hero import save_hero
-from lostmotion.diagnosis.report.page import SECTIONS as PLAN
-from lostmotion.diagnosis.report.page import write_report
+from lostmotion.diagnosis.report.page_data import Evidence, read_evidence
 from lostmotion.errors import DataError
 
 BESIDE = {

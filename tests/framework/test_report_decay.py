@@ -10,8 +10,8 @@ import pytest
 import report_fixture as made
 
 from lostmotion.codec import to_plain
-from lostmotion.diagnosis.report import decay
-from lostmotion.diagnosis.report.page import write_report
+from lostmotion.diagnosis.report import decay_figure
+from lostmotion.diagnosis.report.diagnosis_page import write_report
 from lostmotion.report import style
 from lostmotion.results.behaviour import DecayCycles
 
@@ -25,7 +25,7 @@ def curve(bend=0.0, scatter=0.0):
 
 def test_recording_and_models_are_drawn_with_units():
     with style.use_style():
-        figure = decay.draw_cycles(
+        figure = decay_figure.draw_cycles(
             [curve(-50.0, 0.01)], [curve()], [curve(-50.0)], quantity="position amplitude", unit="m"
         )
         left, right = figure.axes
@@ -40,7 +40,7 @@ def test_recording_and_models_are_drawn_with_units():
 
 def test_one_model_is_no_model_before():
     with style.use_style():
-        figure = decay.draw_cycles([curve(), curve(1.0)], [curve()], unit="m/s^2")
+        figure = decay_figure.draw_cycles([curve(), curve(1.0)], [curve()], unit="m/s^2")
     assert [line.get_label() for line in figure.axes[0].lines if not line.get_label().startswith("_")] == [
         "recording",
         "model",
@@ -51,15 +51,15 @@ def test_wild_cycles_and_models_do_not_set_the_scale():
     tame = curve(-50.0, 0.01)
     wild = replace(tame, frequency=(*tame.frequency[:-1], 100.0))
     with style.use_style():
-        figure = decay.draw_cycles([wild], [curve(1e5)], unit="m")
+        figure = decay_figure.draw_cycles([wild], [curve(1e5)], unit="m")
     assert figure.axes[1].get_ylim()[1] < 25.0
 
 
 def test_without_a_decay_there_is_no_figure():
-    assert decay.draw_cycles([], unit="m") is None
-    assert "3 decays, one after each hit" in decay.caption_cycles(3)
-    assert "after the hit" in decay.caption_cycles()
-    assert "hit" not in decay.caption_cycles(struck=False)
+    assert decay_figure.draw_cycles([], unit="m") is None
+    assert "3 decays, one after each hit" in decay_figure.caption_cycles(3)
+    assert "after the hit" in decay_figure.caption_cycles()
+    assert "hit" not in decay_figure.caption_cycles(struck=False)
 
 
 DECAY = {
@@ -100,7 +100,7 @@ def test_a_recording_without_decays_has_no_section(tmp_path):
 def test_lists_of_different_lengths_are_not_drawn():
     broken = {**to_plain(curve()), "frequency": [24.0]}
     evidence = made.evidence(made.mismatch() | {"decay": DECAY | {"measured": [broken]}})
-    assert decay.draw(evidence) is None
+    assert decay_figure.draw(evidence) is None
 
 
 @pytest.mark.usefixtures("unsaved")

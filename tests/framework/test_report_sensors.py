@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 import report_fixture as made
 
-from lostmotion.diagnosis.report import sensors
-from lostmotion.diagnosis.report.evidence import read_evidence
-from lostmotion.diagnosis.report.page import write_report
+from lostmotion.diagnosis.report import sensor_figure
+from lostmotion.diagnosis.report.diagnosis_page import write_report
+from lostmotion.diagnosis.report.page_data import read_evidence
 from lostmotion.report import style
 
 ROWS = [
@@ -46,7 +46,7 @@ def test_each_sensor_has_its_panels_and_its_row(data, tmp_path):
     home = made.write(tmp_path, facts(), two_sensors(data))
     evidence = read_evidence(home)
     with style.use_style():
-        figure = sensors.draw(evidence)
+        figure = sensor_figure.draw(evidence)
     assert [axes.get_title(loc="left") for axes in figure.axes] == ["motor <b>", "", "load", ""]
     assert [axes.get_ylabel().rpartition(" (")[0] for axes in figure.axes] == [
         "position",
@@ -57,7 +57,7 @@ def test_each_sensor_has_its_panels_and_its_row(data, tmp_path):
     units = [axes.get_ylabel().rpartition("(")[2] for axes in figure.axes]
     assert [unit.removesuffix(")").removeprefix("m") for unit in units[:2]] == ["m", "m"]
     assert all(unit.endswith("m/s)") for unit in units[2:])
-    assert sensors.make_table(evidence).rows == [
+    assert sensor_figure.make_table(evidence).rows == [
         ["motor <b>", "position", "40 µm", "white", "19 %", "1.2 %"],
         ["load", "second velocity", "2 mm/s", "autocorrelated", "23 %", "1.3 %"],
     ]
@@ -69,7 +69,7 @@ def test_each_sensor_has_its_panels_and_its_row(data, tmp_path):
 @pytest.mark.usefixtures("unsaved")
 def test_one_model_has_one_column_of_errors(data, tmp_path):
     evidence = read_evidence(made.write(tmp_path, facts(made.adequate), two_sensors(made.alone(data))))
-    table = sensors.make_table(evidence)
+    table = sensor_figure.make_table(evidence)
     assert table.head[-1] == "Error"
     assert [row[-1] for row in table.rows] == ["19 %", "23 %"]
 
@@ -78,7 +78,7 @@ def test_one_model_has_one_column_of_errors(data, tmp_path):
 def test_a_sensor_that_is_read_more_rarely_is_drawn_as_a_line(data, tmp_path):
     evidence = read_evidence(made.write(tmp_path, facts(), two_sensors(data, every=4)))
     with style.use_style():
-        figure = sensors.draw(evidence)
+        figure = sensor_figure.draw(evidence)
     recorded = figure.axes[2].lines[0].get_ydata()
     assert recorded.size > 20
     assert np.isfinite(recorded).all()
@@ -88,5 +88,5 @@ def test_a_sensor_that_is_read_more_rarely_is_drawn_as_a_line(data, tmp_path):
 @pytest.mark.usefixtures("unsaved")
 def test_one_sensor_has_no_section(data, tmp_path):
     home = made.write(tmp_path, made.mismatch() | {"sensors": ROWS[:1]}, data)
-    assert sensors.draw(read_evidence(home)) is None
+    assert sensor_figure.draw(read_evidence(home)) is None
     assert "section-sensors" not in write_report(home).read_text(encoding="utf-8")

@@ -2,8 +2,8 @@
 
 import report_fixture as made
 
-from lostmotion.diagnosis.report import sharing
-from lostmotion.diagnosis.report.page import write_report
+from lostmotion.diagnosis.report import sharing_table
+from lostmotion.diagnosis.report.diagnosis_page import write_report
 
 
 def values(*medians, unit):
@@ -43,7 +43,7 @@ def evidence(**facts):
 
 
 def test_there_is_a_row_for_each_parameter_and_a_column_for_each_recording():
-    table = sharing.make_table(evidence(sharing=TOLD))
+    table = sharing_table.make_table(evidence(sharing=TOLD))
     assert table.head == ["Parameter", "low (4 N)", "<b>high (16 N)", "One value?"]
     assert table.rows[0] == ["k (N/m)", "800 [720, 880]", "801 [721, 881]", "yes (p = 0.4)"]
     assert table.rows[1][-1] == "proportional to level to the power 1"
@@ -53,10 +53,10 @@ def test_there_is_a_row_for_each_parameter_and_a_column_for_each_recording():
 
 
 def test_words_say_how_the_table_is_to_be_read():
-    assert sharing.write_words(evidence(sharing=TOLD)).startswith("c differs. Medians with 95 % intervals")
-    assert sharing.write_words(evidence(sharing={"parameters": {}, "says": ["Nothing."]})) == "Nothing."
-    assert sharing.write_words(evidence()) == ""
-    assert sharing.make_table(evidence()) is None
+    assert sharing_table.write_words(evidence(sharing=TOLD)).startswith("c differs. Medians with 95 % intervals")
+    assert sharing_table.write_words(evidence(sharing={"parameters": {}, "says": ["Nothing."]})) == "Nothing."
+    assert sharing_table.write_words(evidence()) == ""
+    assert sharing_table.make_table(evidence()) is None
 
 
 def test_the_page_has_the_section_and_escapes_names(tmp_path):

@@ -6,7 +6,7 @@ import pytest
 import report_fixture as made
 
 from lostmotion.codec import from_plain, to_plain
-from lostmotion.diagnosis.report import show
+from lostmotion.diagnosis.report import behaviour_table
 from lostmotion.diagnosis.show_words import describe_behaviour
 from lostmotion.results.behaviour import Behaviour
 
@@ -40,14 +40,14 @@ def test_an_exponent_says_what_drove_the_model(free, how):
 def test_what_could_not_be_measured_keeps_its_sentence():
     refused = {"value": None, "low": None, "high": None, "status": "too_short", "says": "Too few periods."}
     facts = facts_with(d2=refused)
-    row = next(r for r in show.make_table(made.evidence(facts)).rows if r[0] == "Correlation dimension")
+    row = next(r for r in behaviour_table.make_table(made.evidence(facts)).rows if r[0] == "Correlation dimension")
     assert row[1:4] == ["–"] * 3
     assert "Too few periods." in row[4]
 
 
 def test_table_of_the_report_has_every_measure_with_a_sentence():
-    table = show.make_table(made.evidence(facts_with()))
-    assert [row[0].partition(" (")[0] for row in table.rows] == list(astuple(show.MEASURE_NAMES))
+    table = behaviour_table.make_table(made.evidence(facts_with()))
+    assert [row[0].partition(" (")[0] for row in table.rows] == list(astuple(behaviour_table.MEASURE_NAMES))
     assert all(row[-1].endswith(".") for row in table.rows)
     distance = next(row for row in table.rows if row[0] == "Distance between attractors")
     assert [plain(cell) for cell in distance[1:4]] == ["0.3 (p = 0.005)", "0.02 (p = 0.4)", "0.01 (p = 0.5)"]
@@ -56,7 +56,7 @@ def test_table_of_the_report_has_every_measure_with_a_sentence():
 
 
 def test_table_of_an_adequate_model_has_one_model():
-    table = show.make_table(made.evidence(facts_with(augmented=False)))
+    table = behaviour_table.make_table(made.evidence(facts_with(augmented=False)))
     assert table.head[1] == "Nominal model"
     assert all(len(row) == len(table.head) for row in table.rows)
 
@@ -64,6 +64,6 @@ def test_table_of_an_adequate_model_has_one_model():
 def test_a_model_whose_motion_was_not_measured_has_dashes():
     facts = facts_with()
     del facts["show"]["after"]
-    table = show.make_table(made.evidence(facts))
+    table = behaviour_table.make_table(made.evidence(facts))
     assert table.head[1:4] == ["Before", "After", "Noise floor or recording"]
     assert {row[2] for row in table.rows} == {"–"}

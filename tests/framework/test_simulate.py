@@ -13,8 +13,8 @@ from lostmotion.cli import main
 from lostmotion.contracts import Assembly
 from lostmotion.errors import CaseError, ContractError, DataError
 from lostmotion.registry import default
-from lostmotion.simulation.drives import KINDS, signal_of
-from lostmotion.simulation.simulate import Plan, assembly_of, simulate
+from lostmotion.simulation.drive_signals import KINDS, signal_of
+from lostmotion.simulation.simulated_machine import Plan, assembly_of, simulate
 
 LIN = ("lin_backlash", "--set", "m=1,c=8,k0=4e4", "--set", "x0=0.005", "--duration", "2", "--rate", "500")
 DRIVE = ("--drive", "harmonic:amplitude=100,omega=40")

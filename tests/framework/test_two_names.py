@@ -10,7 +10,7 @@ import pytest
 
 from lostmotion.contracts import Param, Term
 from lostmotion.errors import ContractError
-from lostmotion.likelihood.motion import compute_derivatives
+from lostmotion.likelihood.kernel_calls import compute_derivatives
 from lostmotion.likelihood.plan import make_law
 from lostmotion.likelihood.system import System
 from lostmotion.quantities import FORCE

@@ -14,8 +14,8 @@ from lostmotion.cli import main
 from lostmotion.diagnosis.show import measure_attractors
 from lostmotion.diagnosis.show_words import ABSENT
 from lostmotion.errors import PluginError
+from lostmotion.identification.identification_run import identify_case
 from lostmotion.identification.routes import IdentificationRequest
-from lostmotion.identification.run import identify_case
 from lostmotion.likelihood.observation import Observation
 
 LEVELS = """

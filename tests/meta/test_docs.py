@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from lostmotion.case import channels, levels, load
+from lostmotion.case import channels, drive_levels, reading
 
 sys.path.insert(0, str(Path(__file__).parent))
 
@@ -86,8 +86,9 @@ def test_links_between_pages_lead_somewhere():
 
 
 def test_every_key_of_a_case_is_told():
-    keys = {*load.TOP, *load.RECORDING, *load.TIME, *load.MODEL, *load.SENSOR, *load.EXPERIMENT, *load.PRIOR}
-    keys |= {*channels.CHANNEL, *channels.INPUT, *channels.SENSOR, *levels.LEVEL, *levels.MEASURED}
+    keys = {*reading.TOP, *reading.RECORDING, *reading.TIME, *reading.MODEL, *reading.SENSOR}
+    keys |= {*reading.EXPERIMENT, *reading.PRIOR}
+    keys |= {*channels.CHANNEL, *channels.INPUT, *channels.SENSOR, *drive_levels.LEVEL, *drive_levels.MEASURED}
     page = (DOCS / "reference" / "case.md").read_text(encoding="utf-8")
     assert sorted(key for key in keys if not re.search(rf"`{key}`|`\[+{key}", page)) == []
 

@@ -17,14 +17,8 @@ def test_all_of_ours_are_ready():
     assert {e.kind for e in OURS} >= {"model", "term"}
 
 
-@testing.parametrize([REGISTRY.load(e.kind, e.name) for e in OURS if e.name != "reference"])
+@testing.parametrize([REGISTRY.load(e.kind, e.name) for e in OURS])
 def test_conforms(component, rule):
     if component.name in NEED_MUJOCO and find_spec("mujoco") is None:
         pytest.skip("MJCF and URDF need the extra mujoco")
-    testing.assert_conforms(component, rule)
-
-
-@pytest.mark.slow
-@testing.parametrize([REGISTRY.load("engine", "reference")])
-def test_the_slow_twin_conforms(component, rule):
     testing.assert_conforms(component, rule)

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from lostmotion.registry import Registry
+from lostmotion.robots.arm_preparation import SearchOptions, make_arm, prepare_search
 from lostmotion.robots.log import RobotLog
-from lostmotion.robots.prepare import SearchOptions, make_arm, prepare_search
 from lostmotion.robots.user import FunctionSimulator
 from lostmotion_trials.integrators.arm import Arm, record_motion
 

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from lostmotion.robots.arm import Column
+from lostmotion.robots.arm_preparation import make_arm
 from lostmotion.robots.gears import Gear
-from lostmotion.robots.prepare import make_arm
 from lostmotion_plugins.terms.friction import CoulombFriction
 from lostmotion_trials.integrators.arm import Arm
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from lostmotion.evidence.search import compute_probabilities
-from lostmotion.robots.search import find_probabilities
+from lostmotion.robots.arm_search import find_probabilities
 from lostmotion_trials.integrators.arm import Arm
 
 NAMES = ("coulomb_friction", "stribeck_friction", "viscous_damping", "cogging", "excitation_delay", "offset_force")

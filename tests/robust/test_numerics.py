@@ -17,7 +17,7 @@ from lostmotion.inference.fit import compute_sensitivity
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.engine import Dynamics, Points, SensorNoises
 from lostmotion.likelihood.lanes import Lanes
-from lostmotion.likelihood.levels import LEAST
+from lostmotion.likelihood.noise_levels import LEAST
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import WORST, FreeRuns, predict_freely
 from lostmotion.likelihood.problem import USUAL, Innovations

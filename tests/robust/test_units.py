@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from lostmotion.codec import to_plain
-from lostmotion.diagnosis.run import run_diagnosis
+from lostmotion.diagnosis.diagnosis_run import run_diagnosis
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.observation import round_values
 from lostmotion.likelihood.system import System

@@ -4,7 +4,7 @@ import numpy as np
 from sensed import case_of, model_of, moved, multisine, noisy
 
 from lostmotion.diagnosis.compare import cut_heldout
-from lostmotion.diagnosis.search import list_fitted_keys
+from lostmotion.diagnosis.stages import list_fitted_keys
 from lostmotion.evidence.bare import Budget
 from lostmotion.evidence.course import Course
 from lostmotion.inference.setup import make_problem, search_maximum, split_heldout

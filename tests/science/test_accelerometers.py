@@ -16,7 +16,7 @@ from lostmotion.diagnosis.notes import note_unknown_position
 from lostmotion.inference.fit import maximise
 from lostmotion.inference.setup import choose_steps, compute_scales, make_problem, search_maximum, split_heldout
 from lostmotion.inference.unseen import smooth_body_position
-from lostmotion.likelihood.levels import compute_usual_level
+from lostmotion.likelihood.noise_levels import compute_usual_level
 from lostmotion.likelihood.observation import Observation, window_force
 from lostmotion.likelihood.problem import NOISE, RANDOM
 from lostmotion.likelihood.reference import Reference

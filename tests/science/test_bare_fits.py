@@ -8,8 +8,8 @@ import pytest
 from explained import made_of
 
 from lostmotion.evidence.bare import BareFits, Budget, name_terms
-from lostmotion.evidence.channels import list_channel_errors
-from lostmotion.evidence.loads import fit_loads
+from lostmotion.evidence.channel_errors import list_channel_errors
+from lostmotion.evidence.load_cell import fit_loads
 from lostmotion.inference.candidates import join_term
 from lostmotion.inference.curves import add_all_curves
 from lostmotion.inference.fit import maximise, restart

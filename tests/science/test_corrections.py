@@ -9,7 +9,7 @@ from sensed import multisine
 
 from lostmotion.evidence import course as course_module
 from lostmotion.evidence.bare import Budget
-from lostmotion.evidence.channels import DriveError, SensorError, list_channel_errors
+from lostmotion.evidence.channel_errors import DriveError, SensorError, list_channel_errors
 from lostmotion.evidence.corrections import CLEAR, Corrections, find_corrections
 from lostmotion.evidence.course import Course
 from lostmotion.evidence.discrepancy import make_frame

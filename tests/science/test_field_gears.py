@@ -12,7 +12,7 @@ from field import elsewhere
 from lostmotion.contracts import Assembly
 from lostmotion.inference.fit import maximise
 from lostmotion.likelihood.drive import Drive
-from lostmotion.likelihood.motion import compute_derivatives
+from lostmotion.likelihood.kernel_calls import compute_derivatives
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import NOISE, RANDOM, FreeParameter, Problem, Scales
 from lostmotion.likelihood.sensors import Sensor

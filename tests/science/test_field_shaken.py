@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from field import elsewhere
 
-from lostmotion.likelihood.motion import compute_derivatives
+from lostmotion.likelihood.kernel_calls import compute_derivatives
 from lostmotion.likelihood.system import Clock, System
 from lostmotion_plugins.models.basic import LinearOscillator, RigidDrive
 from lostmotion_plugins.models.clearance_chain import ClearanceChain

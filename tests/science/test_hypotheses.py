@@ -10,9 +10,9 @@ from scipy.interpolate import CubicSpline
 from scipy.special import logsumexp
 
 from lostmotion.diagnosis.compare import cut_heldout
-from lostmotion.diagnosis.search import list_fitted_keys
+from lostmotion.diagnosis.stages import list_fitted_keys
 from lostmotion.evidence import discrepancy
-from lostmotion.evidence.channels import DriveError, SensorError, list_channel_errors
+from lostmotion.evidence.channel_errors import DriveError, SensorError, list_channel_errors
 from lostmotion.evidence.discrepancy import LENGTHS, make_frame
 from lostmotion.evidence.expansion import Expansion, compute_log_evidence
 from lostmotion.evidence.hypothesis import fit_hypothesis
@@ -20,7 +20,7 @@ from lostmotion.evidence.search import Budget, ExplanationSearch, compute_probab
 from lostmotion.inference.curves import add_all_curves
 from lostmotion.inference.fit import choose_first_steps
 from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
-from lostmotion.kernels.tangents import respond, respond_plainly
+from lostmotion.kernels.linear_response import respond, respond_plainly
 from lostmotion.likelihood.engine import Innovations
 
 

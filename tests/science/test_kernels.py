@@ -11,8 +11,8 @@ from independent import Machine, lin_oscillator, recording
 
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.engine import Dynamics, Points, SensorNoises, Smoothed
+from lostmotion.likelihood.kernel_calls import compute_derivatives
 from lostmotion.likelihood.lanes import Lanes
-from lostmotion.likelihood.motion import compute_derivatives
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.reference import Reference
 from lostmotion.likelihood.sensors import Sensor

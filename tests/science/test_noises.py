@@ -10,7 +10,7 @@ import lostmotion as lm
 from lostmotion.errors import LostMotionError
 from lostmotion.inference.fit import maximise
 from lostmotion.inference.setup import make_problem
-from lostmotion.likelihood.levels import make_noise_levels
+from lostmotion.likelihood.noise_levels import make_noise_levels
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem, Scales
 from lostmotion.likelihood.sensors import Sensor

@@ -15,7 +15,7 @@ import pytest
 from machines import FRICTION, PUBLISHED
 from rig_cases import CASES
 
-from lostmotion.diagnosis.run import run_diagnosis
+from lostmotion.diagnosis.diagnosis_run import run_diagnosis
 from lostmotion.registry import default
 
 pytestmark = [pytest.mark.real, pytest.mark.slow]

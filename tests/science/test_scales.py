@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import lostmotion as lm
-from lostmotion.diagnosis.run import explains_scale, run_diagnosis
+from lostmotion.diagnosis.diagnosis_run import explains_scale, run_diagnosis
 from lostmotion.diagnosis.scales import describe_wrong_scale
 from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
 from lostmotion.likelihood.system import System

@@ -11,7 +11,7 @@ from test_unknown_force import CLEAN, RIPPLE, fitted
 from truths import case_of, fit_oscillator
 
 from lostmotion.contracts import Param, Term
-from lostmotion.diagnosis.search import diagnose
+from lostmotion.diagnosis.stages import diagnose
 from lostmotion.inference import rounding
 from lostmotion.inference.candidates import compute_slopes, fit_term, run_score_test
 from lostmotion.inference.natural import compute_size
@@ -19,7 +19,7 @@ from lostmotion.inference.shape_scan import BLOCKS, TOGETHER, SmoothedMotion, me
 from lostmotion.likelihood.latent import smooth_expected_force
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
-from lostmotion.preparation.candidates import candidates_of
+from lostmotion.preparation.candidate_terms import candidates_of
 from lostmotion.quantities import FORCE, LENGTH
 from lostmotion.registry import default
 

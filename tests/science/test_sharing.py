@@ -10,7 +10,7 @@ from several import C, K, M, fitted, least, recorded, rubbed, rubbing
 
 from lostmotion.case import dump_case
 from lostmotion.codec import to_plain
-from lostmotion.diagnosis.run import run_diagnosis
+from lostmotion.diagnosis.diagnosis_run import run_diagnosis
 from lostmotion.inference.sharing import (
     adjust_by_holm,
     compare_recordings,

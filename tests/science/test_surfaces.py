@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from sensed import case_of, model_of, moved, multisine, noisy
 
-from lostmotion.diagnosis.run import run_diagnosis
+from lostmotion.diagnosis.diagnosis_run import run_diagnosis
 from lostmotion.inference.curves import compute_band
 from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
 from lostmotion.inference.unexplained import CurveSearch

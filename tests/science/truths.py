@@ -11,7 +11,7 @@ from lostmotion.case import CaseFile, Prior
 from lostmotion.inference.setup import make_noise_levels, make_problem, search_maximum
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
-from lostmotion.preparation.candidates import candidates_of
+from lostmotion.preparation.candidate_terms import candidates_of
 from lostmotion.registry import default
 
 TRUE = {"m": 1.0, "c": 8.0, "k1": 0.0, "k0": 4e4, "x0": 0.005}

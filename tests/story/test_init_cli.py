@@ -76,7 +76,7 @@ def test_a_recording_is_diagnosed_without_a_case_where_its_columns_are_clear(pla
         asked.append((case, out))
         return SimpleNamespace(says=("Nothing is missing.",), notes=("guessed: a", "b"))
 
-    monkeypatch.setattr("lostmotion.diagnosis.run.run_diagnosis", run_diagnosis)
+    monkeypatch.setattr("lostmotion.diagnosis.diagnosis_run.run_diagnosis", run_diagnosis)
     result = CliRunner().invoke(main, ["diagnose", "my run.csv", "--model", "duffing", "--quiet"])
     assert result.exit_code == 0, result.output
     assert "Nothing is missing.\nguessed: a\n" in result.output

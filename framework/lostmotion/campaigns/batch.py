@@ -14,8 +14,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from lostmotion.campaigns.campaign import Campaign, Say
-from lostmotion.campaigns.table import SUMMARY, BatchRow, make_aside_row, make_row, save_rows
-from lostmotion.diagnosis.run import run_diagnosis
+from lostmotion.campaigns.summary import SUMMARY, BatchRow, make_aside_row, make_row, save_rows
+from lostmotion.diagnosis.diagnosis_run import run_diagnosis
 from lostmotion.errors import CaseError, DataError, LostMotionError, PlaceError, PluginWarning
 from lostmotion.preparation.prepare import case_of
 from lostmotion.provenance import digest, origin_of, provenance

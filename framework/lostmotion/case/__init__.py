@@ -79,9 +79,9 @@ and with `each = true` each recording has its own value; otherwise all share one
 """
 
 from lostmotion.case.channels import check_same_sensors
-from lostmotion.case.levels import Level, Measured
-from lostmotion.case.load import GUESSED, WRITTEN, CaseFile, Experiment, SensorSpec, load_case
+from lostmotion.case.drive_levels import Level, Measured
 from lostmotion.case.prior import Prior
+from lostmotion.case.reading import GUESSED, WRITTEN, CaseFile, Experiment, SensorSpec, load_case
 from lostmotion.case.write import dump_case
 from lostmotion.recording import Channel, RecordingSpec
 

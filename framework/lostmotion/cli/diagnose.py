@@ -67,7 +67,7 @@ def command(
 def _diagnose_one(
     ctx: click.Context, case: Path, out: Path, *, quiet: bool, seed: int, jobs: int, settings: Settings
 ) -> None:
-    from lostmotion.case.load import parse_case
+    from lostmotion.case.reading import parse_case
     from lostmotion.simulators import INVERSE
 
     model = parse_case(case).get("model")
@@ -75,7 +75,7 @@ def _diagnose_one(
         _diagnose_robot(ctx, case, out, quiet=quiet, settings=settings)
         return
     from lostmotion.case import GUESSED
-    from lostmotion.diagnosis.run import run_diagnosis
+    from lostmotion.diagnosis.diagnosis_run import run_diagnosis
 
     with show_progress("diagnose", quiet=quiet) as say:
         found = run_diagnosis(case, out, registry_of(ctx), seed=seed, jobs=jobs, say=say, settings=settings)
@@ -85,7 +85,7 @@ def _diagnose_one(
 
 
 def _diagnose_robot(ctx: click.Context, case: Path, out: Path, *, quiet: bool, settings: Settings) -> None:
-    from lostmotion.robots.run import run_robot
+    from lostmotion.robots.arm_run import run_robot
 
     with show_progress("diagnose", quiet=quiet) as say:
         found = run_robot(case, out, registry_of(ctx), budget=settings.select.budget or None, say=say)
@@ -98,7 +98,7 @@ def _diagnose_many(
     ctx: click.Context, cases: tuple[Path, ...], out: Path, *, quiet: bool, seed: int, jobs: int, settings: Settings
 ) -> None:
     from lostmotion.campaigns.batch import Batch, name_cases, run_batch
-    from lostmotion.campaigns.table import ASIDE, SUMMARY, format_summary
+    from lostmotion.campaigns.summary import ASIDE, SUMMARY, format_summary
 
     plugins = tuple(str(Path(file).absolute()) for file in ctx.find_root().params.get("plugin") or ())
     batch = Batch(name_cases(cases), out.absolute(), plugins, seed, settings)

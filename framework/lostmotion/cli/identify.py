@@ -19,7 +19,7 @@ from lostmotion.cli.options import (
 from lostmotion.progress import show_count
 
 if TYPE_CHECKING:
-    from lostmotion.identification.run import Identified
+    from lostmotion.identification.identification_run import Identified
     from lostmotion.results.identification import Parameter
     from lostmotion.settings import Settings
 
@@ -65,8 +65,8 @@ def command(
     run continues where it stopped. Exit status 0 when the sampling has ended, converged or not (a chain that has not
     converged gives no intervals); 2 for a case that cannot be used.
     """
+    from lostmotion.identification.identification_run import run_identification
     from lostmotion.identification.routes import IdentificationRequest
-    from lostmotion.identification.run import run_identification
     from lostmotion.identification.sampling import SamplingPlan
 
     plan = SamplingPlan(**{key: given.pop(key) for key in ("ess", "max_steps", "walkers")}, limits=settings.chain)  # type: ignore[arg-type]

@@ -84,7 +84,7 @@ def command(
     A parameter of the model that may be zero, such as k1 or mgl, is zero when it is not set. Exit status 0 when the
     table is written, 2 for an input that cannot be used.
     """  # noqa: D301
-    from lostmotion.simulation.simulate import Plan, assembly_of, simulate
+    from lostmotion.simulation.simulated_machine import Plan, assembly_of, simulate
     from lostmotion.storage import require_ending
 
     require_ending(out)
@@ -102,7 +102,7 @@ def command(
 
 def _parse_numbers(texts: tuple[str, ...], option: str) -> dict[str, float]:
     """Return the values of an option NAME=VALUE that may be repeated; commas separate several in one text."""
-    from lostmotion.simulation.drives import parse_number, parse_pairs
+    from lostmotion.simulation.drive_signals import parse_number, parse_pairs
 
     found = parse_pairs(",".join(texts), option)
     return {name: parse_number(value, f"{name} of {option}") for name, value in found.items()}

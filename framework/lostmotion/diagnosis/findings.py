@@ -10,7 +10,7 @@ import numpy as np
 
 from lostmotion.contracts import Array, Model, SensorTerm, Term
 from lostmotion.diagnosis.compare import Prediction
-from lostmotion.diagnosis.search import SearchResult, list_physical_keys
+from lostmotion.diagnosis.stages import SearchResult, list_physical_keys
 from lostmotion.diagnosis.states import (
     NAMED,
     OPEN,

@@ -10,7 +10,7 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.diagnosis.findings import DRAWS, draw_parameters
-from lostmotion.diagnosis.search import SearchResult, list_physical_keys
+from lostmotion.diagnosis.stages import SearchResult, list_physical_keys
 from lostmotion.inference.origin import shift_origin
 
 

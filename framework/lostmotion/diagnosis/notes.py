@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from lostmotion.diagnosis.decays import note_restarts
 from lostmotion.diagnosis.findings import Outcome
-from lostmotion.diagnosis.repetitions import note_repetitions
-from lostmotion.diagnosis.search import SearchResult
+from lostmotion.diagnosis.free_decays import note_restarts
+from lostmotion.diagnosis.repetition_notes import note_repetitions
+from lostmotion.diagnosis.stages import SearchResult
 from lostmotion.diagnosis.states import warn_of_moved_amplitudes, warn_of_short_delay
 from lostmotion.inference.contacts import list_short_contacts
 from lostmotion.inference.fit import Fit

@@ -9,7 +9,7 @@ import numpy as np
 from lostmotion.case import Experiment
 from lostmotion.contracts import Term
 from lostmotion.diagnosis.experiment import Limits, Proposal, choose_limits, compute_natural_frequency, propose
-from lostmotion.diagnosis.search import SearchResult
+from lostmotion.diagnosis.stages import SearchResult
 from lostmotion.diagnosis.verdict import name_other_recording
 from lostmotion.evidence.hypothesis import UNKNOWN
 from lostmotion.inference.fit import Fit

@@ -10,7 +10,7 @@ import numpy as np
 
 from lostmotion.contracts import Term
 from lostmotion.diagnosis.compare import Prediction
-from lostmotion.diagnosis.search import SearchResult
+from lostmotion.diagnosis.stages import SearchResult
 from lostmotion.evidence.hypothesis import UNKNOWN, list_vague
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.natural import find_term
@@ -64,7 +64,7 @@ def list_warnings(d: SearchResult, key: str) -> list[str]:
     imitates = term.unlikely > 0.0 or term.acts != "motion"
     steady = warn_of_moved_amplitudes(d, key) if imitates else ()
     weak = [*_warn_of_probability(d, key), *_warn_of_vague_size(d, key), *_warn_of_rest(d, key)]
-    return [*weak, *steady, *_warn_of_long_delay(d, key), *_warn_of_early_change(d, key)]
+    return [*weak, *steady, *_warn_of_early_change(d, key)]
 
 
 def measure_remains(d: SearchResult) -> float:
@@ -104,26 +104,26 @@ def _warn_of_vague_size(d: SearchResult, key: str) -> Iterator[str]:
 
 
 def _warn_of_rest(d: SearchResult, key: str) -> Iterator[str]:
-    """Yield a warning if much is unexplained beside a term: an unknown force, or a large random force."""
+    """Yield a warning beside an unknown force, and if a further term adds less than the discrepancy does.
+
+    A further term takes a share of the discrepancy more easily than the one that adds most.
+    """
     unknown = d.explained.inclusion(UNKNOWN)
     if unknown > d.settings.name.rival:
         yield (
             "Beside the term, an unknown force that is larger than the usual errors of a model has the probability"
             f" {rounded(unknown)}: the term may be a part of it."
         )
-    elif (left := d.explained.leftover) > (gain := compute_gain(d, key)):
+    elif key != _find_first(d) and (left := d.explained.leftover) > (gain := compute_gain(d, key)):
         yield (
-            f"Beside the term, small errors of the model without a name add {rounded(left)} to the log evidence, the"
-            f" term {rounded(max(gain, 0.0))}: the term may be a part of them."
+            f"Beside the terms, small errors of the model without a name add {rounded(left)} to the log evidence, this"
+            f" term {rounded(max(gain, 0.0))}: it may be a part of them."
         )
-    elif d.unexplained and d.left and (more := _measure_rest(d, key)) > 1.0:
-        yield f"The random force that remains is {rounded(more)} times as large as that of the term (rms)."
 
 
-def _measure_rest(d: SearchResult, key: str) -> float:
-    """Return the random force that remains in units of that of a term (rms); 0 for a term that is no force."""
-    size = float(np.sqrt(np.mean(d.laws[key] ** 2)))
-    return float(np.std(d.left.missing.force)) / size if d.left and size > 0.0 else 0.0
+def _find_first(d: SearchResult) -> str:
+    """Return the found term that adds most to the others; empty without any."""
+    return max(sorted(d.explained.terms), key=lambda key: compute_gain(d, key), default="")
 
 
 def compute_gain(d: SearchResult, key: str) -> float:
@@ -162,21 +162,6 @@ def warn_of_moved_amplitudes(d: SearchResult, key: str) -> Iterator[str]:
 def _name_law(d: SearchResult, key: str) -> str:
     """Return the name of a term in words."""
     return to_words(find_term(d.before.problem, key)[0].name)
-
-
-def _warn_of_long_delay(d: SearchResult, key: str) -> Iterator[str]:
-    """Yield a warning if a delay is longer than acquisition systems usually have."""
-    term, slots = find_term(d.after.problem, key)
-    late = [s for s in slots if s.param.dimension == TIME and s.key in d.after.values]
-    if term.acts == "motion" or not late:
-        return
-    period = 2.0 * math.pi * d.after.problem.scales.time
-    share = abs(d.after.values[late[0].key]) / period
-    if share > d.settings.name.late:
-        yield (
-            f"A delay of {percent(share)} of a natural period is unusual: measure the delay between"
-            " the channels directly."
-        )
 
 
 def warn_of_short_delay(d: SearchResult, key: str) -> Iterator[str]:

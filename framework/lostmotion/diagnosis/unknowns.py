@@ -11,7 +11,7 @@ from scipy.ndimage import maximum_filter
 
 from lostmotion.codec import Cells
 from lostmotion.contracts import Array, place_of
-from lostmotion.diagnosis.search import ForceLocation, SearchResult
+from lostmotion.diagnosis.stages import ForceLocation, SearchResult
 from lostmotion.diagnosis.states import OPEN
 from lostmotion.evidence.hypothesis import UNKNOWN
 from lostmotion.inference.curves import Band, compute_band, smooth_motions

@@ -18,7 +18,7 @@ from lostmotion.diagnosis.findings import (
     withhold_intervals,
 )
 from lostmotion.diagnosis.notes import note_large_noise
-from lostmotion.diagnosis.search import SearchResult, list_fitted_keys
+from lostmotion.diagnosis.stages import SearchResult, list_fitted_keys
 from lostmotion.diagnosis.states import LIKELY, NAMED, is_uncertain
 from lostmotion.diagnosis.unknowns import compute_unknown_odds
 from lostmotion.inference.fit import Fit
@@ -313,18 +313,18 @@ def summarise(outcome: Outcome, found: Sequence[Mechanism], rest: Sequence[OpenT
 def _describe_improvement(outcome: Outcome, found: int, time: str, floor: float) -> str:
     """Return the sentence on the unexplained force and the held-out error without and with the found terms.
 
-    The size of a force that is within the noise is told only where it falls.
+    The size of the force is told only where it falls: without the terms, other parameters take a part of it.
     """
     d, errors = outcome.diagnosis, [outcome.before.nrmse, outcome.after.nrmse]
     old, new = measure_unexplained(d, after=False), measure_unexplained(d, after=True)
-    rises, worse = new.rms > old.rms, errors[1] > errors[0]
+    worse = errors[1] > errors[0]
     verb, force = " rises" if worse else " falls", ""
-    if new.significant or not rises:
+    if new.rms < old.rms:
         force = (
-            f" the unexplained force{_describe_body(d)} {'rises' if rises else 'falls'} from {rounded(old.rms, 3)} to"
-            f" {rounded(new.rms, 3)} {new.unit} (rms), and"
+            f" the unexplained force{_describe_body(d)} falls from {rounded(old.rms, 3)} to {rounded(new.rms, 3)}"
+            f" {new.unit} (rms), and"
         )
-        verb = "" if rises == worse else verb
+        verb = verb if worse else ""
     return (
         f"With {'it' if found == 1 else 'them'}{force} the free-running prediction error of held-out data over"
         f" {time}{verb} from {percent(errors[0])} to {percent(errors[1])} of the response; the noise alone is"

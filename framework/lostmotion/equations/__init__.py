@@ -6,7 +6,7 @@ names with these endings, such as `second_force`, and `base_position`, `base_vel
 """
 
 from lostmotion.equations.read import FUNCTIONS, Node
-from lostmotion.equations.recorded import name_inputs
+from lostmotion.equations.recorded_inputs import name_inputs
 from lostmotion.equations.structure import BodyEquation, Equations, Spring, equations_of
 
 __all__ = ["FUNCTIONS", "BodyEquation", "Equations", "Node", "Spring", "equations_of", "name_inputs"]

@@ -7,11 +7,11 @@ import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from lostmotion.evidence.channels import ChannelError
+from lostmotion.evidence.channel_errors import ChannelError
 from lostmotion.evidence.discrepancy import make_frame
 from lostmotion.evidence.effects import Promise, list_promises
 from lostmotion.evidence.hypothesis import Hypothesis
-from lostmotion.evidence.loads import fit_loads
+from lostmotion.evidence.load_cell import fit_loads
 from lostmotion.evidence.waves import scan_waves
 from lostmotion.inference.candidates import ScoreTest, fit_term, replace_term
 from lostmotion.inference.commoner import rewrite_term

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lostmotion.evidence.channels import ChannelError, DriveError
+from lostmotion.evidence.channel_errors import ChannelError, DriveError
 from lostmotion.evidence.hypothesis import Hypothesis
 from lostmotion.inference.fit import Fit, maximise
 from lostmotion.likelihood.observation import Observation

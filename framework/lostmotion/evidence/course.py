@@ -44,7 +44,8 @@ class Course:
 
     def _search(self, nominal: Fit) -> ExplanationSearch:
         """Return the search beside a nominal fit."""
-        whole = ExplanationSearch(nominal, self.keys, self.pieces, self.budget, say=self.say)
+        until = max((float(o.time[-1]) for o, _ in self.pieces), default=0.0)
+        whole = ExplanationSearch(nominal, self.keys, self.pieces, self.budget, until=until, say=self.say)
         short = cut_stretches(nominal.problem)
         bare = nominal if short is nominal.problem else maximise(short, nominal.theta)
         if bare is nominal or bare.status == "diverged":
@@ -54,7 +55,7 @@ class Course:
         self.say(f"search on {short.samples} samples in {len(short.observations)} stretches")
         share = short.samples / nominal.problem.samples
         part, recordings = self.budget.part(FIRST), nominal.problem.observations
-        first = ExplanationSearch(bare, self.keys, (), part, share, self.say, whole.errors, recordings).run()
+        first = ExplanationSearch(bare, self.keys, (), part, share, until, self.say, whole.errors, recordings).run()
         whole.cancelled = first.cancelled
         if whole.cancelled:
             self.budget.end()

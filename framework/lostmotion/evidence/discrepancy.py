@@ -7,7 +7,7 @@ discrepancy consists of
 - smooth forces over position, velocity, time and drive phase: Gaussian processes of reduced rank (`learned.py`), each
   of one of `SIZES` and `LENGTHS`, or absent;
 - known values that are wrong by `rival.known`;
-- errors of the channels: scale and bend of each sensor, scale and delay of each drive (`channels.py`).
+- errors of the channels: scale and bend of each sensor, scale and delay of each drive (`channel_errors.py`).
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.contracts import Array
-from lostmotion.evidence.channels import ChannelError
+from lostmotion.evidence.channel_errors import ChannelError
 from lostmotion.evidence.expansion import Expansion, compute_log_evidence
 from lostmotion.evidence.slopes import CHANNEL_STEP, list_channel_slopes, list_force_slopes
 from lostmotion.inference.curves import compute_coefficient_size

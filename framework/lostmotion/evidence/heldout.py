@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,11 @@ from lostmotion.evidence.expansion import Expansion
 from lostmotion.evidence.hypothesis import Hypothesis
 from lostmotion.inference.fit import choose_first_steps
 from lostmotion.likelihood.observation import Observation
+
+ROUNDS, CLOSE = 6, 1.0
+"""The largest number of Gauss-Newton steps, and the gain in log density below which the next one is left out."""
+SHARES = (1.0, 0.4, 0.1)
+"""The shares of a step that are tried until one gains."""
 
 
 def score_heldout(found: Hypothesis, pieces: Sequence[tuple[Observation, int]]) -> float:
@@ -30,32 +35,74 @@ def _score_piece(found: Hypothesis, observation: Observation, begin: int) -> flo
     one = replace(frame, problem=fitted.on((observation,)))
     steps = choose_first_steps(replace(fitted, free=fitted.free[: frame.own]))
     first = begin * len(observation.sensors)
-    held = cut_before(one.expand(found.at, steps, found.choice), first)
-    return average_over_posterior(
-        held, found.used, found.precision, lambda step: _score_point(one, found, found.at + step, first)
-    )
+
+    def expand(step: Array) -> Expansion:
+        return cut_before(one.expand(found.at + step, steps, found.choice), first)
+
+    def score(step: Array) -> float:
+        return _score_point(one, found, found.at + step, first)
+
+    levels = np.array([name.startswith("log_") for name in frame.names])
+    return average_over_posterior(NormalPosterior(found.used, found.precision, levels), expand, score)
+
+
+@dataclass(frozen=True)
+class NormalPosterior:
+    """A normal posterior of coordinates `used`, of `precision` (used, used); `levels` (count,) tells noise levels."""
+
+    used: NDArray[np.intp]
+    precision: Array
+    levels: NDArray[np.bool_]
+
+    def weigh(self, step: Array) -> float:
+        """Return the log density after a step (count,) from the maximum, relative to the maximum."""
+        return -0.5 * float(step[self.used] @ self.precision @ step[self.used])
+
+    def find_step(self, held: Expansion, step: Array, *, levels: bool) -> tuple[Array, float]:
+        """Return the Gauss-Newton step (count,) from one with an expansion there, and the gain that it promises.
+
+        Without `levels` the noise levels stay.
+        """
+        moved = np.flatnonzero(levels | ~self.levels[self.used])
+        pulled = (held.gradient[self.used] - self.precision @ step[self.used])[moved]
+        further, rows = np.zeros(len(step)), self.used[moved]
+        further[rows] = np.linalg.solve(self.add(held)[np.ix_(moved, moved)], pulled)
+        return further, 0.5 * float(pulled @ further[rows])
+
+    def add(self, held: Expansion) -> Array:
+        """Return the precision (used, used) with the information of held-out data."""
+        return np.asarray(self.precision + held.information[np.ix_(self.used, self.used)])
 
 
 def average_over_posterior(
-    held: Expansion, used: NDArray[np.intp], precision: Array, score: Callable[[Array], float]
+    posterior: NormalPosterior, expand: Callable[[Array], Expansion], score: Callable[[Array], float]
 ) -> float:
-    """Return the log density of held-out data, averaged over a posterior of `precision` (used, used).
+    """Return the log density of held-out data, averaged over a posterior of the fitted data with precision Q.
 
-    With g and H the gradient and the information of the held-out data at the maximum of the fitted data, and Q the
-    precision of the posterior there, it is log p + g' s / 2 - log det(I + Q^-1 H) / 2 with the step s = (Q + H)^-1 g:
-    the closed form for errors that are linear in the coordinates `used`. Where they are not, the step gains less than
-    g' s / 2, and the gain of the step counts; `score` returns the log density after a step (count,).
+    It is the maximum of log p(held-out | s) - s'Q s / 2 over steps s (count,) from the maximum of the fitted data, less
+    log det(I + Q^-1 H) / 2 with the information H there: Laplace's method, exact for errors that are linear in the
+    coordinates. A smooth force over the time is free after the fitted data, so the first step may be long, and noise
+    levels wait until it is found. `expand` and `score` return the held-out data and their log density after a step.
     """
+    step = np.zeros(len(posterior.levels))
+    held = expand(step)
     value = float(held.here.log_likelihood)
-    both = precision + held.information[np.ix_(used, used)]
-    sign, more = np.linalg.slogdet(both)
-    if sign <= 0 or not math.isfinite(value):
-        return -math.inf
-    step = np.zeros(len(held.at))
-    step[used] = np.linalg.solve(both, held.gradient[used])
-    gained = score(step) - value - 0.5 * float(step[used] @ precision @ step[used])
-    gain = max(min(0.5 * float(held.gradient @ step), gained), 0.0)
-    return value + gain - 0.5 * float(more - np.linalg.slogdet(precision)[1])
+    for levels in (False, True):
+        for _ in range(ROUNDS):
+            if not (math.isfinite(value) and np.all(np.isfinite(held.information))):
+                return -math.inf
+            further, gain = posterior.find_step(held, step, levels=levels)
+            for trial in (step + share * further for share in SHARES if gain > CLOSE):
+                if (reached := score(trial) + posterior.weigh(trial)) > value:
+                    break
+            else:
+                break
+            left, step, value = gain - (reached - value), trial, reached
+            held = expand(step)
+            if left < CLOSE:
+                break
+    more = np.linalg.slogdet(posterior.add(held))[1] - np.linalg.slogdet(posterior.precision)[1]
+    return value - 0.5 * float(more)
 
 
 def _score_point(frame: JointFrame, found: Hypothesis, at: Array, first: int) -> float:

@@ -22,7 +22,9 @@ from lostmotion.contracts import Array
 from lostmotion.evidence.discrepancy import Choice, JointFrame, Quadratic
 from lostmotion.evidence.expansion import Expansion
 from lostmotion.inference.fit import STRIDE, choose_first_steps, solve_scaled
-from lostmotion.inference.natural import sort_slots
+from lostmotion.inference.natural import find_term, sort_slots
+from lostmotion.inference.penalties import is_simpler
+from lostmotion.likelihood.problem import Problem
 
 UNKNOWN = "unknown"
 """The name of a smooth force that is larger than the usual discrepancy, among the terms of a set."""
@@ -111,11 +113,14 @@ class Hypothesis:
 def list_vague(found: Hypothesis, key: str) -> list[str]:
     """Return the amplitudes of a term, by the name of the parameter, whose 95 % region contains zero.
 
-    The cosine and the sine of a wave are one amplitude: which of them is small depends on the phase alone.
+    The cosine and the sine of a wave are one amplitude: which of them is small depends on the phase alone. Of a law
+    that contains a simpler one, those count that the simpler one lacks: they tell the two apart.
     """
     free = found.frame.problem.free[: found.frame.own]
     places = {f.key: i for i, f in enumerate(free) if not f.log}
     slots = [s for s in sort_slots(found.frame.problem, key)[0] if s.key in places]
+    common = _list_common_amplitudes(found.frame.problem, key)
+    slots = [s for s in slots if s.param.name not in common] or slots
     rows = [[s] for s in slots if s.param.name not in WAVE]
     waves = [s for s in slots if s.param.name in WAVE]
     return [
@@ -123,6 +128,13 @@ def list_vague(found: Hypothesis, key: str) -> list[str]:
         for row in (*rows, waves)
         if row and _is_vague(found, [places[s.key] for s in row], [s.param.null or 0.0 for s in row])
     ]
+
+
+def _list_common_amplitudes(problem: Problem, key: str) -> set[str]:
+    """Return the names of the amplitudes that a term has in common with the simpler laws that it contains."""
+    term, _ = find_term(problem, key)
+    simpler = [other for other in problem.system.terms if is_simpler(other, term)]
+    return {param.name for other in simpler for param in other.params if param.null is not None}
 
 
 def _is_vague(found: Hypothesis, places: Sequence[int], null: Sequence[float]) -> bool:

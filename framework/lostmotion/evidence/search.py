@@ -11,7 +11,7 @@ from typing import Protocol
 import numpy as np
 
 from lostmotion.evidence.bare import MOST_TERMS, BareFits, Budget, Say, Terms, name_terms
-from lostmotion.evidence.channels import ChannelError, list_channel_errors
+from lostmotion.evidence.channel_errors import ChannelError, list_channel_errors
 from lostmotion.evidence.discrepancy import LARGE, LENGTHS, SIZES, Choice, make_frame
 from lostmotion.evidence.effects import Promise
 from lostmotion.evidence.heldout import score_heldout
@@ -41,8 +41,8 @@ class ExplanationSearch:
     """A search beside a `nominal` fit among terms `keys`; `pieces` are held-out data with their first samples.
 
     `found` has the hypothesis of each set that was weighed, `skipped` the sets that were not extended for lack of time,
-    and `cancelled` tells whether the user ended it. On a part of the samples, `temper` is its share of all: scores then
-    predict those of all samples.
+    and `cancelled` tells whether the user ended it. Smooth forces over the time reach to `until` (s). On a part of the
+    samples, `temper` is its share of all: scores then predict those of all samples.
     """
 
     nominal: Fit
@@ -50,6 +50,7 @@ class ExplanationSearch:
     pieces: Sequence[tuple[Observation, int]]
     budget: Budget
     temper: float = 1.0
+    until: float = 0.0
     say: Say = lambda _: None
     errors: tuple[ChannelError, ...] = ()
     recordings: Sequence[Observation] = ()
@@ -63,7 +64,7 @@ class ExplanationSearch:
         """Prepare the system with every curve, and the usual errors of the channels if they are not given."""
         whole = {o.name: o for o in (*self.nominal.problem.observations, *(o for o, _ in self.pieces))}
         self.errors = self.errors or list_channel_errors(self.nominal, list(whole.values()))
-        wide, plain = add_all_curves(self.nominal), self.nominal.problem.system
+        wide, plain = add_all_curves(self.nominal, self.until), self.nominal.problem.system
         recordings = self.recordings or self.nominal.problem.observations
         self.bare = BareFits(wide, plain, self.keys, self.errors, self.budget, recordings, self.temper, self.say)
 
@@ -92,7 +93,8 @@ class ExplanationSearch:
         self.weigh(self.bare.fits[self.bare.lead])
         if frozenset() not in self.found:
             self._drop_all(self.best)
-        self._drop_every(self.best)
+        self._reduce(self.bare.lead)
+        self._weigh_alike()
         self._weigh_close()
         while (target := self._choose_next()) is not None:
             if self.budget.spent:
@@ -107,6 +109,18 @@ class ExplanationSearch:
         while (best := self.best).terms not in tried:
             tried.add(best.terms)
             self._drop_every(best)
+
+    def _reduce(self, terms: Terms) -> None:
+        """Weigh a set without each of its terms, and the best of what is left again, while the score does not fall.
+
+        A set that is found without a discrepancy may stand for one law and a smooth force.
+        """
+        least = -math.inf
+        while terms and terms in self.found and self.score(self.found[terms]) > least and not self.budget.spent:
+            least = self.score(self.found[terms]) - REACH
+            self._drop_every(self.found[terms])
+            fewer = [less for key in sorted(terms) if (less := terms - {key}) in self.found]
+            terms = max(fewer, key=lambda less: self.score(self.found[less]), default=frozenset())
 
     def _drop_every(self, target: Hypothesis) -> None:
         """Weigh a set without each of its terms in turn."""
@@ -155,6 +169,20 @@ class ExplanationSearch:
         for fit in ranked[:MOST_CLOSE]:
             if fit.problem.active not in self.found and self.bare.weigh(fit) > least and not self.budget.spent:
                 self.weigh(fit)
+
+    def _weigh_alike(self) -> None:
+        """Weigh single laws, and sets with one other law than the best one, where the discrepancy of that adds much.
+
+        Fits without a discrepancy do not rank them there.
+        """
+        best, fits = self.best, self.bare.fits
+        if best.log_evidence - fits[best.frame.terms].log_evidence < CLOSE:
+            return
+        alike = [t for t in fits if len(t) == 1 or (len(t) == len(best.terms) and len(t - best.terms) == 1)]
+        new = sorted((t for t in alike if t not in self.found), key=lambda t: self.bare.weigh(fits[t]), reverse=True)
+        for terms in new[:MOST_CLOSE]:
+            if not self.budget.spent:
+                self.weigh(fits[terms])
 
     def weigh(self, bare: Fit, begin: Mapping[str, float] | None = None, choice: Choice | None = None) -> None:
         """Fit the hypothesis of a bare fit, from some coordinates, and keep it if it is the best of its terms."""

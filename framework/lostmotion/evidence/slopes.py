@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from lostmotion.contracts import Array, place_of
-from lostmotion.evidence.channels import ChannelError, SensorError
+from lostmotion.evidence.channel_errors import ChannelError, SensorError
 from lostmotion.inference.curves import compute_coefficient_size
 from lostmotion.inference.learned import LearnedTerm, OverPhase, OverPosition, OverTime
 from lostmotion.inference.natural import find_term

@@ -13,13 +13,13 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.errors import CaseError, DataError
-from lostmotion.identification.chains import (
+from lostmotion.identification.checkpoint import StoredChain, compute_digest, load, remove_temporary_files, save
+from lostmotion.identification.convergence import (
     ChainQuality,
     compute_autocorrelation,
     make_groups_of_draws,
     measure_quality,
 )
-from lostmotion.identification.checkpoint import StoredChain, compute_digest, load, remove_temporary_files, save
 from lostmotion.identification.moves import (
     JUMP_SHARE,
     JUMP_SHARE_AFTER_FIT,

@@ -59,10 +59,11 @@ class CurveTest:
     known: Mapping[str, float] = field(default_factory=dict)
 
 
-def add_all_curves(fit: Fit) -> Fit:
+def add_all_curves(fit: Fit, until: float = 0.0) -> Fit:
     """Return a fit in a system that has every curve in addition to its terms, with the ranges that the motion visited.
 
-    All terms stay, so one kernel serves any active set. A system that has the curves is returned unchanged.
+    Curves over the time reach to `until` (s), if that is later than the recordings of the fit end. All terms stay, so
+    one kernel serves any active set. A system that has the curves is returned unchanged.
     """
     problem, old = fit.problem, fit.problem.system
     if any(isinstance(term, LearnedTerm) for term in old.terms):
@@ -73,7 +74,7 @@ def add_all_curves(fit: Fit) -> Fit:
     known = system.vector({key: problem.known[old.index[key]] for key in system.index if key in old.index})
     moved = smooth_motions(fit, [place_of(old.model, curve) for curve in curves])
     for curve in curves:
-        for key, value in _find_ranges(fit, curve, moved).items():
+        for key, value in _find_ranges(fit, curve, moved, until).items():
             known[system.index[f"{key_of(curve)}.{key}"]] = value
     return replace(fit, problem=replace(problem, system=system, known=known))
 
@@ -101,12 +102,12 @@ def smooth_motions(fit: Fit, places: Sequence[Interface]) -> Motions:
     return found
 
 
-def _find_ranges(fit: Fit, curve: LearnedTerm, moved: Motions) -> dict[str, float]:
+def _find_ranges(fit: Fit, curve: LearnedTerm, moved: Motions, until: float) -> dict[str, float]:
     """Return middle and half width of the range of a curve's variable, for a surface of both variables."""
     time = fit.problem.scales.time
-    found = _centre_range(*_find_range(fit, curve, curve.over, moved, time))
+    found = _centre_range(*_find_range(fit, curve, curve.over, moved, until))
     if isinstance(curve, Surface):
-        found |= {f"{k}2": v for k, v in _centre_range(*_find_range(fit, curve, curve.beside, moved, time)).items()}
+        found |= {f"{k}2": v for k, v in _centre_range(*_find_range(fit, curve, curve.beside, moved, until)).items()}
     return found | ({"time": time} if isinstance(curve, OverHistory) else {})
 
 
@@ -114,18 +115,15 @@ def _centre_range(low: float, high: float) -> dict[str, float]:
     return {"middle": 0.5 * (low + high), "half": 0.5 * (high - low)}
 
 
-def _find_range(fit: Fit, curve: LearnedTerm, over: str, moved: Motions, time: float) -> tuple[float, float]:
-    """Return the least and the greatest value of a variable in all recordings, with a narrow margin.
-
-    `time` (s) is the memory time of a hidden state.
-    """
+def _find_range(fit: Fit, curve: LearnedTerm, over: str, moved: Motions, until: float) -> tuple[float, float]:
+    """Return the least and the greatest value of a variable in all recordings, with a narrow margin."""
     problem = fit.problem
     if over in ("time", "phase"):
-        return 0.0, max(float(observation.time[-1]) for observation in problem.observations)
+        return 0.0, max(until, *(float(observation.time[-1]) for observation in problem.observations))
     seen = moved[place_of(problem.system.model, curve).name]
     if over == "history":
         steps = zip(seen, problem.observations, strict=True)
-        values = [OverHistory.followed(motion[1], observation.dt, time) for motion, observation in steps]
+        values = [OverHistory.followed(motion[1], observation.dt, problem.scales.time) for motion, observation in steps]
     else:
         values = [motion[int(over == "velocity")] for motion in seen]
     ends = [_find_ends(value) for value in values]

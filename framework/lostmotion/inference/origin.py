@@ -10,7 +10,7 @@ from lostmotion.contracts import Array, Term
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.natural import find_term
 from lostmotion.likelihood.initial import shows_place
-from lostmotion.likelihood.motion import compute_derivatives
+from lostmotion.likelihood.kernel_calls import compute_derivatives
 from lostmotion.quantities import quantity_of
 
 STATES, SAME = 32, 1e-9

@@ -17,7 +17,7 @@ from lostmotion.inference.modes import StartingPoints, select_modes
 from lostmotion.inference.unseen import refit_without_position
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.drive import count_substeps
-from lostmotion.likelihood.levels import (
+from lostmotion.likelihood.noise_levels import (
     LEVELS_TRIED,
     compute_random_level,
     compute_usual_level,

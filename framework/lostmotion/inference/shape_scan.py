@@ -21,8 +21,8 @@ from lostmotion.inference.natural import compute_size, find_term, list_tried_val
 from lostmotion.inference.resonance_scan import scan_resonances
 from lostmotion.inference.rounding import drop_rounding
 from lostmotion.inference.setup import choose_steps
+from lostmotion.likelihood.kernel_calls import compute_each
 from lostmotion.likelihood.latent import smooth_expected_force
-from lostmotion.likelihood.motion import compute_each
 from lostmotion.likelihood.problem import Problem
 from lostmotion.likelihood.system import Slot
 from lostmotion.quantities import LENGTH

@@ -28,7 +28,7 @@ from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem
 from lostmotion.likelihood.space import FreeParameter, list_keys
 from lostmotion.results import Interval
-from lostmotion.results.sharing import PowerOfLevel
+from lostmotion.results.shared_values import PowerOfLevel
 from lostmotion.settings import DEFAULT
 from lostmotion.settings import SharedSettings as SharedLimits
 

@@ -43,7 +43,7 @@ from lostmotion.kernels.inputs import (
     interpolate_input,
     set_inputs,
 )  # fmt: skip
-from lostmotion.kernels.noises import (
+from lostmotion.kernels.noise_states import (
     add_clock_noise,
     initialise_noises,
     propagate_noises,
@@ -169,7 +169,7 @@ def update_states(work, noises, blocks, levels, sensor, many, own, errors, varia
     """Update the states by one reading of a sensor, in `END`; `EXPECTED` and `H` hold its prediction and its slopes.
 
     `levels` has for each sensor the variances of white noise and of its stamps, gain, offset and lag. `own` are the
-    first of its noise states and the one behind the last; `kernels/noises.py` describes `noises` and `blocks`.
+    first of its noise states and the one behind the last; `kernels/noise_states.py` describes `noises` and `blocks`.
     """
     first, wide, rows = LEVELS * sensor, 1 + N + many, 1 + 3 * many
     begin, end = own
@@ -262,15 +262,15 @@ def run_filter(functions, blocks, wiring, inputs, drives, z, sensors, unsure, dt
     states, then the data of each point: its time at the first sample (1 row); for each sensor the variances of white
     noise and of stamps, gain, offset and lag (5 rows each); for each source of process noise the number of the state
     that it enters and its intensity, then for each force that is redrawn at each sample its state and variance (2 rows
-    each); initial states and covariances (N + N * N rows); noise states (`kernels/noises.py`). `wiring` holds the wires
-    of the model, with the numbers of sources, of redrawn forces, of inputs and of drives from `SOURCES` on. `inputs`
-    (rows, 4, inputs) holds a cubic for each sample, and `drives` (lanes,) the first row of each point. `sensors`
-    (sensors, 6) holds the channel of each, the state that it shows directly or -1, the first of its noise states and
-    the one behind the last, whether it is late, and whether its stamps jitter; `unsure` (samples,) is the variance that
-    the measured input adds to a held force up to the next sample. The arrays in `written` are errors and variances
-    (lanes, samples, sensors), and `reached` (lanes,), the number of samples that were computed. `kept` is what a
-    smoother needs of the first point: states and covariances after and before each sample and the transition matrices
-    between, empty if not wanted.
+    each); initial states and covariances (N + N * N rows); noise states (`kernels/noise_states.py`). `wiring` holds the
+    wires of the model, with the numbers of sources, of redrawn forces, of inputs and of drives from `SOURCES` on.
+    `inputs` (rows, 4, inputs) holds a cubic for each sample, and `drives` (lanes,) the first row of each point.
+    `sensors` (sensors, 6) holds the channel of each, the state that it shows directly or -1, the first of its noise
+    states and the one behind the last, whether it is late, and whether its stamps jitter; `unsure` (samples,) is the
+    variance that the measured input adds to a held force up to the next sample. The arrays in `written` are errors and
+    variances (lanes, samples, sensors), and `reached` (lanes,), the number of samples that were computed. `kept` is
+    what a smoother needs of the first point: states and covariances after and before each sample and the transition
+    matrices between, empty if not wanted.
     """
     derive, observe = functions[0], functions[1]
     errors, variances, reached = written

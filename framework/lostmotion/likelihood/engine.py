@@ -1,8 +1,9 @@
-"""The arguments and results of an engine: plain arrays for many parameter points at once."""
+"""What an engine does, its arguments and its results: plain arrays for many parameter points at once."""
 
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 
 from lostmotion.contracts import Array
 from lostmotion.likelihood.drive import Drive
+from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.sensors import Sensor
 from lostmotion.likelihood.system import System
 from lostmotion.noises import NoiseBlock
@@ -169,3 +171,30 @@ class Smoothed:
     states: Array
     covariance: Array
     innovations: Innovations
+
+
+class Engine(ABC):
+    """Filters, smooths and simulates a model with its terms at many points, thread-safe, each point independently.
+
+    A point that diverges raises no error: `Innovations.of` marks it, as in `likelihood.reference`.
+    """
+
+    @abstractmethod
+    def filter(self, dynamics: Dynamics, observation: Observation, points: Points) -> Innovations:
+        """Return one-step errors and their variances, each (points, samples, sensors), in SI units and their squares.
+
+        A missing reading (NaN) has the error 0 and the variance 1 / (2 pi), so that it adds nothing.
+        """
+
+    @abstractmethod
+    def smooth(self, dynamics: Dynamics, observation: Observation, points: Points) -> Smoothed:
+        """Return filtered and smoothed states (samples, n) of a single point, with covariances (samples, n, n)."""
+
+    @abstractmethod
+    def simulate(
+        self, dynamics: Dynamics, points: Points, start: Array, steps: int, kicks: Array | None = None
+    ) -> Array:
+        """Return states (points, steps, n) of free runs from `start` (points, n), NaN after the last finite one.
+
+        A run begins at sample `points.first` of its drive; `kicks` (points, steps, n) are added after the first state.
+        """

@@ -3,36 +3,35 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from lostmotion.contracts import Array, SensorTerm
+from lostmotion.likelihood.engine import Dynamics
 from lostmotion.likelihood.observation import Observation, find_static_equilibrium
+from lostmotion.likelihood.space import Scales
 from lostmotion.quantities import quantity_of
 
-if TYPE_CHECKING:
-    from lostmotion.likelihood.problem import Problem
 
-
-def compute_initial(problem: Problem, fulls: Array, gain: Array, offset: Array, index: int = 0) -> tuple[Array, Array]:
+def compute_initial(
+    dynamics: Dynamics, observation: Observation, scales: Scales, fulls: Array, *, gain: Array, offset: Array
+) -> tuple[Array, Array]:
     """Return mean (points, n) and covariance (points, n, n) of the states of model and terms at the first sample.
 
     `fulls` (points, parameters), `gain` and `offset` (points, sensors). Where a force was measured, the position
     depends on the parameters: it is the one at which the model shows this force.
     """
-    observation, scales, model = problem.observations[index], problem.scales, problem.system.model
-    n = problem.dynamics.states
+    model, n = dynamics.system.model, dynamics.states
     mean, cov = np.zeros((len(fulls), n)), np.zeros((len(fulls), n, n))
     for i, name in enumerate(model.states):
         cov[:, i, i] = (scales.velocity if i == 1 or "velocity" in name else scales.length) ** 2
-    _begin_terms(problem, fulls, (mean, cov), gain, offset, index)
+    _begin_terms(dynamics, observation, scales, fulls, (mean, cov), gain=gain, offset=offset)
     if observation.begun is not None:
         known = slice(0, len(model.states))
         mean[:, known], cov[:, known, known] = observation.begun
         return mean, cov
     if all(sensor.channel.endswith("force") for sensor in observation.sensors):
-        return _begin_by_force(problem, fulls, offset[:, 0], (mean, cov), index)
+        return _begin_by_force(dynamics, observation, scales, fulls, (mean, cov), offset=offset[:, 0])
     for number, sensor in enumerate(observation.sensors):
         state = model.states.index(sensor.channel) if sensor.channel in model.states else -1
         if quantity_of(sensor.channel) == "position" and state >= 0 and not np.isnan(observation.first[number][0]):
@@ -43,17 +42,23 @@ def compute_initial(problem: Problem, fulls: Array, gain: Array, offset: Array, 
 
 
 def _begin_terms(
-    problem: Problem, fulls: Array, begun: tuple[Array, Array], gain: Array, offset: Array, index: int
+    dynamics: Dynamics,
+    observation: Observation,
+    scales: Scales,
+    fulls: Array,
+    begun: tuple[Array, Array],
+    *,
+    gain: Array,
+    offset: Array,
 ) -> None:
     """Initialise the states of terms: a free one with its natural size, that of a sensor at its first reading.
 
     A recording begins within the motion, where the force of a hysteresis is anything up to its yield force.
     """
-    (mean, cov), scales, system = begun, problem.scales, problem.system
-    observation = problem.observations[index]
+    (mean, cov), system = begun, dynamics.system
     places = {sensor.place: i for i, sensor in enumerate(observation.sensors)}
-    for (key, term), first in zip(system.forces, system.wiring(problem.active)[1], strict=True):
-        if key not in problem.active:
+    for (key, term), first in zip(system.forces, system.wiring(dynamics.active)[1], strict=True):
+        if key not in dynamics.active:
             continue
         for i, size in enumerate(term.begins):
             cov[:, first + i, first + i] = (
@@ -92,15 +97,20 @@ def _begin_at_reading(
 
 
 def _begin_by_force(
-    problem: Problem, fulls: Array, offset: Array, begun: tuple[Array, Array], index: int
+    dynamics: Dynamics,
+    observation: Observation,
+    scales: Scales,
+    fulls: Array,
+    begun: tuple[Array, Array],
+    *,
+    offset: Array,
 ) -> tuple[Array, Array]:
     """Return mean and covariance where the first sensor shows a force: the body is where the model gives this force."""
-    observation, model = problem.observations[index], problem.system.model
-    mean, cov = begun
+    model, (mean, cov) = dynamics.system.model, begun
     mean[:, :2] = observation.inputs[0, :2]
     cov[:, 1, 1] *= 0.25
     for point, full in enumerate(fulls):
         shown = replace(observation, readings=observation.readings - offset[point])
         mean[point, 0], spread = find_static_equilibrium(shown, model, full[: len(model.params)])
-        cov[point, 0, 0] = spread**2 + (1e-3 * problem.scales.length) ** 2
+        cov[point, 0, 0] = spread**2 + (1e-3 * scales.length) ** 2
     return mean, cov

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from lostmotion.contracts import Array
-from lostmotion.signals.prediction import predict_before
+from lostmotion.signals.linear_prediction import predict_before
 
 REACH = 300
 """Inputs are predicted for so many samples beyond either end, and for no more than a quarter of the recording."""

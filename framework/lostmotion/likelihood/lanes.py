@@ -4,18 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lostmotion.contracts import Array, Engine
+from lostmotion.contracts import Array
 from lostmotion.kernels.inputs import DRAWN, DRIVES, SOURCES
 from lostmotion.kernels.smooth import smooth
 from lostmotion.kernels.vector import STRIDE
-from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Smoothed
-from lostmotion.likelihood.kernels import build_filter
-from lostmotion.likelihood.motion import (
+from lostmotion.likelihood.engine import Dynamics, Engine, Innovations, Points, Smoothed
+from lostmotion.likelihood.kernel_calls import (
     count_lanes,
     make_block,
     make_model_block,
@@ -24,6 +23,7 @@ from lostmotion.likelihood.motion import (
     run_freely,
     spread_points,
 )
+from lostmotion.likelihood.kernels import build_filter
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.work import add_work
 
@@ -35,13 +35,12 @@ Kept = tuple[Array, Array, Array, Array, Array]
 
 @dataclass(frozen=True)
 class Lanes(Engine):
-    """Filters up to 32 points at once in vector lanes; `compiled=False` runs the same source as plain Python."""
+    """Filters up to 32 points at once in vector lanes; `compiled=False` runs the same source as plain Python.
+
+    Norgaard, Poulsen, Ravn, Automatica 36 (2000) 1627-1638, with steps halved where a force bends.
+    """
 
     compiled: bool = True
-    name: ClassVar[str] = "lanes"
-    paper: ClassVar[str] = (
-        "Norgaard, Poulsen, Ravn, Automatica 36 (2000) 1627-1638, with steps halved where a force bends"
-    )
 
     def filter(self, dynamics: Dynamics, observation: Observation, points: Points) -> Innovations:
         """Return one-step errors and their variances, (points, samples, sensors)."""

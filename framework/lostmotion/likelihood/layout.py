@@ -1,4 +1,4 @@
-"""The positions of all numbers of a model with its terms: parameters, onsets, states, and the arguments of each law."""
+"""A model with its terms as a kernel sees it: positions of parameters, onsets, states and arguments of each law."""
 
 from __future__ import annotations
 
@@ -13,7 +13,9 @@ from numpy.typing import NDArray
 
 from lostmotion.contracts import Array, DriveTerm, Interface, Model, Param, SensorTerm, Term, place_of
 from lostmotion.errors import ContractError, nearest
+from lostmotion.likelihood.compose import Functions, compile_functions, define_plain_functions
 from lostmotion.likelihood.drive import SILENT, DriveHarmonic
+from lostmotion.likelihood.plan import Blueprint, Place, compute_room, make_law
 from lostmotion.quantities import TIME
 
 ALWAYS = -1e9
@@ -174,6 +176,35 @@ class Layout:
             at[i] = start if on[i] else 0
             start += len(term.states) if on[i] else 0
         return on, at
+
+    def functions(self, compiled: bool = True) -> Functions:
+        """Return the functions `derive` and `observe` of the model, the same for all active terms."""
+        return compile_functions(self.blueprint.bare) if compiled else define_plain_functions(self.blueprint)
+
+    @cached_property
+    def blueprint(self) -> Blueprint:
+        """The description of the kernel of the model with all terms."""
+        model = self.model
+        index = {q.name: i for i, q in enumerate(model.params)}
+        places = tuple(
+            Place(
+                i.row,
+                index[i.inertia],
+                i.motion,
+                i.against and (i.against[0], index[i.against[1]]),
+                None if i.lever is None else index[i.lever],
+            )
+            for i in model.interfaces
+        )
+        names = [i.name for i in model.interfaces]
+        laws = tuple(
+            make_law(t, 0, model.channels.index(t.channel))
+            if isinstance(t, SensorTerm)
+            else make_law(t, names.index(place_of(model, t).name))
+            for _, t in self.forces
+        )
+        sizes = (len(model.states), len(model.inputs), len(model.channels), len(model.params))
+        return Blueprint(*sizes, model.rhs, model.observe, places, laws, compute_room(laws, len(places)))
 
     def pack(self, fulls: Array, step: float, harmonic: DriveHarmonic = SILENT, *, line: int = 1) -> Array:
         """Return the parameters of a model and its forces, (points, params): each force has its needs behind its own.

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from lostmotion.contracts import Array
 from lostmotion.kernels.filter import UNREAD_VARIANCE
-from lostmotion.likelihood.motion import compute_derivatives
+from lostmotion.likelihood.kernel_calls import compute_derivatives
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem
 from lostmotion.settings import DEFAULT

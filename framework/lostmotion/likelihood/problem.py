@@ -11,16 +11,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lostmotion.contracts import Array, Engine
+from lostmotion.contracts import Array
 from lostmotion.kernels.threads import each
-from lostmotion.likelihood.batches import find_distinct, group_rows, join_innovations, realign
 from lostmotion.likelihood.bends import SensorCorrections, correct_twice, filter_corrected, list_corrections
 from lostmotion.likelihood.drive import Drive, pad_inputs
-from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Random, SensorNoises, Smoothed
+from lostmotion.likelihood.engine import Dynamics, Engine, Innovations, Points, Random, SensorNoises, Smoothed
 from lostmotion.likelihood.initial import compute_initial
+from lostmotion.likelihood.kernel_calls import count_lanes
 from lostmotion.likelihood.lanes import Lanes
-from lostmotion.likelihood.motion import count_lanes
 from lostmotion.likelihood.observation import Observation, shift_sensors
+from lostmotion.likelihood.point_groups import find_distinct, group_rows, join_innovations, realign
 from lostmotion.likelihood.sensor_noise import compute_blocks, compute_variance, read_values
 from lostmotion.likelihood.sensors import Sensor
 from lostmotion.likelihood.space import (
@@ -274,12 +274,12 @@ class Problem:
         noise = SensorNoises.of(list(zip(*columns, strict=True)))
         offset = np.stack([self._compute_offset(thetas, index, s) for s in range(shape[1])], axis=1)
         gain, more, lag = self._compute_gauges(fulls, index)
-        lag = lag - np.rint(lag / observation.dt) * observation.dt
+        offset, lag = offset + more, lag - np.rint(lag / observation.dt) * observation.dt
         drives, which = self._make_drives(fulls, index)
-        mean, covariance = compute_initial(self, fulls, gain, offset + more, index)
+        begun = compute_initial(self.dynamics, observation, self.scales, fulls, gain=gain, offset=offset)
         process = np.exp(coordinates.at(thetas, RANDOM))
         first = np.zeros(len(thetas), dtype=np.int64)
-        return Points(fulls, process, pace, noise, gain, offset + more, lag, mean, covariance, drives, which, first)
+        return Points(fulls, process, pace, noise, gain, offset, lag, *begun, drives, which, first)
 
     def _list_noise(self, thetas: Array, index: int, sensor: int) -> list[NoiseBlock]:
         """Return the noise of a sensor at each of some coordinates (points, n)."""

@@ -6,17 +6,16 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lostmotion.contracts import Array, Engine
+from lostmotion.contracts import Array
 from lostmotion.kernels.crossing import BEND_LIMIT, PACED_LIMIT, PACED_SHARE, STEP_LIMIT, TINY
 from lostmotion.kernels.filter import INNER_POINT, INNER_WEIGHT, OUTER_POINT, OUTER_WEIGHT, UNREAD_VARIANCE
 from lostmotion.kernels.smooth import SURE
 from lostmotion.likelihood.drive import Drive
-from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Smoothed
+from lostmotion.likelihood.engine import Dynamics, Engine, Innovations, Points, Smoothed
 from lostmotion.likelihood.lanes import count_fine_steps, find_input_variance
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
@@ -27,11 +26,6 @@ GAUSS = (0.5 - math.sqrt(1.0 / 12.0), 0.5 + math.sqrt(1.0 / 12.0))
 @dataclass(frozen=True)
 class Reference(Engine):
     """The same filter as `lanes`, written with matrices and the Python functions of model and terms."""
-
-    name: ClassVar[str] = "reference"
-    paper: ClassVar[str] = (
-        "Norgaard, Poulsen, Ravn, Automatica 36 (2000) 1627-1638, with steps halved where a force bends"
-    )
 
     def filter(self, dynamics: Dynamics, observation: Observation, points: Points) -> Innovations:
         """Return one-step errors and their variances, (points, samples, sensors)."""

@@ -13,14 +13,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from lostmotion.contracts import Array, Assembly, DriveTerm, Input, Model, SensorTerm, place_of
+from lostmotion.contracts import Array, Assembly, DriveTerm, Input, Model, SensorTerm
 from lostmotion.errors import ContractError, nearest
 from lostmotion.likelihood.acting import Column, Recorded, apply_term, evaluate_order
-from lostmotion.likelihood.compose import Functions, compile_functions, define_plain_functions
 from lostmotion.likelihood.drive import SILENT, Drive, DriveHarmonic
+from lostmotion.likelihood.kernel_calls import compute_derivatives, run_freely
 from lostmotion.likelihood.layout import ALWAYS, NUMB, Layout, Slot, key_of, onset_key
-from lostmotion.likelihood.motion import compute_derivatives, run_freely
-from lostmotion.likelihood.plan import Blueprint, Place, compute_room, make_law
 from lostmotion.likelihood.sensors import Sensor, SensorChange
 
 __all__ = ["ALWAYS", "Clock", "Motion", "Slot", "System", "key_of", "onset_key"]
@@ -55,35 +53,6 @@ class System(Layout):
         if isinstance(assembly, Model):
             return cls(assembly)
         return cls(assembly.model, assembly.terms)
-
-    def functions(self, compiled: bool = True) -> Functions:
-        """Return the functions `derive` and `observe` of the model, the same for all active terms."""
-        return compile_functions(self.blueprint.bare) if compiled else define_plain_functions(self.blueprint)
-
-    @cached_property
-    def blueprint(self) -> Blueprint:
-        """The description of the kernel of the model with all terms."""
-        model = self.model
-        index = {q.name: i for i, q in enumerate(model.params)}
-        places = tuple(
-            Place(
-                i.row,
-                index[i.inertia],
-                i.motion,
-                i.against and (i.against[0], index[i.against[1]]),
-                None if i.lever is None else index[i.lever],
-            )
-            for i in model.interfaces
-        )
-        names = [i.name for i in model.interfaces]
-        laws = tuple(
-            make_law(t, 0, model.channels.index(t.channel))
-            if isinstance(t, SensorTerm)
-            else make_law(t, names.index(place_of(model, t).name))
-            for _, t in self.forces
-        )
-        sizes = (len(model.states), len(model.inputs), len(model.channels), len(model.params))
-        return Blueprint(*sizes, model.rhs, model.observe, places, laws, compute_room(laws, len(places)))
 
     @cached_property
     def groups(self) -> tuple[tuple[str, tuple[int, ...]], ...]:

@@ -16,10 +16,10 @@ from functools import cached_property
 import numpy as np
 
 from lostmotion.contracts import Array, Interface
-from lostmotion.kernels.tangents import respond
+from lostmotion.kernels.linear_response import respond
 from lostmotion.likelihood.engine import Innovations
+from lostmotion.likelihood.kernel_calls import compute_each
 from lostmotion.likelihood.lanes import Lanes, make_kept
-from lostmotion.likelihood.motion import compute_each
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem
 

@@ -16,7 +16,7 @@ from lostmotion.case import GUESSED, WRITTEN, CaseFile, Experiment, Prior, Senso
 from lostmotion.contracts import Model
 from lostmotion.equations import name_inputs
 from lostmotion.errors import CaseError, PluginError, nearest
-from lostmotion.notebook.rules import KNOWN, PRIORS, modelled
+from lostmotion.notebook.argument_rules import KNOWN, PRIORS, modelled
 from lostmotion.preparation.prepare import Prepared, case_of, prepare_loaded
 from lostmotion.preparation.vetting import make_plugin
 from lostmotion.recording import Recording, load_recording

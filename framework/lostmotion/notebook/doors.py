@@ -28,11 +28,11 @@ from lostmotion.arguments import (
 from lostmotion.case import GUESSED, Prior
 from lostmotion.contracts import Model
 from lostmotion.errors import CaseError, DataError
+from lostmotion.notebook.argument_rules import CASE
 from lostmotion.notebook.case import Case
-from lostmotion.notebook.diagnosis import DiagnosisResult, load_diagnosis
+from lostmotion.notebook.diagnosis_result import DiagnosisResult, load_diagnosis
 from lostmotion.notebook.posterior import IdentificationResult, load_identification
 from lostmotion.notebook.recorded import read_recorded_case
-from lostmotion.notebook.rules import CASE
 from lostmotion.offers import RESULT
 from lostmotion.progress import show_progress
 from lostmotion.recording import Recording
@@ -71,7 +71,7 @@ def diagnose(
     `settings` changes thresholds, such as `{"select.decisive": 4.0}` (`lostmotion.settings` lists them). Raises
     `CaseError` or `DataError` where the case cannot be used, with the message of the command line.
     """
-    from lostmotion.diagnosis.run import diagnose_prepared
+    from lostmotion.diagnosis.diagnosis_run import diagnose_prepared
 
     known_to, limits = registry or default(), read(settings)
     asked = make_case(case, model, known, estimate, known_to, limits=limits)
@@ -121,8 +121,8 @@ def identify(
     continued unless a `fresh` chain is wanted. `route` is "trajectory" or "quantifiers"; the latter needs the path of a
     case and accepts `maps`. `settings` are as for `diagnose`.
     """
+    from lostmotion.identification.identification_run import collect_groups, identify_case
     from lostmotion.identification.routes import IdentificationRequest, choose_route
-    from lostmotion.identification.run import collect_groups, identify_case
     from lostmotion.identification.sampling import SamplingPlan
     from lostmotion.preparation.prepare import case_of
 

@@ -16,10 +16,11 @@ from lostmotion.errors import CaseError, DataError, nearest
 from lostmotion.likelihood.sensors import Sensor
 from lostmotion.quantities import unit_of
 from lostmotion.recording import Recording
-from lostmotion.recording.made import RecordingLayout, make_recording
+from lostmotion.recording.load import make_recording
+from lostmotion.recording.made import RecordingLayout, collect_columns
 from lostmotion.registry import Registry
 from lostmotion.results.background import FittedMachine
-from lostmotion.simulation.simulate import FreeMotion, run_free_motion
+from lostmotion.simulation.simulated_machine import FreeMotion, run_free_motion
 from lostmotion.written import model_of
 
 Signal = ArrayLike | Callable[[Array], Array]
@@ -75,7 +76,7 @@ class FittedModel:
         shown = {sensor.label: self._simulate_sensor(moved, sensor) for sensor in self.sensors}
         units |= {label: units[channel] for label, channel in names.items()}
         layout = RecordingLayout(which, units, rate=rate, name=f"simulated {self.assembly.label}")
-        return make_recording({**driven, **shown}, layout)
+        return make_recording(collect_columns({**driven, **shown}, layout))
 
     @staticmethod
     def _simulate_sensor(moved: FreeMotion, sensor: Sensor) -> Array:

@@ -6,9 +6,9 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from lostmotion.arguments import checked, choice, list_texts, maybe, positive, share, text, words
-from lostmotion.notebook.rules import KNOWN, RUN
+from lostmotion.notebook.argument_rules import KNOWN, RUN
 from lostmotion.registry import Registry, default
-from lostmotion.simulation import simulate as _simulate
+from lostmotion.simulation import simulated_machine as _simulate
 
 
 @checked(

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from lostmotion.codec import to_plain
 from lostmotion.identification.report import figures as drawing
-from lostmotion.identification.report import page as page
+from lostmotion.identification.report import identification_page as page
 from lostmotion.identification.report.view import DRAWS, RERUN_HINT, RESULT, IdentificationView, make_view
 from lostmotion.report import style
 from lostmotion.results import Interval

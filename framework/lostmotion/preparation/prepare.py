@@ -12,7 +12,7 @@ from lostmotion.errors import CaseError, ContractError
 from lostmotion.likelihood.observation import Observation, make_observation
 from lostmotion.likelihood.sensor_noise import has_clock_noise
 from lostmotion.noises import BASIC, Noise
-from lostmotion.preparation.candidates import candidates_of
+from lostmotion.preparation.candidate_terms import candidates_of
 from lostmotion.preparation.vetting import make_plugin, usable_terms
 from lostmotion.quantities import ROTATES, quantity_of
 from lostmotion.recording import Recording, load_recording

@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.errors import DataError
+from lostmotion.recording.column_names import COUNTER, names_other, names_time
 from lostmotion.recording.table import Table
 from lostmotion.recording.timing import EvenClock, check_step, even_clock, name_sample
 from lostmotion.recording.units import TIME_UNITS, is_unit, seconds, time_unit
-from lostmotion.recording.words import COUNTER, names_other, names_time
 
 Array = NDArray[np.float64]
 SLOWEST, FASTEST = 0.1, 1e7

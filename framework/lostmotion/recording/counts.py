@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.errors import DataError
+from lostmotion.recording.column_names import COUNTER
 from lostmotion.recording.timing import name_sample
-from lostmotion.recording.words import COUNTER
 
 Array = NDArray[np.float64]
 COUNTED = re.compile(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -19,12 +19,21 @@ from lostmotion.recording.clock import checked_clock, note_other_rate, note_repe
 from lostmotion.recording.counts import centre_position, sum_changes
 from lostmotion.recording.folders import digest_recording
 from lostmotion.recording.formats import read_table
+from lostmotion.recording.made import (
+    RecordingLayout,
+    RecordingSource,
+    check_units,
+    collect_columns,
+    collect_file,
+    plot_channels,
+    time_index,
+)
 from lostmotion.recording.spec import Channel, Hold, RecordingSpec
 from lostmotion.recording.table import Table
 from lostmotion.recording.timing import EvenClock, check_step, resample_channel
 from lostmotion.recording.units import note_unit
 from lostmotion.recording.warnings import CheckedChannel, warnings_of
-from lostmotion.settings import DEFAULT, RecordingSettings, Settings
+from lostmotion.settings import DEFAULT, RecordingSettings, Settings, read
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -107,9 +116,7 @@ class Recording:
 
     def plot(self) -> Figure:
         """Return a figure of all inputs and sensors over time, one below the other."""
-        from lostmotion.recording.made import plot_recording
-
-        return plot_recording(self)
+        return plot_channels(self.name, self.inputs, self.sensors)
 
     def __repr__(self) -> str:
         channels = [f"{a.attrs['of']} ({a.attrs['units']})" for a in (*self.inputs, *self.sensors)]
@@ -138,8 +145,6 @@ class Recording:
         decay. `settings` changes the thresholds of warnings, such as `{"recording.far": 30.0}`. `DataError` or
         `CaseError` is raised where the numbers cannot be used.
         """
-        from lostmotion.recording.made import RecordingLayout, check_units, make_recording
-
         columns = {**(inputs or {}), **sensors}
         if sensors:
             check_units(units, columns, name)
@@ -147,7 +152,7 @@ class Recording:
         which = ({name: name for name in inputs or {}}, {name: name for name in sensors})
         given = None if time is None else "time"
         layout = RecordingLayout(which, units, given, rate, noise or {}, hold, name)
-        return make_recording({**times, **columns}, layout, settings)
+        return make_recording(collect_columns({**times, **columns}, layout), settings)
 
     @classmethod
     @checked(**_COLUMNS)
@@ -171,8 +176,6 @@ class Recording:
         `frame.attrs["units"]`. Without `time` and `rate` an index of dates, durations or numbers with a fraction is the
         time (s), or else the column that holds it; an index that counts rows is none. Missing readings become NaN.
         """
-        from lostmotion.recording.made import RecordingLayout, make_recording, time_index
-
         lazy = isinstance(frame, type) or hasattr(frame, "collect")
         if lazy or not (hasattr(frame, "columns") and hasattr(frame, "__getitem__")):
             raise DataError(f"frame is {describe(frame)}: expected a data frame of pandas or polars (not a lazy one)")
@@ -188,7 +191,7 @@ class Recording:
         layout = RecordingLayout(
             (inputs or {}, sensors), units or {}, time, rate, noise or {}, hold, name, dict(stated)
         )
-        return make_recording(columns, layout, settings)
+        return make_recording(collect_columns(columns, layout), settings)
 
     @classmethod
     @checked(**_COLUMNS)
@@ -211,8 +214,6 @@ class Recording:
         """
         import xarray as xr
 
-        from lostmotion.recording.made import RecordingLayout, make_recording
-
         if not isinstance(dataset, xr.Dataset):
             raise DataError(f"dataset is {describe(dataset)}: expected a Dataset of xarray")
         decoded = xr.decode_cf(dataset, decode_times=False)  # fill values become NaN, packed numbers are unpacked
@@ -221,7 +222,7 @@ class Recording:
             str(key): str(value.attrs["units"]) for key, value in decoded.variables.items() if "units" in value.attrs
         }
         layout = RecordingLayout((inputs or {}, sensors), units or {}, time, None, noise or {}, hold, name, stated)
-        return make_recording(columns, layout, settings)
+        return make_recording(collect_columns(columns, layout), settings)
 
     @classmethod
     @checked(**_COLUMNS, path=path)
@@ -244,11 +245,15 @@ class Recording:
         `inputs` and `sensors` map names of the model to columns. `units` are needed for columns for which the file
         gives none. Without `time` and `rate` the time is found in the file, and a note says how.
         """
-        from lostmotion.recording.made import RecordingLayout, read_recording
-
         which = (inputs or {}, sensors)
         layout = RecordingLayout(which, units or {}, time, rate, noise or {}, hold, name)
-        return read_recording(Path(path), layout, settings)
+        return make_recording(collect_file(Path(path), layout), settings)
+
+
+def make_recording(source: RecordingSource, settings: Settings | Mapping[str, float] | None = None) -> Recording:
+    """Return the recording of a table that was given in Python; `settings` are the thresholds of its warnings."""
+    made = recording_of(source.spec, source.table, source.name, source.digest, read(settings).recording)
+    return replace(made, notes=(*source.notes, *made.notes))
 
 
 def _name_arrays(first: str, more: str, arrays: Sequence[xr.DataArray]) -> dict[str, xr.DataArray]:

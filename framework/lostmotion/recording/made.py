@@ -1,13 +1,13 @@
-"""Recordings made in Python from arrays, data frames, datasets or the columns of a file."""
+"""What a recording made in Python consists of: a table of arrays, frames, datasets or files, and its specification."""
 
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from datetime import datetime
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -15,17 +15,16 @@ from lostmotion.errors import DataError, nearest
 from lostmotion.quantities import names_quantity, quantity_of, si_factor
 from lostmotion.recording.arrays import table_of_arrays
 from lostmotion.recording.clock import find_time, unit_by_size
+from lostmotion.recording.column_names import names_time
 from lostmotion.recording.folders import digest_recording
 from lostmotion.recording.formats import read_table
-from lostmotion.recording.load import Recording, recording_of
 from lostmotion.recording.spec import Channel, Hold, RecordingSpec
 from lostmotion.recording.stamps import is_stamp
 from lostmotion.recording.table import Table
 from lostmotion.recording.units import check_name
-from lostmotion.recording.words import names_time
-from lostmotion.settings import Settings, read
 
 if TYPE_CHECKING:
+    import xarray as xr
     from matplotlib.figure import Figure
 
 Which = tuple[Mapping[str, str], Mapping[str, str]]
@@ -52,27 +51,31 @@ class RecordingLayout:
     notes: tuple[str, ...] = ()
 
 
-def make_recording(
-    columns: Mapping[str, Any],
-    layout: RecordingLayout,
-    settings: Settings | Mapping[str, float] | None = None,
-) -> Recording:
-    """Return a recording of columns (n,) in memory."""
+class RecordingSource(NamedTuple):
+    """A table, what it holds, its name in messages, the SHA-256 of its content, and how its time was found."""
+
+    spec: RecordingSpec
+    table: Table
+    name: str
+    digest: str
+    notes: tuple[str, ...]
+
+
+def collect_columns(columns: Mapping[str, Any], layout: RecordingLayout) -> RecordingSource:
+    """Return the source of a recording of columns (n,) in memory."""
     table = table_of_arrays(columns, layout.stated)
     _check_names(table, layout, layout.name)
     layout = _with_time(table, layout, layout.name)
     content = b"".join(key.encode() + table.column(key, layout.name).tobytes() for key in sorted(_used_columns(layout)))
-    return _finish(table, layout, layout.name, hashlib.sha256(content).hexdigest(), settings)
+    return _make_source(table, layout, layout.name, hashlib.sha256(content).hexdigest())
 
 
-def read_recording(
-    path: Path, layout: RecordingLayout, settings: Settings | Mapping[str, float] | None = None
-) -> Recording:
-    """Return a recording of a file; units default to those in the file, the name to the stem of the file."""
+def collect_file(path: Path, layout: RecordingLayout) -> RecordingSource:
+    """Return the source of a recording in a file; units default to those in the file, the name to its stem."""
     table = read_table(path)
     _check_names(table, layout, path.name)
     layout = _with_time(table, replace(layout, name=layout.name or path.stem), path.name)
-    return _finish(table, layout, path.name, digest_recording(path), settings)
+    return _make_source(table, layout, path.name, digest_recording(path))
 
 
 def time_index(frame: Any) -> Any:
@@ -105,19 +108,12 @@ def _with_time(table: Table, layout: RecordingLayout, source: str) -> RecordingL
     return replace(layout, time=found.column, notes=(found.says,))
 
 
-def _finish(
-    table: Table,
-    layout: RecordingLayout,
-    source: str,
-    sha256: str,
-    settings: Settings | Mapping[str, float] | None,
-) -> Recording:
+def _make_source(table: Table, layout: RecordingLayout, name: str, digest: str) -> RecordingSource:
     for key, column in (*layout.which[0].items(), *layout.which[1].items()):
         if not {key, column} & layout.units.keys():
             check_name(column, table.units.get(column, ""))
     spec = _make_spec(replace(layout, units={**table.units, **layout.units}), layout.units.get(layout.time or ""))
-    made = recording_of(spec, table, source, sha256, read(settings).recording)
-    return replace(made, notes=(*layout.notes, *made.notes))
+    return RecordingSource(spec, table, name, digest, layout.notes)
 
 
 def _check_names(table: Table, layout: RecordingLayout, name: str) -> None:
@@ -177,18 +173,18 @@ def _make_channel(
     return Channel(column, quantity, unit, of=of, name=label, noise=(noise or {}).get(key, "white"))
 
 
-def plot_recording(recording: Recording) -> Figure:
-    """Return a figure of a recording with one panel for each channel."""
+def plot_channels(name: str, inputs: Sequence[xr.DataArray], sensors: Sequence[xr.DataArray]) -> Figure:
+    """Return a figure of a recording with one panel for each channel, below its name."""
     from matplotlib.figure import Figure
 
-    channels = (*recording.inputs, *recording.sensors)
+    channels = (*inputs, *sensors)
     figure = Figure(figsize=(PANEL[0], 0.7 + PANEL[1] * len(channels)), layout="constrained")
     panels = figure.subplots(len(channels), 1, sharex=True, squeeze=False)[:, 0]
     for axes, array, i in zip(panels, channels, range(len(channels)), strict=True):
-        colour = "#0072b2" if i < len(recording.inputs) else "black"
+        colour = "#0072b2" if i < len(inputs) else "black"
         axes.plot(array["time"], array, color=colour, linewidth=0.8)
         axes.set_ylabel(f"{array.attrs['sensor'] or array.attrs['of']}\n({array.attrs['units']})".replace("_", " "))
         axes.grid(alpha=0.3)
     panels[-1].set_xlabel("time (s)")
-    panels[0].set_title(recording.name)
+    panels[0].set_title(name)
     return figure

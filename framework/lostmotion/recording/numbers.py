@@ -18,8 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.quantities import spell_unit
+from lostmotion.recording.column_names import names_time
 from lostmotion.recording.units import is_unit
-from lostmotion.recording.words import names_time
 
 Array = NDArray[np.float64]
 Mark = Literal["point", "comma"]

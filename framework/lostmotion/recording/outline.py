@@ -17,11 +17,11 @@ from numpy.typing import NDArray
 from lostmotion.errors import DataError, nearest
 from lostmotion.quantities import ROTATES, SI, si_factor
 from lostmotion.recording.clock import FoundTime, find_time
+from lostmotion.recording.column_names import KINDS, kind_named
 from lostmotion.recording.counts import centre_position, holds_counts, sum_changes
 from lostmotion.recording.formats import read_table
 from lostmotion.recording.table import Table
 from lostmotion.recording.units import check_name, kinds_of, name_and_unit
-from lostmotion.recording.words import KINDS, kind_named
 
 Array = NDArray[np.float64]
 FOOT = re.compile(r"base|table|ground|foot|shaker|support|reference|(^|[_ ])ref", re.IGNORECASE)

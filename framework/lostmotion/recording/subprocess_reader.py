@@ -17,27 +17,17 @@ from typing import Any
 import numpy as np
 
 from lostmotion.errors import DataError
-from lostmotion.recording.folders import list_parts
 from lostmotion.recording.table import Table
-
-try:
-    import resource
-except ImportError:  # not a Unix system: there only the time of a reader is limited
-    resource = None  # type: ignore[assignment]
 
 ALONE = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
 """The environment variables that limit a process to one core."""
 REFUSED = 3
 """Exit status of the reader when it has written a message for the user."""
-SECONDS, SPEED, MEMORY = 7, 4 * 2**20, 2 * 2**30
-"""Limits of the reader: processor time (s), one more second for this many bytes, and address space (bytes)."""
 WALL = 600
 """Limit of the elapsed time (s) of the reader."""
-SLAB = 2**26
-"""Bytes that are read at once where the values are only checked."""
 _HEAD = "head"
 _READER = (
-    "import sys; from pathlib import Path; from lostmotion.recording.subprocess_reader import main; "
+    "import sys; from pathlib import Path; from lostmotion.recording.reader_program import main; "
     "sys.exit(main(sys.argv[1], Path(sys.argv[2])))"
 )
 """The program of the reader. It is run with -P, so that no module beside a recording can be imported."""
@@ -84,7 +74,8 @@ def _make_error(path: Path, why: str) -> DataError:
     )
 
 
-def _pack_table(table: Table) -> bytes:
+def pack_table(table: Table) -> bytes:
+    """Return a table as bytes, for `read_in_subprocess`."""
     out = io.BytesIO()
     kept: dict[int, int] = {}  # a column with a second name is written once
     places = [kept.setdefault(id(column), len(kept)) for column in table.columns.values()]
@@ -102,49 +93,3 @@ def _unpack_table(raw: bytes) -> Table:
         arrays = {place: archive[f"column_{place}"] for place in set(head["places"])}
     columns = {name: arrays[place] for name, place in zip(head["columns"], head["places"], strict=True)}
     return Table(columns, head["units"], head["starts"], head["refused"], head["line"])
-
-
-def _limit_resources(path: Path) -> None:
-    """Limit processor time and memory of this process from now on, where the system supports it."""
-    if resource is None:
-        return
-    used = resource.getrusage(resource.RUSAGE_SELF)
-    size = sum(part.stat().st_size for part in list_parts(path))
-    seconds = int(used.ru_utime + used.ru_stime) + SECONDS + size // SPEED
-    for what, most in ((resource.RLIMIT_CPU, seconds), (resource.RLIMIT_AS, MEMORY), (resource.RLIMIT_CORE, 0)):
-        _, hard = resource.getrlimit(what)
-        resource.setrlimit(what, (most if hard == resource.RLIM_INFINITY else min(most, hard), hard))
-
-
-def _walk_file(path: Path) -> bytes:
-    """Read every number and attribute of an HDF5 file; return no bytes."""
-    import h5py
-
-    def read(_: str, item: Any) -> None:
-        dict(item.attrs)
-        if isinstance(item, h5py.Dataset) and item.shape:
-            rows = max(1, SLAB // max(1, item.nbytes // max(1, len(item))))
-            for first in range(0, len(item), rows):
-                item[first : first + rows]
-
-    with h5py.File(path, "r") as file:
-        file.visititems(read)
-    return b""
-
-
-def _read_columns(path: Path) -> bytes:
-    from lostmotion.recording.formats import table_of
-
-    return _pack_table(table_of(path))
-
-
-def main(what: str, path: Path) -> int:
-    """Return the exit status of the reader; it writes the columns to standard output, or nothing after a walk."""
-    try:
-        _limit_resources(path)
-        raw = _walk_file(path) if what == "walk" else _read_columns(path)
-    except DataError as err:
-        sys.stderr.write(str(err))
-        return REFUSED
-    sys.stdout.buffer.write(raw)
-    return 0

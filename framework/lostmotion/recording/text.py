@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.errors import DataError
+from lostmotion.recording.column_names import MILLISECONDS, has_foreign_name
 from lostmotion.recording.footer import drop_footer
 from lostmotion.recording.header import HEAD, Header, cells_of, find_header, is_comment, number_names
 from lostmotion.recording.limits import check_columns, check_line, check_numbers
@@ -27,7 +28,6 @@ from lostmotion.recording.numbers import RAW, Mark, NumberColumn, choose_mark, i
 from lostmotion.recording.stamps import Stamps
 from lostmotion.recording.table import Table, make_table
 from lostmotion.recording.units import name_and_unit
-from lostmotion.recording.words import MILLISECONDS, has_foreign_name
 
 Array = NDArray[np.float64]
 AT_ONCE = 4096

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from lostmotion.errors import DataError
 from lostmotion.quantities import si_factor, spell_unit
+from lostmotion.recording.column_names import KINDS, kind_named, names_time
 from lostmotion.recording.spec import Channel
-from lostmotion.recording.words import KINDS, kind_named, names_time
 
 Array = NDArray[np.float64]
 _PREFIXES = ("", "p", "n", "u", "µ", "μ", "m", "c", "d", "da", "k", "M", "G")

@@ -18,7 +18,7 @@ from typing import Any
 
 from lostmotion.errors import PluginError, PluginWarning, nearest
 from lostmotion.offers import FAILURES, first_line
-from lostmotion.registry.words import find_misfit
+from lostmotion.registry.declarations import find_misfit
 
 _NAMES: Mapping[type[Any], str] = {type: "class", Callable: "function"}  # type: ignore[dict-item]
 SLOW = 2.0

@@ -10,7 +10,7 @@ from lostmotion.results import Interval
 from lostmotion.results.background import FittedMachine, Origin, RecordingFacts
 from lostmotion.results.behaviour import Behaviour, Decays
 from lostmotion.results.mismatch import ForceDependence, UnexplainedForce
-from lostmotion.results.sharing import Comparison, OwnParameters, Sharing
+from lostmotion.results.shared_values import Comparison, OwnParameters, Sharing
 
 SCHEMA = "lostmotion.diagnosis/1"
 

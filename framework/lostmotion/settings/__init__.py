@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 from lostmotion.arguments import anything, error, mapping, to_number
 from lostmotion.errors import CaseError, nearest
-from lostmotion.settings.diagnosis import (
+from lostmotion.settings.diagnosis_settings import (
     HeldOutSettings,
     LocateSettings,
     NameSettings,
@@ -25,10 +25,10 @@ from lostmotion.settings.diagnosis import (
     SharedSettings,
     UnknownSettings,
 )
-from lostmotion.settings.identification import ChainSettings, LevelSettings, ModeSettings
-from lostmotion.settings.motion import MotionSettings
-from lostmotion.settings.notes import ExperimentSettings, NoteSettings
-from lostmotion.settings.recording import RecordingSettings
+from lostmotion.settings.identification_settings import ChainSettings, LevelSettings, ModeSettings
+from lostmotion.settings.motion_settings import MotionSettings
+from lostmotion.settings.notes_settings import ExperimentSettings, NoteSettings
+from lostmotion.settings.recording_settings import RecordingSettings
 
 __all__ = [
     "DEFAULT",

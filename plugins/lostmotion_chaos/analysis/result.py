@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,6 +13,7 @@ from lostmotion.results.background import Origin
 from lostmotion.settings import DEFAULT, MotionSettings
 from lostmotion.signals import spectrum, without_harmonics
 from lostmotion.storage import StoredArray
+from lostmotion_chaos.analysis.channel import AnalysedChannel
 from lostmotion_chaos.analysis.surrogates import SurrogateTest
 from lostmotion_chaos.results import (
     Analysis,
@@ -25,9 +25,6 @@ from lostmotion_chaos.results import (
     SurrogateOutcome,
 )
 from lostmotion_chaos.signals.sections import poincare, stroboscopic
-
-if TYPE_CHECKING:
-    from lostmotion_chaos.analysis.run import AnalysedChannel
 
 NOISE_UNIT = "share of the signal's standard deviation"
 CORRELATION_METHOD = "grassberger_procaccia"

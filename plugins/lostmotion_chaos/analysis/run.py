@@ -19,9 +19,10 @@ from lostmotion.registry import Registry
 from lostmotion.results import Estimate
 from lostmotion.settings import DEFAULT, MotionSettings, Settings
 from lostmotion.storage import dataset_of, folder_for, save_datasets, save_json
+from lostmotion_chaos.analysis.channel import AnalysedChannel
 from lostmotion_chaos.analysis.denoise import Denoised, denoise
 from lostmotion_chaos.analysis.embed import embed
-from lostmotion_chaos.analysis.motion import Verdict, judge_motion
+from lostmotion_chaos.analysis.motion import judge_motion
 from lostmotion_chaos.analysis.period import BasePeriod, MotionEvidence, find_base_period, measure_returns
 from lostmotion_chaos.analysis.quantify import quantify
 from lostmotion_chaos.analysis.report.page import write_analysis
@@ -77,31 +78,6 @@ class AnalysisRequest:
     def make_rng(self, stream: str) -> np.random.Generator:
         """Return the random generator of one stage; the stages do not depend on each other's draws."""
         return np.random.default_rng([self.seed, STREAMS.index(stream)])
-
-
-@dataclass(frozen=True, eq=False)
-class AnalysedChannel:
-    """The results of all stages for one recorded channel."""
-
-    source: Source
-    base: BasePeriod
-    raw: Series
-    denoised: Denoised
-    exponent: Estimate
-    dimension: Estimate
-    entropy: Estimate
-    others: dict[str, Estimate]
-    tests: tuple[SurrogateTest, ...]
-    surrogate_dims: Array | None
-    verdict: Verdict
-    exponent_method: str
-    denoiser: str
-    aside: tuple[str, ...] = ()
-
-    @property
-    def clean(self) -> Series:
-        """The analysed series: with reduced noise and its own embedding."""
-        return self.denoised.series
 
 
 def run_analysis(

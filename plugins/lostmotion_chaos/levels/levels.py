@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from lostmotion.case import CaseFile, Prior
-from lostmotion.case.levels import Level
+from lostmotion.case.drive_levels import Level
 from lostmotion.contracts import Array, Model
 from lostmotion.errors import CaseError, ContractError, DataError, nearest
 from lostmotion.identification.sampling import ShownCoordinate, Task

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lostmotion.case import CaseFile
-from lostmotion.case.levels import Level, Measured
+from lostmotion.case.drive_levels import Level, Measured
 from lostmotion.contracts import Array
 from lostmotion.errors import CaseError
 from lostmotion.recording import Recording, load_recording

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from lostmotion.case import CaseFile
-from lostmotion.case.levels import Measured
+from lostmotion.case.drive_levels import Measured
 from lostmotion.contracts import Array
 from lostmotion.identification.result import make_result
 from lostmotion.identification.routes import IdentificationRequest, Route, make_origin

@@ -20,7 +20,7 @@ from functools import cached_property
 
 import numpy as np
 
-from lostmotion.case.levels import Level, Measured
+from lostmotion.case.drive_levels import Level, Measured
 from lostmotion.contracts import Array
 from lostmotion.likelihood.space import FreeParameter
 from lostmotion.results.identification import ExpectedRange

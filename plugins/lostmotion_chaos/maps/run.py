@@ -7,8 +7,8 @@ from pathlib import Path
 
 from lostmotion.errors import CaseError, DataError
 from lostmotion.registry import Registry
-from lostmotion.simulation.drives import Options, parse_number, parse_pairs
-from lostmotion.simulation.simulate import assembly_of
+from lostmotion.simulation.drive_signals import Options, parse_number, parse_pairs
+from lostmotion.simulation.simulated_machine import assembly_of
 from lostmotion.storage import folder_for
 from lostmotion_chaos.defaults import DIMENSION, EMBEDDER, ENTROPY, FLOW_EXPONENT
 from lostmotion_chaos.maps.axes import parse_axis

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from lostmotion.arguments import checked, choice, describe, flag, list_texts, maybe, positive, text, whole, words
 from lostmotion.errors import DataError, nearest
-from lostmotion.notebook.rules import RUN
+from lostmotion.notebook.argument_rules import RUN
 from lostmotion.progress import show_progress
 from lostmotion.recording import Recording
 from lostmotion.registry import Registry, default

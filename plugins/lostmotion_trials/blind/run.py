@@ -11,7 +11,7 @@ from typing import TypeVar
 
 from lostmotion.campaigns.campaign import Campaign, Trial
 from lostmotion.codec import to_plain
-from lostmotion.diagnosis.run import run_diagnosis
+from lostmotion.diagnosis.diagnosis_run import run_diagnosis
 from lostmotion.errors import LostMotionError, PlaceError
 from lostmotion.provenance import digest, provenance
 from lostmotion.registry import Registry

@@ -18,7 +18,7 @@ from lostmotion.inference.setup import make_known
 from lostmotion.likelihood.system import Slot, System, key_of
 from lostmotion.provenance import digest
 from lostmotion.registry import Registry
-from lostmotion.simulation.simulate import assembly_of
+from lostmotion.simulation.simulated_machine import assembly_of
 from lostmotion_trials.coverage.machines import SeenMachine, Stand, describe_motion, record_machine
 
 ROUTES = ("trajectory", "quantifiers")

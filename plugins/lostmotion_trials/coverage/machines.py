@@ -18,7 +18,7 @@ from lostmotion.contracts import Array
 from lostmotion.errors import CaseError, DataError
 from lostmotion.likelihood.drive import count_substeps
 from lostmotion.likelihood.system import Clock, System
-from lostmotion.simulation.drives import DriveSignal, signal_of
+from lostmotion.simulation.drive_signals import DriveSignal, signal_of
 from lostmotion_trials.integrators.oscillator import rattle
 
 FRICTION = "coulomb_friction"

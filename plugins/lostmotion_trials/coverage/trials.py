@@ -13,14 +13,14 @@ from pathlib import Path
 import numpy as np
 
 from lostmotion.case import dump_case
-from lostmotion.case.levels import Level
+from lostmotion.case.drive_levels import Level
 from lostmotion.contracts import Array
 from lostmotion.errors import CaseError, LostMotionError, PlaceError
 from lostmotion.identification.sampling import SampledPosterior, identify
 from lostmotion.identification.trajectory import choose_terms, sample_case
 from lostmotion.preparation.prepare import case_of, prepare
 from lostmotion.quantities import ANGULAR, SI, unit_of
-from lostmotion.simulation.drives import Options, parse_pairs
+from lostmotion.simulation.drive_signals import Options, parse_pairs
 from lostmotion.storage import save_table
 from lostmotion_chaos.levels.levels import MapGrid, make_inversion, make_quantifier_task
 from lostmotion_trials.coverage.design import Design, DrawnMachine, Workshop, make_workshop

@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from lostmotion.contracts import Array
+from lostmotion.diagnosis.diagnosis_run import run_diagnosis
 from lostmotion.diagnosis.report.hero import save_hero
-from lostmotion.diagnosis.run import run_diagnosis
 from lostmotion.registry import Registry
 from lostmotion.results import percent
 from lostmotion.results.diagnosis import Diagnosis, Mechanism

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter
 
-from lostmotion.diagnosis.report.evidence import Evidence
+from lostmotion.diagnosis.report.page_data import Evidence
 from lostmotion.diagnosis.report.versions import list_versions
 from lostmotion.report import style
 from lostmotion.report.words import chance, figures, percent, sentence

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.gridspec import GridSpec
 
 from lostmotion.diagnosis.report import missing, prediction, ranking
-from lostmotion.diagnosis.report.evidence import Evidence, read_evidence
+from lostmotion.diagnosis.report.page_data import Evidence, read_evidence
 from lostmotion.report import style
 
 CANDIDATES_SHOWN = 7

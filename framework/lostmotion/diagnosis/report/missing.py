@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from lostmotion.diagnosis.report.evidence import Evidence
+from lostmotion.diagnosis.report.page_data import Evidence
 from lostmotion.diagnosis.report.versions import Version, list_versions
 from lostmotion.report import style
 from lostmotion.report.words import Scale, percent, with_unit

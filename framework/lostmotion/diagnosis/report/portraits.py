@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from lostmotion.diagnosis.report.evidence import Evidence
+from lostmotion.diagnosis.report.page_data import Evidence
 from lostmotion.diagnosis.report.versions import list_versions
 from lostmotion.report import style
 from lostmotion.report.words import Scale, figures, sentence, with_unit

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple, TypeVar
 
-from lostmotion.diagnosis.report.evidence import Evidence
+from lostmotion.diagnosis.report.page_data import Evidence
 from lostmotion.report import style
 
 T = TypeVar("T")

@@ -1,0 +1,249 @@
+"""The result of a diagnosis as an object: sentences, numbers, figures, arrays, and a model that can be simulated."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from lostmotion.case import GUESSED
+from lostmotion.codec import from_plain, to_plain
+from lostmotion.diagnosis.findings import Outcome
+from lostmotion.diagnosis.report import (
+    diagnosis_page,
+    learned_figure,
+    missing,
+    parameter_figure,
+    portraits,
+    prediction,
+    ranking,
+)
+from lostmotion.diagnosis.report.page_data import Evidence, make_evidence
+from lostmotion.identification.arviz_groups import predict_readings
+from lostmotion.inference import mixture
+from lostmotion.notebook.machine import FittedModel, make_fitted_model, restore_fitted_model
+from lostmotion.registry import Registry, default
+from lostmotion.report import style
+from lostmotion.results import Interval
+from lostmotion.results.diagnosis import Candidate, Diagnosis, HeldOutScore, Mechanism
+from lostmotion.storage import folder_for, load_arrays, load_json, save_datasets, save_json, save_text
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+RERUN_HINT = "run `lostmotion diagnose` again"
+PREDICTED_DRAWS = 500
+"""Number of draws with log-likelihoods and predicted readings in `to_arviz`."""
+
+
+@dataclass(frozen=True, eq=False)
+class DiagnosisPlots:
+    """The figures of a diagnosis; each method returns a matplotlib figure, and calling the object the prediction."""
+
+    evidence: Evidence
+
+    def __repr__(self) -> str:
+        return (
+            "<figures of a diagnosis: .prediction(), .missing_force(), .ranking(), .parameters(), .sections(),"
+            " .learned_force()>"
+        )
+
+    def __call__(self) -> Figure:
+        """Return the recording with free runs over held-out data, before and after."""
+        return self.prediction()
+
+    def prediction(self, ax: Axes | None = None) -> Figure:
+        """Return the recording with free runs over held-out data, before and after; with `ax`, draw into these axes."""
+        if ax is None:
+            return self._draw(prediction.draw)
+        with style.use_style(self.evidence.result.units.angle):
+            prediction.draw_window(ax, self.evidence, prediction.choose_window(self.evidence))
+            ax.legend()
+        return ax.get_figure(root=True)  # type: ignore[return-value]
+
+    def missing_force(self) -> Figure:
+        """Return the force that the model does not explain, over the covariates on which it may depend."""
+        return self._draw(missing.draw)
+
+    def ranking(self) -> Figure:
+        """Return the candidates with their gains in log evidence and their probabilities."""
+        return self._draw(ranking.draw)
+
+    def parameters(self) -> Figure:
+        """Return the posterior densities of the parameters, before and after."""
+        return self._draw(parameter_figure.draw)
+
+    def sections(self) -> Figure:
+        """Return phase portraits and Poincare sections of recording and models."""
+        return self._draw(portraits.draw)
+
+    def learned_force(self) -> Figure:
+        """Return the learned force with its band, or an empty figure without one."""
+        return self._draw(learned_figure.draw)
+
+    def _draw(self, draw: Callable[[Evidence], Figure | None]) -> Figure:
+        """Return a figure, or a figure with a short text where there is nothing to draw."""
+        with style.use_style(self.evidence.result.units.angle):
+            made = draw(self.evidence)
+            if made is None:
+                made = style.make_figure(1.0)
+                made.text(0.5, 0.5, "there is nothing to draw here", ha="center", va="center")
+        return made
+
+
+@dataclass(frozen=True, eq=False)
+class DiagnosisResult:
+    """The result of `lostmotion.diagnose`; its representation is the answer in words.
+
+    `result` is the diagnosis with the content of `diagnosis.json`, `arrays` the dataset behind it; `outcome` holds the
+    fits behind both, where the diagnosis was made in this session.
+    """
+
+    result: Diagnosis
+    arrays: xr.Dataset
+    registry: Registry = field(repr=False)
+    outcome: Outcome | None = field(default=None, repr=False)
+
+    @property
+    def verdict(self) -> str:
+        """Whether the model is "adequate", or there is a "mismatch"."""
+        return self.result.verdict
+
+    @property
+    def says(self) -> tuple[str, ...]:
+        """The result in sentences."""
+        return self.result.says
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Notes on the recordings and on the limitations of the result."""
+        return self.result.notes
+
+    @property
+    def _guesses(self) -> tuple[str, ...]:
+        """The notes on what the case supposes."""
+        return tuple(note for note in self.notes if note.startswith(GUESSED))
+
+    @property
+    def found(self) -> tuple[Mechanism, ...]:
+        """The missing mechanisms: named ones first, open ones last."""
+        return self.result.found
+
+    @property
+    def ranking(self) -> tuple[Candidate, ...]:
+        """All candidates, the most probable first."""
+        return self.result.ranking
+
+    @property
+    def parameters_before(self) -> Mapping[str, Interval]:
+        """The parameters of the nominal model, by name."""
+        return self.result.parameters.before
+
+    @property
+    def parameters_after(self) -> Mapping[str, Interval]:
+        """The parameters of the model with the found mechanisms, by name."""
+        return self.result.parameters.after
+
+    @property
+    def heldout(self) -> Mapping[str, HeldOutScore]:
+        """The prediction scores of the models "before" and "after" on held-out data."""
+        return {"before": self.result.fit.before, "after": self.result.fit.after}
+
+    @cached_property
+    def model(self) -> FittedModel:
+        """The fitted model with the found mechanisms: `.simulate(inputs, duration=..., rate=...)` simulates it."""
+        if self.outcome is not None:
+            return make_fitted_model(self.outcome, self.result.machine)
+        return restore_fitted_model(self.result.machine, self.registry)
+
+    @cached_property
+    def evidence(self) -> Evidence:
+        """The result and its arrays in the form that the figures use."""
+        return make_evidence(self.result, self.arrays)
+
+    @property
+    def plot(self) -> DiagnosisPlots:
+        """The figures: `plot.prediction()`, `.missing_force()`, `.ranking()`, `.parameters()`, `.sections()`."""
+        return DiagnosisPlots(self.evidence)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the content of `diagnosis.json`."""
+        made: dict[str, Any] = to_plain(self.result)
+        return made
+
+    def to_xarray(self) -> xr.Dataset:
+        """Return the arrays behind the diagnosis, with units and coordinates."""
+        return self.arrays
+
+    def to_arviz(self) -> xr.DataTree:
+        """Return the groups of ArviZ as a tree: draws of the parameters after (one chain), and the observed data.
+
+        A diagnosis made in this session also has `log_likelihood` and `posterior_predictive`, for leave-one-out
+        predictions and their plots, with `PREDICTED_DRAWS` draws over the fitted part of the recording.
+        """
+        import xarray as xr
+
+        names, predicted = [str(name) for name in self.arrays["parameter_after"].values], self._predict_readings()
+        draws, units = np.asarray(self.arrays["posterior_after"], dtype=float), self.parameters_after
+        rows = {
+            name: (("chain", "draw"), draws[None, :, i], {"units": units[name].unit} if name in units else {})
+            for i, name in enumerate(names)
+        }
+        response = xr.Dataset({"response": ("time", np.asarray(self.arrays["response"], dtype=float))})
+        response = response.assign_coords(time=np.asarray(self.arrays["time"], dtype=float))
+        coords = {"chain": np.arange(1), "draw": np.arange(len(draws))}
+        return xr.DataTree.from_dict(
+            {
+                "posterior": xr.Dataset(rows, coords),
+                "constant_data" if predicted else "observed_data": response,
+                **predicted,
+            }
+        )
+
+    def _predict_readings(self) -> dict[str, Any]:
+        """Return the ArviZ groups for the readings, by name; none where the diagnosis was loaded from a folder."""
+        if self.outcome is None:
+            return {}
+        fit, rng = self.outcome.diagnosis.after, np.random.default_rng(0)
+        return predict_readings(
+            fit.problem, mixture.draw_posterior(fit, rng, PREDICTED_DRAWS), (1, PREDICTED_DRAWS), rng
+        )
+
+    def report(self, path: str | Path = "report.html") -> Path:
+        """Write the page as self-contained HTML and return its path."""
+        return save_text(Path(path), diagnosis_page.render(self.evidence))
+
+    def save(self, folder: str | Path) -> Path:
+        """Write `diagnosis.json`, `arrays.nc` and `report.html` into a folder, for `load`, and return it."""
+        place = folder_for(Path(folder))
+        save_datasets(place / "arrays.nc", {None: self.arrays})
+        save_json(place / "diagnosis.json", self.to_dict())
+        self.report(place / "report.html")
+        return place
+
+    def __repr__(self) -> str:
+        lines = [f"{self.result.title}: {self.verdict}", *self.says, *self._guesses]
+        lines += [f"  {name} = {interval}" for name, interval in self.parameters_after.items()]
+        return "\n".join(lines)
+
+    def _repr_html_(self) -> str:
+        items = "".join(f"<li>{html.escape(one)}</li>" for one in (*self.says, *self._guesses))
+        with style.use_style(self.evidence.result.units.angle):
+            drawn = prediction.draw(self.evidence)
+            figure = style.embed_figure(drawn, "prediction") if drawn else ""
+        title = html.escape(self.result.title)
+        return f"<h4>{title}: {html.escape(self.verdict)}</h4><ul>{items}</ul>{figure}"
+
+
+def load_diagnosis(folder: Path, registry: Registry | None = None) -> DiagnosisResult:
+    """Return the diagnosis stored in a folder; raise `DataError` where it is absent or damaged."""
+    file = folder / "diagnosis.json"
+    result = from_plain(Diagnosis, load_json(file, RERUN_HINT), str(file))
+    return DiagnosisResult(result, load_arrays(folder / "arrays.nc", RERUN_HINT), registry or default())

@@ -1,0 +1,207 @@
+"""What every hypothesis contains besides its effects, because no model of a real arm is exact.
+
+All of it is a force on the chain, linear in its coefficients:
+
+- smooth forces at each joint over its position, its velocity and time: Gaussian processes of reduced rank (Solin,
+  Sarkka, Statistics and Computing 30 (2020) 419-446), each of one of `SIZES` and `LENGTHS`, or absent;
+- values of the model that are known within its tolerance: damping, dry friction, armature, springs, masses;
+- the torque of each joint: its scale, its zero and its delay; and the zero of each encoder.
+
+Smooth forces over position and velocity have no linear part: an unknown stiffness or damping has a name.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lostmotion.evidence.expansion import compute_log_evidence
+from lostmotion.parts import Array
+from lostmotion.robots.arm import Column, TapedArm
+from lostmotion.robots.arm_effects import JointScales, weigh_part
+from lostmotion.robots.tape import Path
+
+SIZES, LENGTHS = (0.003, 0.01, 0.03), (0.3, 0.6, 1.2)
+"""Standard deviations of a smooth force in units of the drive, and its correlation lengths in half widths."""
+LARGE = (*SIZES, 0.1, 0.3, 1.0)
+"""The sizes of an unknown force."""
+WAVES = 10
+"""The number of waves of a smooth force."""
+SCALE, ZERO, LATE, ANGLE = 0.01, 0.005, 0.25, 1e-3
+"""Errors of a torque: its scale, its zero (in units of the drive), its delay (samples); zero of an encoder (rad)."""
+SWEEPS = 2
+
+
+@dataclass(frozen=True, eq=False)
+class SmoothTorque:
+    """A smooth force: its joint, what it depends on, its columns, and the prior widths (options, waves)."""
+
+    joint: int
+    over: str
+    columns: slice
+    options: Array
+
+    @property
+    def key(self) -> str:
+        """Its name."""
+        return f"{self.over}@{self.joint}"
+
+
+Choice = tuple[int, ...]
+"""The option of each smooth force; -1 where it is absent."""
+
+
+@dataclass(frozen=True, eq=False)
+class Discrepancy:
+    """The columns of forces, and the prior standard deviation of each coefficient.
+
+    `fixed` (columns,) are the widths of those that are no smooth force, zero elsewhere. `shape` is that of a force,
+    (samples, n).
+    """
+
+    columns: tuple[Column, ...]
+    fixed: Array
+    forces: tuple[SmoothTorque, ...]
+    shape: tuple[int, int]
+
+    @property
+    def none(self) -> Choice:
+        """The choice without any smooth force."""
+        return (-1,) * len(self.forces)
+
+    def widths(self, choice: Choice) -> Array:
+        """Return the prior standard deviation of each coefficient."""
+        found = self.fixed.copy()
+        for force, option in zip(self.forces, choice, strict=True):
+            if option >= 0:
+                found[force.columns] = force.options[option]
+        return found
+
+    def price(self, choice: Choice) -> float:
+        """Return the log penalty of a choice: each force that is present has one of its options."""
+        return sum(math.log(len(f.options)) for f, option in zip(self.forces, choice, strict=True) if option >= 0)
+
+    @cached_property
+    def matrix(self) -> Array:
+        """The forces of unit coefficients, (columns, samples, n)."""
+        found = np.zeros((len(self.columns), *self.shape))
+        for c, column in enumerate(self.columns):
+            if column.joint < 0:
+                found[c] = column.force
+            else:
+                found[c, :, column.joint] = column.force
+        return found
+
+    def force(self, coefficients: Array) -> Array:
+        """Return the force (samples, n) of coefficients."""
+        flat = self.matrix.reshape(len(self.columns), self.shape[0] * self.shape[1])
+        return np.asarray(coefficients @ flat).reshape(self.shape)
+
+    def choose(self, gradient: Array, information: Array, choice: Choice) -> Choice:
+        """Return the choice of the largest evidence, from gradient and information of the coefficients at zero."""
+        best = list(choice)
+
+        def weigh(option: int, at: int) -> float:
+            tried = (*best[:at], option, *best[at + 1 :])
+            return compute_log_evidence(gradient, information, self.widths(tried)) - self.price(tried)
+
+        for _ in range(SWEEPS):
+            before = list(best)
+            for at, force in enumerate(self.forces):
+                weights = [weigh(option, at) for option in range(-1, len(force.options))]
+                best[at] = int(np.argmax(weights)) - 1
+            if best == before:
+                break
+        return tuple(best)
+
+
+def make_discrepancy(
+    arm: TapedArm, path: Path, accelerations: Array, scales: tuple[JointScales, ...], tolerance: float,
+    estimated: set[str], sizes: tuple[float, ...] = SIZES,
+) -> Discrepancy:  # fmt: skip
+    """Return the discrepancy of an arm along a path; values that are `estimated` are not in it."""
+    fixed = _list_known(arm, path, accelerations, scales, tolerance, estimated)
+    columns, widths, forces = [c for c, _ in fixed], [w for _, w in fixed], []
+    time = np.asarray(np.arange(len(path.q)) * arm.log.dt, dtype=float)
+    for j, scale in enumerate(scales):
+        for over, x in (("position", path.q[:, j]), ("velocity", path.v[:, j]), ("time", time)):
+            waves = _make_waves(x, linear=over == "time")
+            place = slice(len(columns), len(columns) + len(waves))
+            columns += [Column(f"{over}@{arm.joints[j]}", j, wave) for wave in waves]
+            widths += [0.0] * len(waves)
+            options = [size * scale.force * weights for size in sizes for weights in map(_weigh_waves, LENGTHS)]
+            forces.append(SmoothTorque(j, over, place, np.array(options)))
+    return Discrepancy(tuple(columns), np.array(widths), tuple(forces), path.q.shape)
+
+
+def make_none(arm: TapedArm) -> Discrepancy:
+    """Return a discrepancy without any column."""
+    return Discrepancy((), np.zeros(0), (), (arm.log.samples, len(arm.joints)))
+
+
+def _make_waves(x: Array, *, linear: bool) -> Array:
+    """Return the waves (count, samples) of a covariate over its range, without what is linear in it."""
+    s = (x - x.min()) / max(float(np.ptp(x)), 1e-300)
+    waves = math.sqrt(2.0) * np.cos(np.pi * np.outer(np.arange(1, WAVES + 1), s))
+    plain = np.column_stack([np.ones_like(s), s][: 1 if linear else 2])
+    return np.asarray(waves - (plain @ np.linalg.lstsq(plain, waves.T, rcond=None)[0]).T)
+
+
+def _weigh_waves(length: float) -> Array:
+    """Return the standard deviations of waves for a length in half widths; their squares sum to 1."""
+    power = np.exp(-0.5 * (0.5 * np.pi * length * np.arange(1, WAVES + 1)) ** 2) + 1e-12
+    return np.asarray(np.sqrt(power / power.sum()))
+
+
+def _list_known(
+    arm: TapedArm,
+    path: Path,
+    accelerations: Array,
+    scales: tuple[JointScales, ...],
+    tolerance: float,
+    estimated: set[str],
+) -> list[tuple[Column, float]]:
+    """Return the columns of known values and of the torque, with their prior standard deviations."""
+    found, log = [], arm.log
+    drive = log.drive([], {})
+    # Backward differences: a controller feeds the reading of the next sample, with its noise, into the next torque.
+    slope = np.diff(drive, axis=0, prepend=drive[:1]) / log.dt
+
+    def add(name: str, joint: int, force: Array, width: float) -> None:
+        if width > 0.0 and name not in estimated:
+            found.append((Column(name, joint, np.ascontiguousarray(force)), width))
+
+    for j, (joint, scale) in enumerate(zip(arm.joints, scales, strict=True)):
+        own = {kind: abs(arm.values.get(f"{joint}.{kind}", 0.0)) for kind in ("damping", "frictionloss", "armature")}
+        stiffness, rest = arm.values.get(f"{joint}.stiffness", 0.0), arm.values.get(f"{joint}.rest", 0.0)
+        add(f"{joint}.damping", j, -path.v[:, j], tolerance * own["damping"])
+        add(f"{joint}.frictionloss", j, -np.sign(path.v[:, j]), tolerance * own["frictionloss"])
+        add(f"{joint}.armature", j, -accelerations[:, j], tolerance * own["armature"])
+        add(f"{joint}.stiffness", j, rest - path.q[:, j], tolerance * abs(stiffness))
+        add(f"{joint}.scale", j, drive[:, j], SCALE)
+        add(f"{joint}.zero", j, np.ones(log.samples), ZERO * scale.force)
+        add(f"{joint}.late", j, -slope[:, j], LATE * log.dt)
+        add(f"{joint}.encoder", -1, -arm.tape.stiffness[:, :, j], ANGLE)
+    for name in arm.parts:
+        if name in arm.values:
+            add(name, -1, -weigh_part(arm, name, accelerations), tolerance * abs(arm.values[name]))
+    return found
+
+
+def list_indices(part: slice) -> NDArray[np.intp]:
+    """Return the indices of a slice."""
+    return np.arange(part.start, part.stop)
+
+
+def describe_sizes(discrepancy: Discrepancy, choice: Choice, joints: tuple[str, ...]) -> Mapping[str, float]:
+    """Return the standard deviation of each smooth force that is present, by `over@joint`, in N m."""
+    return {
+        f"{f.over}@{joints[f.joint]}": float(np.sqrt(np.sum(f.options[option] ** 2)))
+        for f, option in zip(discrepancy.forces, choice, strict=True)
+        if option >= 0
+    }

@@ -1,0 +1,265 @@
+"""A hypothesis on an arm: a set of effects with the discrepancy, fitted together, and one number for it.
+
+    score = [log Z(fitted data | model + effects + discrepancy) + log p(held-out | fitted data)] / temper - price
+
+Gauss-Newton on levels of noise, estimated values, parameters of effects and coefficients of the discrepancy together.
+The derivatives over the last are exact (`TapedArm.differentiate`), those over the others are differences.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lostmotion.contracts import Term
+from lostmotion.evidence.expansion import Expansion
+from lostmotion.evidence.heldout import NormalPosterior, average_over_posterior, cut_before
+from lostmotion.evidence.hypothesis import UNKNOWN
+from lostmotion.likelihood.engine import Innovations
+from lostmotion.parts import Array
+from lostmotion.robots.arm import FilteredLog, TapedArm
+from lostmotion.robots.arm_discrepancy import Choice, Discrepancy
+from lostmotion.robots.arm_effects import ArmCoordinate, ArmEffect, GearEffect, LawEffect, MassEffect
+from lostmotion.robots.gears import Gear
+
+NUDGE = 1e-3
+"""The step of differences over a coordinate, in units of it; of a small value, this part of its size at least."""
+SHARE = 0.02
+ROUNDS, CLOSE = 25, 0.05
+"""The largest number of rounds of a fit, and the gain of a round after which it ends."""
+
+
+@dataclass(frozen=True, eq=False)
+class ArmFrame:
+    """What is fitted: an arm up to sample `last`, effects, levels and estimated values, and the discrepancy."""
+
+    arm: TapedArm
+    effects: tuple[ArmEffect, ...]
+    base: tuple[ArmCoordinate, ...]
+    discrepancy: Discrepancy
+    last: int
+
+    @cached_property
+    def own(self) -> tuple[ArmCoordinate, ...]:
+        """All coordinates before those of the discrepancy."""
+        return (*self.base, *(c for effect in self.effects for c in effect.coordinates))
+
+    @property
+    def terms(self) -> frozenset[str]:
+        """The keys of the effects."""
+        return frozenset(effect.key for effect in self.effects)
+
+    @cached_property
+    def gears(self) -> tuple[GearEffect, ...]:
+        """The effects that are gears."""
+        return tuple(e for e in self.effects if isinstance(e, GearEffect))
+
+    @cached_property
+    def laws(self) -> tuple[Term, ...]:
+        """The terms of the library."""
+        return tuple(e.term for e in self.effects if isinstance(e, LawEffect))
+
+    def read(self, at: Array) -> dict[str, float]:
+        """Return the values of all coordinates but those of the discrepancy."""
+        found = {c.key: c.value(float(x)) for c, x in zip(self.own, at, strict=False)}
+        for effect in self.effects:
+            if isinstance(effect, LawEffect):
+                found |= effect.fixed
+        return found
+
+    def run(
+        self, at: Array, *, last: int | None = None, keep: bool = False, force: Array | None = None, **more: object
+    ) -> FilteredLog:
+        """Return the filter at coordinates; `force` is that of the discrepancy, where it is known already."""
+        values, count = self.read(at), len(self.arm.joints)
+        if force is None:
+            force = self.discrepancy.force(at[len(self.own) :])
+        levels = np.array([values[c.key] for c in self.own[: count + len(self.arm.log.picks)]])
+        for effect in self.effects:
+            if isinstance(effect, MassEffect):
+                values[effect.value] = self.arm.values.get(effect.value, 0.0) + values[effect.coordinates[0].key]
+        gears: dict[int, Gear] = {e.joint: e.make(values) for e in self.gears}
+        return self.arm.filter(
+            values, self.laws, (levels[:count] ** 2 * self.arm.log.dt, levels[count:] ** 2), gears=gears, force=force,
+            last=self.last if last is None else last, keep=keep, **more,  # type: ignore[arg-type]
+        )  # fmt: skip
+
+    def expand(self, at: Array, choice: Choice, *, last: int | None = None) -> tuple[Expansion, FilteredLog]:
+        """Return the expansion of the one-step errors at coordinates."""
+        kept = self.run(at, last=last, keep=True)
+        own, force = len(self.own), self.discrepancy.force(at[len(self.own) :])
+        errors, variances = np.zeros((2, len(at), kept.seen.errors.size))
+        for i in range(own):
+            step = max(NUDGE, 0.0 if self.own[i].log else SHARE * abs(float(at[i])))
+            moved = at.copy()
+            moved[i] += step
+            seen = self.run(moved, last=last, force=force).seen
+            errors[i] = (seen.errors - kept.seen.errors).ravel() / step
+            variances[i] = (seen.variances - kept.seen.variances).ravel() / step
+        gears = {e.joint: e.make(self.read(at)) for e in self.gears}
+        errors[own:] = self.arm.differentiate(kept, self.discrepancy.columns, gears)
+        middle = np.concatenate([[c.mean for c in self.own], np.zeros(len(at) - own)])
+        flat = Innovations(kept.seen.errors.ravel(), kept.seen.variances.ravel(), kept.seen.finite)
+        blocks = {"own": slice(0, own), "discrepancy": slice(own, len(at))}
+        return Expansion(flat, at, errors, variances, middle, self.weigh(choice), blocks), kept
+
+    def weigh(self, choice: Choice) -> Array:
+        """Return the prior precision of all coordinates; infinite where a coefficient is absent."""
+        widths = np.concatenate([[c.sd for c in self.own], self.discrepancy.widths(choice)])
+        with np.errstate(divide="ignore"):
+            return np.asarray(1.0 / widths**2)
+
+    def log_prior(self, at: Array, choice: Choice) -> float:
+        """Return the log prior density of coordinates."""
+        own = sum(c.log_prior(float(x)) for c, x in zip(self.own, at, strict=False))
+        widths, rest = self.discrepancy.widths(choice), at[len(self.own) :]
+        w, c = widths[widths > 0.0], rest[widths > 0.0]
+        return own - float(np.sum(0.5 * (c / w) ** 2 + np.log(w) + 0.5 * math.log(2.0 * math.pi)))
+
+    def target(self, at: Array, choice: Choice) -> float:
+        """Return log-likelihood plus log prior density at coordinates."""
+        found = float(self.run(at).seen.log_likelihood)
+        return found + self.log_prior(at, choice) if math.isfinite(found) else -math.inf
+
+    def clip(self, at: Array) -> Array:
+        """Return coordinates within their bounds."""
+        found = at.copy()
+        for i, c in enumerate(self.own):
+            low = -math.inf if math.isinf(c.low) else (math.log(max(c.low, 1e-300)) if c.log else c.low / c.unit)
+            high = math.inf if math.isinf(c.high) else (math.log(c.high) if c.log else c.high / c.unit)
+            found[i] = min(max(found[i], low), high)
+        return found
+
+
+@dataclass(frozen=True, eq=False)
+class ArmHypothesis:
+    """A fitted hypothesis: its frame, coordinates `at`, choice of smooth forces, and the parts of its score."""
+
+    frame: ArmFrame
+    at: Array
+    choice: Choice
+    log_evidence: float
+    heldout: float
+    price: float
+    scatter: float
+    expansion: Expansion
+    kept: FilteredLog
+    used: NDArray[np.intp]
+    precision: Array
+    unknown: bool = False
+
+    @property
+    def terms(self) -> frozenset[str]:
+        """The keys of the effects, and `UNKNOWN` for a larger smooth force."""
+        return self.frame.terms | ({UNKNOWN} if self.unknown else set())
+
+    @property
+    def values(self) -> dict[str, float]:
+        """The values of all coordinates but those of the discrepancy."""
+        return self.frame.read(self.at)
+
+    def score(self, temper: float = 1.0) -> float:
+        """Return the number by which hypotheses are compared."""
+        return (self.log_evidence + self.heldout) / temper - self.price
+
+    @cached_property
+    def covariance(self) -> Array:
+        """The posterior covariance of the coordinates in use."""
+        return np.asarray(np.linalg.inv(self.precision))
+
+    def deviation(self, key: str) -> float:
+        """Return the posterior standard deviation of a coordinate, widened by the scatter of the scores."""
+        index = [c.key for c in self.frame.own].index(key)
+        place = int(np.flatnonzero(self.used == index)[0])
+        return math.sqrt(self.scatter * self.covariance[place, place])
+
+
+def fit_hypothesis(frame: ArmFrame, start: Array, price: float, choice: Choice | None = None) -> ArmHypothesis | None:
+    """Return the fitted hypothesis from start coordinates; None where the filter diverges."""
+    at, chosen = frame.clip(start), choice or frame.discrepancy.none
+    if not math.isfinite(frame.target(at, chosen)):
+        return None
+    own = len(frame.own)
+    damping = 0.0
+    for _ in range(ROUNDS):
+        seen, kept = frame.expand(at, chosen)
+        chosen = _choose_forces(frame, seen, chosen)
+        at = np.where(np.concatenate([np.ones(own, bool), frame.discrepancy.widths(chosen) > 0.0]), at, 0.0)
+        here = frame.target(at, chosen)
+        used, precision = _find_precision(frame, seen, chosen)
+        pull = seen.gradient[used] - frame.weigh(chosen)[used] * (at[used] - seen.middle[used])
+        gain = -math.inf
+        for _ in range(6):
+            step = np.zeros(len(at))
+            step[used] = np.linalg.solve(precision + damping * np.diag(np.diag(precision)), pull)
+            step[:own] = np.clip(step[:own], -1.5, 1.5)
+            there = frame.clip(at + step)
+            gain = frame.target(there, chosen) - here
+            if gain > -1e-6:
+                at = there
+                damping *= 0.1
+                break
+            damping = max(10.0 * damping, 0.1)
+        if gain < CLOSE:
+            break
+    seen, kept = frame.expand(at, chosen)
+    used, precision = _find_precision(frame, seen, chosen)
+    target = float(seen.here.log_likelihood) + frame.log_prior(at, chosen) - frame.discrepancy.price(chosen)
+    sign, size = np.linalg.slogdet(precision)
+    if sign <= 0 or not math.isfinite(target):
+        return None
+    evidence = target + 0.5 * len(used) * math.log(2.0 * math.pi) - 0.5 * float(size)
+    scatter = seen.measure_scatter_of(used[used >= own])
+    return ArmHypothesis(frame, at, chosen, evidence, 0.0, price, scatter, seen, kept, used, precision)
+
+
+def _choose_forces(frame: ArmFrame, seen: Expansion, choice: Choice) -> Choice:
+    """Return the best sizes and lengths of the smooth forces, with the own coordinates re-optimised."""
+    own = np.arange(len(frame.own))
+    more = np.arange(len(frame.own), len(seen.at))
+    free = replace(seen, precision=np.concatenate([seen.precision[own], np.zeros(len(more))]))
+    gradient, information = free.profile(own, more)
+    return frame.discrepancy.choose(gradient, information, choice)
+
+
+def _find_precision(frame: ArmFrame, seen: Expansion, choice: Choice) -> tuple[NDArray[np.intp], Array]:
+    """Return the indices of the coordinates in use, and the precision of their posterior."""
+    weights = frame.weigh(choice)
+    used = np.flatnonzero(np.isfinite(weights))
+    return np.asarray(used), seen.information[np.ix_(used, used)] + np.diag(weights[used])
+
+
+def score_heldout(found: ArmHypothesis, first: int, last: int) -> float:
+    """Return the log density of the samples from `first` to `last`, averaged over the posterior of the fitted ones."""
+    frame, picks = found.frame, len(found.frame.arm.log.picks)
+
+    def expand(step: Array) -> Expansion:
+        return cut_before(frame.expand(frame.clip(found.at + step), found.choice, last=last)[0], first * picks)
+
+    def score(step: Array) -> float:
+        moved = frame.run(frame.clip(found.at + step), last=last).seen
+        return float(replace(moved, errors=moved.errors[first:], variances=moved.variances[first:]).log_likelihood)
+
+    levels = np.arange(len(found.at)) < len(frame.arm.joints) + picks
+    return average_over_posterior(NormalPosterior(found.used, found.precision, levels), expand, score)
+
+
+def list_base(
+    arm: TapedArm, forces: Sequence[float], noises: Sequence[float], estimated: Mapping[str, ArmCoordinate]
+) -> tuple[ArmCoordinate, ...]:
+    """Return the coordinates of levels, about usual random forces (N m) and noises (SI), and of estimated values."""
+    levels = [
+        ArmCoordinate(f"{joint}.random_force", 1.0, math.log(size), 3.0, log=True)
+        for joint, size in zip(arm.joints, forces, strict=True)
+    ]
+    words = ("position", "velocity")
+    levels += [
+        ArmCoordinate(f"{arm.joints[j]}.{words[order]}_noise", 1.0, math.log(size), 3.0, log=True)
+        for (j, order), size in zip(arm.log.picks, noises, strict=True)
+    ]
+    return (*levels, *estimated.values())

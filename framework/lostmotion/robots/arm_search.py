@@ -1,0 +1,214 @@
+"""The search for what an arm lacks: slopes propose, fits decide, one score ranks all sets of effects."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from lostmotion.evidence.bare import Budget
+from lostmotion.evidence.search import compute_probabilities
+from lostmotion.inference.penalties import compute_unknown_price
+from lostmotion.parts import Array
+from lostmotion.robots.arm_discrepancy import Discrepancy
+from lostmotion.robots.arm_effects import ArmEffect
+from lostmotion.robots.arm_hypothesis import ArmFrame, ArmHypothesis, fit_hypothesis, score_heldout
+from lostmotion.robots.promises import ArmPromise, Screen, list_gear_promises, list_promises
+
+Say = Callable[[str], None]
+Terms = frozenset[str]
+MOST_FITTED, MOST_SMALL, MOST_GEARS = 6, 3, 3
+"""The numbers of effects that are fitted beside a set: by promises at the fitted random force, by those at a small one,
+and of gears."""
+REACH = 3.0
+"""Sets within this distance of the best score are extended."""
+SMALL = 0.1
+"""The random force of a second start, as a share of the fitted one: a gap is else taken for noise."""
+UNKNOWN_PRICE = 1.0
+"""The log odds of an unknown force against those of one effect of the library."""
+
+
+@dataclass
+class ArmSearch:
+    """A search from the fit of the nominal model; `found` has the best hypothesis of each set of effects.
+
+    `samples` is the length of the log, of which the `frame` fits the first part. `large` is the discrepancy with a
+    larger smooth force.
+    """
+
+    frame: ArmFrame
+    screen: Screen
+    large: Discrepancy
+    samples: int
+    most: int
+    budget: Budget
+    say: Say = lambda _: None
+    found: dict[Terms, ArmHypothesis] = field(default_factory=dict)
+    extended: set[Terms] = field(default_factory=set)
+    dropped: set[tuple[Terms, Terms]] = field(default_factory=set)
+    skipped: bool = False
+
+    @property
+    def price(self) -> float:
+        """The log odds against any one effect."""
+        return compute_unknown_price(len(self.screen.effects))
+
+    @property
+    def temper(self) -> float:
+        """What log evidences are divided by: the scatter of the best hypothesis."""
+        best = max(self.found.values(), key=lambda one: one.log_evidence + one.heldout - one.price)
+        return best.scatter
+
+    @property
+    def best(self) -> ArmHypothesis:
+        """The hypothesis of the largest score."""
+        return max(self.found.values(), key=lambda one: one.score(self.temper))
+
+    def run(self, nominal: Array) -> ArmSearch:
+        """Return the search after it has ended, started at coordinates of the nominal model."""
+        self.weigh((), self._vary_levels(nominal))
+        if not self.found:
+            return self
+        while (target := self._choose_next()) is not None:
+            if self.budget.spent:
+                self.skipped = True
+                break
+            self.extended.add(target.terms)
+            self.extend(target)
+            if len(target.terms) > 1:
+                self.drop_each(target)
+        self.drop_each(self.best)
+        for target in sorted(self.found.values(), key=lambda one: -one.score(self.temper))[:2]:
+            self.weigh_unknown(target)
+        if not any(one.unknown and not one.frame.terms for one in self.found.values()):
+            self.weigh_unknown(self.found[frozenset()])
+        return self
+
+    def _choose_next(self) -> ArmHypothesis | None:
+        least = self.best.score(self.temper) - REACH
+        open_ = [one for terms, one in self.found.items() if terms not in self.extended and len(terms) < self.most]
+        near = [one for one in open_ if not one.unknown and one.score(self.temper) > least]
+        return max(near, key=lambda one: one.score(self.temper), default=None)
+
+    def extend(self, target: ArmHypothesis) -> None:
+        """Fit the sets with one more effect that promise to be better."""
+        temper, small = self.temper, self._make_small(target)
+        usual = list_promises(self.screen, target, self.price, temper)[:MOST_FITTED]
+        known = {p.effect.key for p in usual}
+        more = list_promises(self.screen, small, self.price, temper)[:MOST_SMALL] if small is not None else []
+        low = target.at[: len(self.frame.arm.joints)] + math.log(SMALL)
+        gears = list_gear_promises(self.screen, target, low, self.price, temper)[:MOST_GEARS]
+        wanted: list[tuple[ArmPromise, tuple[float, ...]]] = [(p, (0.0,)) for p in usual if p.gain > 0.0]
+        wanted += [(p, (math.log(SMALL),)) for p in more if p.gain > 0.0 and p.effect.key not in known]
+        wanted += [(p, (0.0, math.log(SMALL))) for p in gears if p.gain > 0.0]
+        self.say(f"fits beside {name_set(target.terms)}: {', '.join(p.effect.key for p, _ in wanted) or 'none'}")
+        for promise, shifts in wanted:
+            if self.budget.spent:
+                self.skipped = True
+                return
+            self._weigh_beside(target, promise, shifts)
+
+    def _make_small(self, target: ArmHypothesis) -> ArmHypothesis | None:
+        """Return the hypothesis with a small random force, at which slopes of effects that look like noise show."""
+        at = target.at.copy()
+        at[: len(self.frame.arm.joints)] += math.log(SMALL)
+        seen, kept = target.frame.expand(at, target.choice)
+        if not math.isfinite(float(kept.seen.log_likelihood)):
+            return None
+        precision = seen.information[np.ix_(target.used, target.used)] + np.diag(seen.precision[target.used])
+        return replace(target, at=at, expansion=seen, kept=kept, precision=precision)
+
+    def _weigh_beside(self, target: ArmHypothesis, promise: ArmPromise, shifts: tuple[float, ...]) -> None:
+        """Fit a set with one more effect, in place of simpler ones that it contains."""
+        kept = [e for e in target.frame.effects if e.key not in promise.effect.extends]
+        effects = tuple(sorted((*kept, promise.effect), key=lambda e: e.key))
+        if frozenset(e.key for e in effects) in self.found:
+            return
+        moved = target if promise.shift is None else self._move(target, promise.shift)
+        known = self._read(moved) | {
+            c.key: c.place(promise.start.get(c.key, c.value(c.mean))) for c in promise.effect.coordinates
+        }
+        self.weigh(effects, self._vary_levels(self._place(effects, known), shifts), target)
+
+    def _move(self, one: ArmHypothesis, shift: Array) -> ArmHypothesis:
+        """Return a hypothesis with the coefficients of its discrepancy where a promise expects them."""
+        of_discrepancy = np.arange(len(one.at)) >= len(one.frame.own)
+        return replace(one, at=one.at + np.where(of_discrepancy, shift, 0.0))
+
+    def _vary_levels(self, at: Array, shifts: tuple[float, ...] = (0.0, math.log(SMALL))) -> list[Array]:
+        """Return starts with other random forces, whose logarithms are shifted."""
+        first = np.arange(len(at)) < len(self.frame.arm.joints)
+        return [np.where(first, at + shift, at) for shift in shifts]
+
+    def _read(self, one: ArmHypothesis) -> dict[str, float]:
+        """Return the coordinates of a hypothesis by key, those of the discrepancy by number."""
+        own = {c.key: float(x) for c, x in zip(one.frame.own, one.at, strict=False)}
+        return own | {f"#{i}": float(x) for i, x in enumerate(one.at[len(one.frame.own) :])}
+
+    def _place(self, effects: tuple[ArmEffect, ...], known: Mapping[str, float]) -> Array:
+        """Return the coordinates of a frame with some effects."""
+        frame = replace(self.frame, effects=effects)
+        own = [known.get(c.key, c.mean) for c in frame.own]
+        more = [known.get(f"#{i}", 0.0) for i in range(len(frame.discrepancy.columns))]
+        return np.array([*own, *more])
+
+    def weigh(self, effects: tuple[ArmEffect, ...], starts: list[Array], beside: ArmHypothesis | None = None) -> None:
+        """Fit a set of effects from several starts, and keep the best fit with its density of held-out data."""
+        frame = replace(self.frame, effects=effects)
+        price = sum(self.price + effect.price for effect in effects)
+        choice = beside.choice if beside is not None else None
+        made = [fit_hypothesis(frame, start, price, choice) for start in starts]
+        fitted = [one for one in made if one is not None]
+        if fitted:
+            self._keep(max(fitted, key=lambda one: one.log_evidence))
+
+    def _keep(self, made: ArmHypothesis) -> None:
+        made = replace(made, heldout=score_heldout(made, self.frame.last, self.samples))
+        known = self.found.get(made.terms)
+        better = known is None or made.log_evidence + made.heldout > known.log_evidence + known.heldout
+        if math.isfinite(made.heldout) and better:
+            self.found[made.terms] = made
+
+    def drop_each(self, target: ArmHypothesis) -> None:
+        """Weigh a set without each of its effects in turn, starting from the set."""
+        known = self._read(target)
+        for effect in target.frame.effects:
+            rest = tuple(e for e in target.frame.effects if e is not effect)
+            terms = frozenset(e.key for e in rest)
+            if (target.terms, terms) not in self.dropped:
+                self.dropped.add((target.terms, terms))
+                self.weigh(rest, self._vary_levels(self._place(rest, known)), target)
+
+    def weigh_unknown(self, target: ArmHypothesis) -> None:
+        """Fit a set with a smooth force that is larger than the usual discrepancy."""
+        if target.unknown:
+            return
+        frame = replace(target.frame, discrepancy=self.large)
+        price = target.price + self.price + UNKNOWN_PRICE
+        made = fit_hypothesis(frame, target.at, price, _widen(target, self.large))
+        if made is None:
+            return
+        usual = [len(force.options) for force in target.frame.discrepancy.forces]
+        if any(option >= count for option, count in zip(made.choice, usual, strict=True)):
+            self._keep(replace(made, unknown=True))
+
+
+def _widen(target: ArmHypothesis, large: Discrepancy) -> tuple[int, ...]:
+    """Return the choice of a hypothesis among the options of a larger discrepancy, whose first ones are the same."""
+    return tuple(min(option, len(f.options) - 1) for option, f in zip(target.choice, large.forces, strict=True))
+
+
+def name_set(terms: Terms) -> str:
+    """Return a set of effects in words."""
+    return " and ".join(sorted(terms)) or "no effect"
+
+
+def find_probabilities(search: ArmSearch) -> dict[str, float]:
+    """Return the posterior probability of each effect: the sum over the sets that contain it."""
+    shares: dict[str, float] = {}
+    for terms, share in compute_probabilities(search.found.values(), search.temper).items():
+        for key in terms or {"nothing_missing"}:
+            shares[key] = shares.get(key, 0.0) + share
+    return dict(sorted(shares.items(), key=lambda pair: -pair[1]))

@@ -1,0 +1,235 @@
+"""The result of a search in words and numbers."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from lostmotion.contracts import Term
+from lostmotion.evidence.hypothesis import UNKNOWN
+from lostmotion.evidence.search import compute_probabilities
+from lostmotion.parts import Array
+from lostmotion.results import Interval, attach_unit, percent
+from lostmotion.results.diagnosis import Candidate, Confusion, Mechanism
+from lostmotion.results.robots import Dependence, JointRow
+from lostmotion.robots.arm import TapedArm
+from lostmotion.robots.arm_effects import ArmCoordinate, ArmEffect, GearEffect, LawEffect, MassEffect
+from lostmotion.robots.arm_hypothesis import ArmHypothesis
+from lostmotion.robots.arm_search import ArmSearch, find_probabilities
+from lostmotion.robots.free_runs import HeldOutRuns
+
+SURE, LIKELY = 0.95, 0.5
+"""The posterior probability above which an effect is named, and is told as likely."""
+CLOSE = 3.0
+"""A set whose score is within this distance of the best one cannot be told from it."""
+BINS = 16
+
+
+def find_place(effect: ArmEffect) -> str:
+    """Return the place of an effect."""
+    return effect.key.partition("@")[2]
+
+
+def make_interval(found: ArmHypothesis, c: ArmCoordinate, motion: str) -> Interval:
+    """Return median and 95 % interval of a coordinate."""
+    index = [own.key for own in found.frame.own].index(c.key)
+    middle, sd = float(found.at[index]), found.deviation(c.key)
+    low, median, high = (c.value(middle + step * sd) for step in (-1.96, 0.0, 1.96))
+    unit = c.dimension.unit(motion) if c.dimension is not None else "1"
+    if c.key.endswith(".mass"):
+        unit = "kg"
+    return Interval(median, low, high, unit)
+
+
+def describe_effect(
+    found: ArmHypothesis, effect: ArmEffect, motions: Mapping[str, str]
+) -> tuple[str, dict[str, Interval]]:
+    """Return the finding in a sentence, and its parameters."""
+    at = find_place(effect)
+    motion = motions.get(at.partition(".")[0], "rotation")
+    told = {c.key.rsplit(".", 1)[1]: make_interval(found, c, motion) for c in effect.coordinates}
+    words = {name: attach_unit(f"{x.median:.4g}", x.unit) for name, x in told.items()}
+    if isinstance(effect, GearEffect):
+        return f"{effect.law.physics.format(**words)} (in the gear of {found.frame.arm.joints[effect.joint]}).", told
+    if isinstance(effect, MassEffect):
+        if effect.name == "payload":
+            return f"A mass of {words['mass']} is carried at {at}.", told
+        kind = "The moment of inertia of the motor" if effect.value.endswith(".armature") else "The mass"
+        unit = "" if effect.value.endswith(".armature") else " (mass of the body, inertia in proportion)"
+        known = found.frame.arm.values.get(effect.value, 0.0)
+        return f"{kind} of {at} is {known + told['change'].median:.4g}, not {known:.4g}{unit}.", told
+    assert isinstance(effect, LawEffect)  # noqa: S101 - the three kinds of effects
+    words |= _word_choices(effect.term, effect.fixed)
+    where = f" at {effect.arm.joints[effect.joint]}"
+    return f"{effect.term.physics.format(**words)}{where}.", told
+
+
+def _word_choices(term: Term, fixed: Mapping[str, float]) -> dict[str, str]:
+    """Return the words of the parameters that are not fitted."""
+    found = {}
+    for q in term.params:
+        if q.choices:
+            value = next(v for key, v in fixed.items() if key.endswith(f".{q.name}"))
+            found[q.name] = q.words[q.choices.index(value)] if q.words else f"{value:g}"
+    return found
+
+
+def list_findings(search: ArmSearch, motions: Mapping[str, str]) -> tuple[Mechanism, ...]:
+    """Return the mechanisms that are more likely than not, the surest first."""
+    shares, found = find_probabilities(search), []
+    arm = search.frame.arm
+    for key, share in shares.items():
+        if share < LIKELY or key == "nothing_missing":
+            continue
+        state = "named" if share >= SURE else "likely"
+        holders = [one for one in search.found.values() if key in one.terms]
+        best = max(holders, key=lambda one: one.score(search.temper))
+        if key == UNKNOWN:
+            found.append(_describe_unknown(best, share, state))
+            continue
+        effect = next(e for e in best.frame.effects if e.key == key)
+        says, told = describe_effect(best, effect, motions)
+        name, at = key.split("@")
+        doubts = () if state == "named" else ("Other sets of mechanisms explain the log nearly as well.",)
+        drive = _measure_share(best, effect, arm)
+        found.append(
+            Mechanism(
+                mechanism=name, at=at, probability=share, state=state, doubts=doubts, parameters=told,
+                share_of_drive=drive, says=says,
+            )
+        )  # fmt: skip
+    return tuple(found)
+
+
+def _measure_share(found: ArmHypothesis, effect: ArmEffect, arm: TapedArm) -> float | None:
+    """Return the amplitude of a force over the torque of its joint; None for an effect that is no force."""
+    if not isinstance(effect, LawEffect):
+        return None
+    forces = [
+        c for c in effect.coordinates if c.amplitude and c.dimension is not None and tuple(c.dimension[:3]) == (1, 0, 0)
+    ]
+    if not forces:
+        return None
+    size = math.sqrt(sum(found.values[c.key] ** 2 for c in forces))
+    return size / max(float(np.std(arm.log.torque[:, effect.joint])), 1e-300)
+
+
+def _describe_unknown(found: ArmHypothesis, share: float, state: str) -> Mechanism:
+    """Return a torque without a name: its joint, its size, and what it depends on."""
+    sizes = measure_forces(found)
+    joint = max(found.frame.arm.joints, key=lambda j: sum(v for (name, _), v in sizes.items() if name == j))
+    over = sorted(((v, o) for (name, o), v in sizes.items() if name == joint), reverse=True)
+    depends = tuple(o for v, o in over if v > 0.3 * over[0][0])
+    says = (
+        f"A torque of {over[0][0]:.3g} N m (rms) at {joint} that no mechanism of the library explains depends on"
+        f" {' and '.join(depends)}."
+    )
+    return Mechanism(
+        mechanism=UNKNOWN, at=joint, probability=share, state=state, depends_on=depends, parameters={}, says=says
+    )
+
+
+def measure_forces(found: ArmHypothesis) -> dict[tuple[str, str], float]:
+    """Return the rms of each smooth force that is present, by joint and what it depends on (N m)."""
+    frame = found.frame
+    rest, told = found.at[len(frame.own) :], {}
+    for force, option in zip(frame.discrepancy.forces, found.choice, strict=True):
+        if option >= 0:
+            made = rest[force.columns] @ frame.discrepancy.matrix[force.columns, :, force.joint]
+            told[frame.arm.joints[force.joint], force.over] = float(np.sqrt(np.mean(made**2)))
+    return told
+
+
+def rank_sets(search: ArmSearch) -> tuple[Candidate, ...]:
+    """Return every set that was fitted, the most probable first."""
+    plain = search.found[frozenset()]
+    temper, shares = search.temper, compute_probabilities(search.found.values(), search.temper)
+    rows = []
+    for terms, one in sorted(search.found.items(), key=lambda pair: -pair[1].score(temper)):
+        names = sorted(terms) or ["nothing_missing"]
+        gain = (one.log_evidence + one.heldout - plain.log_evidence - plain.heldout) / temper
+        mechanism = " + ".join(name.partition("@")[0] for name in names)
+        at = " + ".join(dict.fromkeys(name.partition("@")[2] for name in names))
+        rows.append(
+            Candidate(
+                mechanism=mechanism,
+                at=at,
+                log_evidence_gain=gain,
+                probability=shares[terms],
+                price=one.price,
+                fitted=True,
+            )
+        )
+    return tuple(rows)
+
+
+def list_confusions(search: ArmSearch) -> tuple[Confusion, ...]:
+    """Return the effects that may stand in place of one of the best set."""
+    best, found = search.best, []
+    for terms, one in search.found.items():
+        more, less = terms - best.terms, best.terms - terms
+        if len(more) == 1 and len(less) == 1 and one.score(search.temper) > best.score(search.temper) - CLOSE:
+            (new,), (old,) = more, less
+            name, _, at = new.partition("@")
+            share = find_probabilities(search).get(new, 0.0)
+            says = f"{new} explains this log nearly as well as {old}."
+            found.append(Confusion(mechanism=name, at=at, probability=share, says=says))
+    for effect in best.frame.effects:
+        if isinstance(effect, LawEffect):
+            found += [
+                Confusion(
+                    mechanism=name, at=effect.key.partition("@")[2], says=f"No log can tell {name} from {effect.key}."
+                )
+                for name in effect.term.equals
+            ]
+    return tuple(found)
+
+
+def list_joints(
+    search: ArmSearch, before: tuple[ArmHypothesis, HeldOutRuns], after: tuple[ArmHypothesis, HeldOutRuns],
+    found: Sequence[Mechanism], motions: Mapping[str, str],
+) -> tuple[JointRow, ...]:  # fmt: skip
+    """Return each joint, before and after."""
+    arm, rows = search.frame.arm, []
+    for j, joint in enumerate(arm.joints):
+        random = [one.values[f"{joint}.random_force"] for one, _ in (before, after)]
+        rows.append(
+            JointRow(
+                joint=joint,
+                unit="N m" if motions[joint] == "rotation" else "N",
+                torque=float(np.std(arm.log.torque[:, j])),
+                random_before=random[0],
+                random_after=random[1],
+                nrmse_before=float(before[1].nrmse[j]),
+                nrmse_after=float(after[1].nrmse[j]),
+                white_before=float(before[1].white[j]),
+                white_after=float(after[1].white[j]),
+                found=tuple(m.mechanism for m in found if m.at.partition(".")[0] == joint),
+            )
+        )
+    return tuple(rows)
+
+
+def describe_dependence(torque: Array, arm: TapedArm) -> Dependence:
+    """Return what the missing torque (samples, n) depends on, for the joint at which it is largest in its torque."""
+    shares = np.std(torque, axis=0) / np.std(arm.log.torque, axis=0)
+    j = int(np.argmax(shares))
+    path, time = arm.tape.path, np.arange(len(torque), dtype=float)
+    over = {"position": path.q[:, j], "velocity": path.v[:, j], "time": time}
+    told = {name: max(0.0, _explain(torque[:, j], x)) for name, x in over.items()}
+    best = max(told, key=lambda name: told[name])
+    says = (
+        f"The missing torque is largest at {arm.joints[j]} ({percent(float(shares[j]))} of its torque) and depends most"
+        f" on {best} (which explains {percent(told[best])} of it)."
+    )
+    return Dependence(says, {**told, "phase": 0.0})
+
+
+def _explain(y: Array, x: Array) -> float:
+    """Return the share of the variance of `y` that its means in bins of `x` explain."""
+    edges = np.quantile(x, np.linspace(0.0, 1.0, BINS + 1)[1:-1])
+    which = np.searchsorted(edges, x)
+    means = np.array([y[which == b].mean() if np.any(which == b) else 0.0 for b in range(BINS)])
+    return float(np.var(means[which]) / max(float(np.var(y)), 1e-300))

@@ -1,0 +1,255 @@
+"""What is looked at before any fit: whether recorded torques agree with the inverse dynamics of the model at all.
+
+All signals are averaged over short windows first, so that noise of the accelerations does not decide.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from lostmotion.parts import Array
+from lostmotion.results.robots import Check
+from lostmotion.robots.arm import TapedArm
+from lostmotion.robots.arm_preparation import estimate_noise, make_arm
+from lostmotion.robots.log import RobotLog
+from lostmotion.simulators import Simulator
+
+WINDOW = 0.05
+"""The length (s) of the windows over which signals are averaged."""
+AGREES, OPPOSED = 0.7, -0.5
+"""A correlation of torque and inverse dynamics above which they agree, and below which their signs are opposed."""
+BETTER = 0.6
+"""Another reading of the log is proposed if it leaves less than this share of the unexplained torque."""
+CLEAR = 0.35
+"""A reading of the log explains a torque if it leaves less than this share of its standard deviation."""
+LAG, MOST_LAG = 3, 60
+"""Samples of lag between torque and motion that are told, and the largest ones that are tried."""
+LEAST_TRAVEL = 50.0
+"""A joint hardly moves if its travel is less than so many standard deviations of its noise."""
+DEGREE, WIDE = 180.0 / math.pi, 7.0
+"""Degrees in a radian; the travel (rad) of a joint beyond which its positions may be in degrees."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Fit:
+    """How much of each torque the model leaves, as a share of its standard deviation, and the slopes of its parts."""
+
+    left: Array
+    correlation: Array
+    slope: Array
+
+
+def check_log(arm: TapedArm, simulator: Simulator) -> tuple[Check, ...]:
+    """Return the checks of a log, each with the remedy; those that `stop` make a diagnosis meaningless."""
+    found = [*_check_motion(arm)]
+    if any(check.stop for check in found):
+        return tuple(found)
+    base = _compare(arm, arm.log.torque)
+    faults = [*_check_angles(arm, simulator, base)] or [*_check_order(arm, base)]
+    faults = faults or [*_check_gravity(arm, simulator, base)] or [*_check_signs(arm, base)]
+    faults = faults or [*_check_scale(arm, base)]
+    found += faults
+    if not faults:
+        found += [*_check_side(arm)]
+        found += [*_check_lag(arm, base)]
+    found += [
+        Check(
+            "torque", joint, True, f"Torque and inverse dynamics of {joint} correlate with {base.correlation[j]:.3f}."
+        )
+        for j, joint in enumerate(arm.joints)
+        if not any(check.joint == joint and not check.passed for check in found)
+    ]
+    return tuple(found)
+
+
+def average(x: Array, dt: float) -> Array:
+    """Return signals (samples, ...) averaged over windows (windows, ...)."""
+    size = max(1, round(WINDOW / dt))
+    count = len(x) // size
+    return np.asarray(x[: count * size].reshape(count, size, *x.shape[1:]).mean(axis=1))
+
+
+def predict_torque(arm: TapedArm, side: str | None = None) -> Array:
+    """Return the torque (samples, n) of the model along the path, as the sensor of this side shows it."""
+    path, tape = arm.tape.path, arm.tape
+    spring = arm.get({}, "stiffness") * (path.q - arm.get({}, "rest"))
+    found = tape.torque + spring
+    if (side or arm.side) == "motor":
+        found = found + arm.get({}, "armature") * path.a + arm.get({}, "damping") * path.v
+        found = found + arm.get({}, "frictionloss") * np.tanh(path.v / (1e-9 + 0.05 * np.std(path.v, axis=0)))
+    return np.asarray(found)
+
+
+def _compare(arm: TapedArm, torque: Array, model: Array | None = None) -> _Fit:
+    """Return how well a torque (samples, n) agrees with the model, friction of any size at each joint allowed for."""
+    dt, path = arm.log.dt, arm.tape.path
+    model = average(predict_torque(arm) if model is None else model, dt)
+    torque, v = average(torque, dt), average(path.v, dt)
+    n = torque.shape[1]
+    left, correlation, slope = np.zeros(n), np.zeros(n), np.zeros(n)
+    for j in range(n):
+        speed = v[:, j]
+        rubbing = _list_friction(speed)
+        rest = torque[:, j] - model[:, j]
+        rest = rest - rubbing @ np.linalg.lstsq(rubbing, rest, rcond=None)[0]
+        left[j] = np.std(rest) / max(float(np.std(torque[:, j])), 1e-12)
+        correlation[j] = np.corrcoef(torque[:, j], model[:, j])[0, 1]
+        full = np.column_stack([model[:, j], rubbing])
+        slope[j] = np.linalg.lstsq(full, torque[:, j], rcond=None)[0][0]
+    return _Fit(left, np.nan_to_num(correlation), slope)
+
+
+def _list_friction(speed: Array) -> Array:
+    """Return a constant, viscous friction and dry friction (windows, 3) of unit size at a speed (windows,)."""
+    return np.column_stack([np.ones_like(speed), speed, np.tanh(speed / (0.05 * np.std(speed) + 1e-12))])
+
+
+def _check_motion(arm: TapedArm) -> Iterator[Check]:
+    """Yield a check for each joint that hardly moves."""
+    noise = estimate_noise(arm.log.positions)
+    for j, joint in enumerate(arm.joints):
+        travel = float(np.ptp(arm.log.positions[:, j]))
+        if travel < LEAST_TRAVEL * noise[j] or travel < 1e-3:
+            yield Check(
+                "motion", joint, False,
+                f"{joint} moves by {travel:.3g} only: what it lacks cannot be seen; leave it out of [model] joints, or"
+                " record a motion of this joint.",
+            )  # fmt: skip
+
+
+def _check_angles(arm: TapedArm, simulator: Simulator, base: _Fit) -> Iterator[Check]:
+    """Yield a check if the positions agree with the torques when they are read as degrees."""
+    if base.left.max() < CLEAR or np.ptp(arm.log.positions, axis=0).max() < WIDE:
+        return
+    other = _reread(arm, simulator, arm.log.readings / DEGREE, arm.log.torque)
+    if other.left.mean() < BETTER * base.left.mean() and np.median(other.correlation) > AGREES:
+        yield Check(
+            "unit", "", False,
+            "The positions look like degrees, not radians: give the unit of the position columns in the case.",
+            stop=True,
+        )  # fmt: skip
+
+
+def _reread(arm: TapedArm, simulator: Simulator, readings: Array, torque: Array) -> _Fit:
+    """Return the agreement for other readings and torques."""
+    log = RobotLog(arm.log.name, arm.joints, arm.log.dt, torque, readings, arm.log.picks, arm.log.hold)
+    other = make_arm(simulator, log, arm.side, parts=False)
+    return _compare(other, torque)
+
+
+def _check_order(arm: TapedArm, base: _Fit) -> Iterator[Check]:
+    """Yield a check if two torque columns agree with the model when they are swapped."""
+    if base.left.max() < CLEAR:
+        return
+    model = predict_torque(arm)
+    for i, j in itertools.combinations(range(len(arm.joints)), 2):
+        torque = arm.log.torque.copy()
+        torque[:, [i, j]] = torque[:, [j, i]]
+        other = _compare(arm, torque, model)
+        pair = [i, j]
+        if other.left[pair].mean() < BETTER * base.left[pair].mean() and other.correlation[pair].min() > AGREES:
+            yield Check(
+                "order", arm.joints[i], False,
+                f"The torques of {arm.joints[i]} and {arm.joints[j]} look swapped: the torque of each agrees with the"
+                " inverse dynamics of the other. Check the order of the columns.", stop=True,
+            )  # fmt: skip
+
+
+def _check_gravity(arm: TapedArm, simulator: Simulator, base: _Fit) -> Iterator[Check]:
+    """Yield a check if the torques agree with the model under the opposite gravity, or without it."""
+    if base.left.max() < CLEAR:
+        return
+    none = np.zeros_like(arm.tape.path.q)
+    weight = np.asarray(simulator.inverse(arm.tape.path.q, none, none))
+    model = predict_torque(arm)
+    for share, says in (
+        (2.0, "The torques agree with gravity in the opposite direction: check the direction of gravity in the model"),
+        (1.0, "The torques agree with the model without gravity: the log has the torque after a compensation of"
+         " gravity, or the arm moves in a horizontal plane. Switch gravity off in the model"),
+    ):  # fmt: skip
+        other = _compare(arm, arm.log.torque, model - share * weight)
+        if other.left.mean() < BETTER * base.left.mean() and np.median(other.correlation) > AGREES:
+            yield Check("gravity", "", False, f"{says}.", stop=True)
+            return
+
+
+def _check_signs(arm: TapedArm, base: _Fit) -> Iterator[Check]:
+    """Yield a check for each joint whose torque has the opposite sign."""
+    for j, joint in enumerate(arm.joints):
+        if base.correlation[j] < OPPOSED and base.slope[j] < 0.0:
+            yield Check(
+                "sign", joint, False,
+                f"The torque of {joint} has the opposite sign of the inverse dynamics (correlation"
+                f" {base.correlation[j]:.2f}): give factor = -1 for its torque, or for its position if that is turned.",
+                stop=True,
+            )  # fmt: skip
+
+
+def _check_scale(arm: TapedArm, base: _Fit) -> Iterator[Check]:
+    """Yield a check for each joint whose torque has another size, or does not agree at all."""
+    for j, joint in enumerate(arm.joints):
+        slope, agrees = float(base.slope[j]), base.correlation[j] > AGREES
+        if agrees and not 0.4 < slope < 2.5:
+            hint = "N mm or a percentage" if slope > 2.5 else "kN m, a motor current or a torque before the gear"
+            yield Check(
+                "unit", joint, False,
+                f"The torque of {joint} is {slope:.3g} times that of the model: it may be in {hint}; give its unit or"
+                " a factor.", stop=True,
+            )  # fmt: skip
+        elif not agrees:
+            yield Check(
+                "torque", joint, False,
+                f"Torque and inverse dynamics of {joint} hardly agree (correlation {base.correlation[j]:.2f},"
+                f" {100.0 * base.left[j]:.0f} % unexplained): friction may be most of the torque; else check the sign,"
+                " unit, order and clock of this joint.",
+                stop=bool(np.median(base.correlation) < AGREES),
+            )  # fmt: skip
+
+
+def _check_side(arm: TapedArm) -> Iterator[Check]:
+    """Yield a check for each joint whose torque looks like that of the other side of the gear."""
+    path, dt = arm.tape.path, arm.log.dt
+    link = average(predict_torque(arm, "link"), dt)
+    motor = average(np.asarray(path.a), dt)
+    torque, v = average(arm.log.torque, dt), average(path.v, dt)
+    armature = np.array([arm.motor_inertia.get(joint, 0.0) for joint in arm.joints])
+    for j, joint in enumerate(arm.joints):
+        if armature[j] <= 0.0:
+            continue
+        speed = v[:, j]
+        full = np.column_stack([armature[j] * motor[:, j], link[:, j], _list_friction(speed)])
+        found, *_ = np.linalg.lstsq(full, torque[:, j], rcond=None)
+        rest = torque[:, j] - full @ found
+        error = math.sqrt(float(np.linalg.inv(full.T @ full)[0, 0]) * float(rest @ rest) / max(len(rest) - 5, 1))
+        wanted = 1.0 if arm.side == "motor" else 0.0
+        if abs(found[0] - (1.0 - wanted)) < 0.35 and abs(found[0] - wanted) > 6.0 * error and error < 0.1:
+            other = "link" if arm.side == "motor" else "motor"
+            yield Check(
+                "side", joint, False,
+                f"The torque of {joint} {'lacks' if wanted else 'contains'} the inertia of its motor: it looks"
+                f' measured on the {other} side of the gear; write torque = "{other}".', stop=True,
+            )  # fmt: skip
+
+
+def _check_lag(arm: TapedArm, base: _Fit) -> Iterator[Check]:
+    """Yield a check if all torques agree better when they are shifted in time."""
+    model, torque = predict_torque(arm), arm.log.torque
+    if base.left.max() < 0.02:
+        return
+    lags = np.arange(-MOST_LAG, MOST_LAG + 1)
+    left = np.array([_compare(arm, np.roll(torque, lag, axis=0), model).left for lag in lags])
+    best = lags[np.argmin(left, axis=0)]
+    lag = int(np.median(best))
+    gain = left[lag + MOST_LAG] / left[MOST_LAG]
+    if abs(lag) >= LAG and np.all(np.abs(best - lag) <= LAG) and np.all(gain < BETTER):
+        later = "later" if lag > 0 else "earlier"
+        yield Check(
+            "clock", "", False,
+            f"All torques act {abs(lag) * arm.log.dt * 1e3:.3g} ms {later} than the log has them: torque and position"
+            " have different clocks; shift one of the columns.", stop=True,
+        )  # fmt: skip

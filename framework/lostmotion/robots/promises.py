@@ -1,0 +1,183 @@
+"""The effects that are tried in an arm, and what each promises beside a hypothesis.
+
+A promise is the evidence that an effect would add if one-step errors were linear in it. It only proposes: every set is
+fitted before it counts.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from lostmotion.contracts import DriveTerm, Term
+from lostmotion.defaults import INERTIA_CHANGE
+from lostmotion.evidence.expansion import compute_log_evidence
+from lostmotion.parts import Array
+from lostmotion.robots.arm import Column, FilteredLog, TapedArm, can_act
+from lostmotion.robots.arm_effects import ArmEffect, GearEffect, JointScales, LawEffect, MassEffect, Shape
+from lostmotion.robots.arm_hypothesis import ArmHypothesis
+from lostmotion.robots.gears import GEARS
+from lostmotion.robots.pitch_scan import find_pitches
+from lostmotion.robots.tape import Path
+
+TYPICAL_MASS = 0.1
+"""The usual error of a mass or an armature, as a share of it."""
+SAME = 0.9999
+"""The cosine of the effects of two laws on this log above which only the more common one is tried."""
+
+
+@dataclass(frozen=True)
+class ArmPromise:
+    """An effect, the values of its parameters to start from, and the score that it promises.
+
+    `shift` is the step of the coordinates of the hypothesis that comes with it, where it is predicted.
+    """
+
+    effect: ArmEffect
+    start: Mapping[str, float]
+    gain: float
+    shift: Array | None = None
+
+
+def list_effects(
+    arm: TapedArm, scales: Sequence[JointScales], terms: Iterable[Term], points: Sequence[str], plain: FilteredLog
+) -> list[ArmEffect]:
+    """Return all effects of an arm: laws at joints and drives, gears, masses; `plain` is the filtered nominal model."""
+    found: list[ArmEffect] = []
+    terms = [term for term in terms if can_act(term)]
+    for j, joint in enumerate(arm.joints):
+        pitches = find_pitches(arm, plain, j)
+        for term in terms:
+            at = f"{joint}.torque" if isinstance(term, DriveTerm) else joint
+            found.append(LawEffect(replace(term, at=at), arm, j, scales[j], pitches))  # type: ignore[type-var]
+        armature = arm.values.get(f"{joint}.armature", 0.0)
+        unit = TYPICAL_MASS * max(armature, float(arm.tape.mass[:, j, j].mean()))
+        found.append(MassEffect(INERTIA_CHANGE, joint, f"{joint}.armature", arm, unit))
+        if armature > 0.0:
+            found += [GearEffect(law, arm, j) for law in GEARS]
+    for name in arm.parts:
+        at, kind = name.rsplit(".", 1)
+        if kind == "payload" and at in points:
+            heaviest = max((abs(v) for k, v in arm.values.items() if k.endswith(".mass")), default=1.0)
+            found.append(MassEffect("payload", at, name, arm, TYPICAL_MASS * heaviest))
+        elif kind == "mass":
+            found.append(MassEffect(INERTIA_CHANGE, at, name, arm, TYPICAL_MASS * abs(arm.values[name])))
+    return found
+
+
+@dataclass(frozen=True, eq=False)
+class Screen:
+    """The shapes of all effects along a path, with their columns, computed once."""
+
+    effects: tuple[ArmEffect, ...]
+    shapes: tuple[tuple[ArmEffect, Shape, slice], ...]
+    columns: tuple[Column, ...]
+
+
+def make_screen(arm: TapedArm, effects: Sequence[ArmEffect], accelerations: Array) -> Screen:
+    """Return the shapes of effects along the path of the tape of an arm."""
+    shapes: list[tuple[ArmEffect, Shape, slice]] = []
+    columns: list[Column] = []
+    for effect in effects:
+        for shape in effect.list_shapes(arm.tape.path, accelerations):
+            kept = [np.isfinite(c.force).all() and np.any(c.force) for c in shape.columns]
+            if all(kept):
+                shapes.append((effect, shape, slice(len(columns), len(columns) + len(shape.columns))))
+                columns += shape.columns
+    return Screen(tuple(effects), tuple(shapes), tuple(columns))
+
+
+def list_promises(screen: Screen, beside: ArmHypothesis, price: float, temper: float) -> list[ArmPromise]:
+    """Return what the effects of a screen promise beside a hypothesis, the best shape of each, best first."""
+    frame = beside.frame
+    gears = {e.joint: e.make(beside.values) for e in frame.gears}
+    more = frame.arm.differentiate(beside.kept, screen.columns, gears)
+    seen, used = beside.expansion, beside.used
+    e, v = seen.here.errors, seen.here.variances
+    slopes = more @ (-e / v)
+    cross = (seen.errors[used] / v) @ more.T
+    own = seen.gradient[used] - seen.precision[used] * (seen.at[used] - seen.middle[used])
+    pulled = np.linalg.solve(beside.precision, np.column_stack([cross, own]))
+    best: dict[str, ArmPromise] = {}
+    size = np.sqrt(np.sum(more * more / v, axis=1))
+    singles: list[tuple[int, str]] = []
+    for effect, shape, part in sorted(screen.shapes, key=lambda row: row[0].price):
+        if effect.key in frame.terms:
+            continue
+        linear = isinstance(effect, LawEffect) and not isinstance(effect.term, DriveTerm)
+        if linear and part.stop - part.start == 1 and size[part.start] > 0.0:
+            row = more[part.start] / (v * size[part.start])
+            if any(key != effect.key and abs(row @ more[i]) > SAME * size[i] for i, key in singles):
+                continue
+            singles.append((part.start, effect.key))
+        units = {c.key: c.unit for c in effect.coordinates}
+        block = more[part]
+        information = (block / v) @ block.T - cross[:, part].T @ pulled[:, part]
+        gradient = slopes[part] - cross[:, part].T @ pulled[:, -1]
+        found = _weigh_shape(effect, shape, gradient, information, price, temper)
+        if found is not None and (effect.key not in best or found.gain > best[effect.key].gain):
+            step = np.array([found.start[c] / units[c] for c in shape.amplitudes])
+            shift = np.zeros(len(seen.at))
+            shift[used] = -pulled[:, part] @ step
+            best[effect.key] = replace(found, shift=shift)
+    return sorted(best.values(), key=lambda p: -p.gain)
+
+
+def _weigh_shape(
+    effect: ArmEffect, shape: Shape, gradient: Array, information: Array, price: float, temper: float
+) -> ArmPromise | None:
+    """Return what one shape promises; None where an amplitude would have the wrong sign."""
+    gradient, information = gradient.copy(), information.copy()
+    coordinates = {c.key: c for c in effect.coordinates}
+    kept = list(range(len(shape.amplitudes)))
+    while True:
+        inner = information[np.ix_(kept, kept)] + np.eye(len(kept))
+        step = np.linalg.solve(inner, gradient[kept])
+        wrong = [i for i, s in zip(kept, step, strict=True) if s < 0.0 and coordinates[shape.amplitudes[i]].low == 0.0]
+        if not wrong:
+            break
+        kept = [i for i in kept if i not in wrong]
+        if not kept:
+            return None
+    evidence = compute_log_evidence(gradient[kept], information[np.ix_(kept, kept)], np.ones(len(kept)))
+    values = dict.fromkeys(shape.amplitudes, 0.0)
+    for i, s in zip(kept, step, strict=True):
+        c = coordinates[shape.amplitudes[i]]
+        values[c.key] = min(max(c.unit * float(s), c.low), c.high)
+    effect = effect.choose(shape.values) if isinstance(effect, LawEffect) else effect
+    return ArmPromise(effect, {**shape.values, **values}, evidence / temper - price - effect.price)
+
+
+def list_gear_promises(
+    screen: Screen, beside: ArmHypothesis, levels: Array, price: float, temper: float
+) -> list[ArmPromise]:
+    """Return what gears promise, from filters at a few values; `levels` are coordinates of the levels to use."""
+    frame, found = beside.frame, []
+    at = beside.at.copy()
+    at[: len(levels)] = levels
+    plain = float(frame.run(at).seen.log_likelihood)
+    force = frame.discrepancy.force(at[len(frame.own) :])
+    taken = {e.joint for e in frame.gears}
+    for effect in screen.effects:
+        if not isinstance(effect, GearEffect) or effect.key in frame.terms or effect.joint in taken:
+            continue
+        wider = replace(frame, effects=(*frame.effects, effect))
+        best, start = -math.inf, {}
+        for values in effect.list_starts():
+            own = [c.place(values[c.key]) for c in effect.coordinates]
+            told = float(wider.run(np.concatenate([at[: len(frame.own)], own]), force=force).seen.log_likelihood)
+            if told > best:
+                best, start = told, values
+        if math.isfinite(best):
+            found.append(ArmPromise(effect, start, (best - plain) / temper - price - effect.price))
+    return sorted(found, key=lambda p: -p.gain)
+
+
+def relinearise(kept: FilteredLog, joints: int) -> Path:
+    """Return the path of a filtered recording."""
+    a = kept.accelerations.copy()
+    a[-1] = a[-2]
+    return Path(kept.states[:, :joints], kept.states[:, joints : 2 * joints], a)
