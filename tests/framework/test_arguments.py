@@ -214,3 +214,15 @@ def test_a_path_of_blanks_is_named_in_one_line() -> None:
     with pytest.raises(CaseError, match=r"^'\\n' cannot be read") as caught:
         lm.diagnose("\n")
     assert "\n" not in str(caught.value)
+
+
+def test_the_name_of_a_file_is_one_line() -> None:
+    with pytest.raises(LostMotionError, match=r"^'\\n' ends in ''") as caught:
+        lm.analyse("\n", channel="x")
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("power", ["1e308", "(-1e300)", "101"])
+def test_a_power_that_overflows_is_refused(power: str) -> None:
+    with pytest.raises(CaseError, match="has a power above 100, with which numbers overflow"):
+        lm.model(f"m*x''^{power} = force")

@@ -8,6 +8,8 @@ from collections.abc import Callable
 
 from lostmotion.equations.read import Node, error
 
+HIGHEST = 100.0
+"""The highest power of a part of an equation."""
 _FUNCTIONS: dict[str, Callable[..., float]] = {
     "gap": lambda x, k, x0: k * (x - min(max(x, -x0), x0)),
     "stop": lambda x, k, x0: k * max(x - x0, 0.0),
@@ -39,6 +41,8 @@ def _find_constant(text: str, node: Node) -> float | None:
         return node.value
     if node.kind == "/" and parts[1] == 0.0:
         raise error(text, node.args[1].begin, "divides by zero")
+    if node.kind == "^" and parts[1] is not None and abs(parts[1]) > HIGHEST:
+        raise error(text, node.args[1].begin, f"has a power above {HIGHEST:g}, with which numbers overflow")
     if node.kind == "-" and _are_alike(*node.args):
         return 0.0
     if node.kind in ("*", "/") and 0.0 in parts:

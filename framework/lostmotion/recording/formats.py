@@ -80,7 +80,8 @@ def _find_reader(path: Path) -> Callable[[Path], Table]:
     if reader := find_offered(ending):
         return reader.read
     known = ", ".join((*ENDINGS, *sorted(offered_readers())))
-    raise DataError(f"{path.name} ends in {ending!r}: expected one of {known}; export it for instance as csv")
+    shown = path.name if path.name.isprintable() else repr(path.name[:80])
+    raise DataError(f"{shown} ends in {ending!r}: expected one of {known}; export it for instance as csv")
 
 
 def _require_file(path: Path) -> None:
