@@ -37,7 +37,9 @@ OUTCOMES = (HIT, CONFUSED, NOTICED, MISNAMED, MISSED)
 """The outcomes of an effect: named; named as one that the diagnosis lists as indistinguishable from it; called unknown
 or a random force; something else named; not noticed."""
 VAGUE = ("unknown", "random_force")
-FRICTION_TERMS = tuple(name for name, mechanism in TABLE.items() if mechanism.kin == "rub")
+NEVER_HIDDEN = ("friction_drift_travel", "friction_drift_twice")
+"""Laws of dry friction that a trial does not hide."""
+FRICTION_TERMS = (*(name for name, mechanism in TABLE.items() if mechanism.kin == "rub"), *NEVER_HIDDEN)
 """Laws of dry friction: where the true law has a random shape, each of these names is correct."""
 FLAWS = ("sensor_quantisation",)
 """Imperfections of every machine of an imperfect world for which the library has a term."""
