@@ -74,7 +74,7 @@ def test_a_recording_is_diagnosed_without_a_case_where_its_columns_are_clear(pla
 
     def run_diagnosis(case, out, registry, **options):
         asked.append((case, out))
-        return SimpleNamespace(says=("Nothing is missing.",), notes=("guessed: a", "b"))
+        return SimpleNamespace(says=("Nothing is missing.",), notes=("guessed: a", "b"), absent=())
 
     monkeypatch.setattr("lostmotion.diagnosis.diagnosis_run.run_diagnosis", run_diagnosis)
     result = CliRunner().invoke(main, ["diagnose", "my run.csv", "--model", "duffing", "--quiet"])

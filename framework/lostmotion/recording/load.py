@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from lostmotion.arguments import Rule, anything, checked, choice, describe, mapping, maybe, path, positive, text
+from lostmotion.arguments import checked, describe, path
 from lostmotion.errors import DataError
 from lostmotion.quantities import si_factor
 from lostmotion.recording.clock import checked_clock, note_other_rate, note_repeated_rows, read_time
@@ -19,6 +19,8 @@ from lostmotion.recording.counts import centre_position, sum_changes
 from lostmotion.recording.folders import digest_recording
 from lostmotion.recording.formats import read_table
 from lostmotion.recording.made import (
+    COLUMNS,
+    COMMON,
     RecordingLayout,
     RecordingSource,
     check_units,
@@ -47,23 +49,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
-_COMMON: Mapping[str, Rule] = {
-    "inputs": maybe(mapping(anything, "{'force': ...}")),
-    "sensors": mapping(anything, "{'position': ...}"),
-    "units": maybe(mapping(text, "{'force': 'N', 'position': 'mm'}")),
-    "rate": maybe(positive),
-    "noise": maybe(mapping(text, "{'position': 'white'}")),
-    "hold": choice("smooth", "step"),
-    "name": text,
-}
-"""The rules of the arguments of all constructors of `Recording`."""
-_COLUMNS: Mapping[str, Rule] = {
-    **_COMMON,
-    "inputs": maybe(mapping(text, "{'force': column}")),
-    "sensors": mapping(text, "{'position': column}"),
-    "time": maybe(text),
-}
-"""The rules of those that take the names of columns."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,7 +116,7 @@ class Recording:
         return f"<Recording {self.name!r}: {', '.join(channels)}; {length}{'; see .warnings' if self.notes else ''}>"
 
     @classmethod
-    @checked(**_COMMON)
+    @checked(**COMMON)
     def from_arrays(
         cls,
         time: ArrayLike | None = None,
@@ -162,7 +147,7 @@ class Recording:
         return make_recording(collect_columns({**times, **columns}, layout), settings)
 
     @classmethod
-    @checked(**_COLUMNS)
+    @checked(**COLUMNS)
     def from_pandas(
         cls,
         frame: Any,
@@ -201,7 +186,7 @@ class Recording:
         return make_recording(collect_columns(columns, layout), settings)
 
     @classmethod
-    @checked(**_COLUMNS)
+    @checked(**COLUMNS)
     def from_xarray(
         cls,
         dataset: xr.Dataset,
@@ -232,7 +217,7 @@ class Recording:
         return make_recording(collect_columns(columns, layout), settings)
 
     @classmethod
-    @checked(**_COLUMNS, path=path)
+    @checked(**COLUMNS, path=path)
     def read(
         cls,
         path: str | Path,

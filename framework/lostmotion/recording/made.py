@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from lostmotion.arguments import Rule, anything, choice, mapping, maybe, positive, text
 from lostmotion.errors import DataError, nearest
 from lostmotion.quantities import names_quantity, quantity_of, si_factor
 from lostmotion.recording.arrays import table_of_arrays
@@ -31,6 +32,24 @@ Which = tuple[Mapping[str, str], Mapping[str, str]]
 """Columns keyed by the inputs of a model, and columns keyed by its channels."""
 PANEL = (7.2, 1.5)
 """Width of a figure and height of one of its panels, in inches."""
+
+COMMON: Mapping[str, Rule] = {
+    "inputs": maybe(mapping(anything, "{'force': ...}")),
+    "sensors": mapping(anything, "{'position': ...}"),
+    "units": maybe(mapping(text, "{'force': 'N', 'position': 'mm'}")),
+    "rate": maybe(positive),
+    "noise": maybe(mapping(text, "{'position': 'white'}")),
+    "hold": choice("smooth", "step"),
+    "name": text,
+}
+"""The rules of the arguments of all constructors of `Recording`."""
+COLUMNS: Mapping[str, Rule] = {
+    **COMMON,
+    "inputs": maybe(mapping(text, "{'force': column}")),
+    "sensors": mapping(text, "{'position': column}"),
+    "time": maybe(text),
+}
+"""The rules of those that take the names of columns."""
 
 
 @dataclass(frozen=True)
