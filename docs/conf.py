@@ -32,7 +32,8 @@ nitpick_ignore_regex = [
     (r"py:.*", r"(?!lostmotion).*"),
     (r"py:.*", r"lostmotion\..*\.(Array|Values|Drive|Hold|Data)"),
     (r"py:.*", r"lostmotion\..*\._.*"),
-    (r"py:.*", r"lostmotion\.(diagnosis\.report\.evidence\.Evidence|identification\.report\.view\.IdentificationView)"),
+    (r"py:.*", r"lostmotion\.diagnosis\.report\.page_data\.Evidence"),
+    (r"py:.*", r"lostmotion\.(identification\.report\.view\.IdentificationView|robots\.arm_page\.RobotEvidence)"),
     (r"py:.*", r"lostmotion\.results\.\w+\..*"),  # their keys have pages of their own
     (r"py:.*", r"lostmotion\.settings\.(?!Settings).*"),
 ]
