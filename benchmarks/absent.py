@@ -10,7 +10,6 @@ its `absent` has the bound, unless the effect was found. A run that was stopped 
 
 from __future__ import annotations
 
-import argparse
 import tempfile
 import time
 from pathlib import Path
@@ -26,7 +25,7 @@ from lostmotion.inference.setup import make_problem, search_maximum, split_heldo
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import default
-from small_effects import SmallMachine, describe_share, draw_small_machine, read_rows, run_trials, split_by
+from small_effects import SmallMachine, describe_share, draw_small_machine, read_rows, run_command, split_by
 
 SEED = 48
 SIZES = (0.3, 3.0)
@@ -94,18 +93,5 @@ def show(path: Path) -> None:
             )
 
 
-def main() -> None:
-    """Run the trials that have no row yet, or show the rows."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("command", choices=("run", "show"))
-    parser.add_argument("--machines", type=int, default=200)
-    parser.add_argument("--out", type=Path, required=True, help="folder of the rows")
-    args = parser.parse_args()
-    path = args.out / "absent.jsonl"
-    if args.command == "run":
-        run_trials(path, args.machines, run_trial)
-    show(path)
-
-
 if __name__ == "__main__":
-    main()
+    run_command(str(__doc__), "absent.jsonl", 200, run_trial, show)

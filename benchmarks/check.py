@@ -11,7 +11,6 @@ check states: 80 to 97 % of them should be named. A run that was stopped is cont
 
 from __future__ import annotations
 
-import argparse
 import tempfile
 import time
 from collections.abc import Sequence
@@ -28,7 +27,7 @@ from lostmotion.results import Interval
 from lostmotion.results.expectation import Detection
 from lostmotion_trials.blind.bound import are_equivalent
 from lostmotion_trials.blind.mechanisms import TABLE
-from small_effects import AMPLITUDES, SmallMachine, describe_share, draw_small_machine, read_rows, run_trials
+from small_effects import AMPLITUDES, SmallMachine, describe_share, draw_small_machine, read_rows, run_command
 
 SEED = 50
 FACTOR = 1.5
@@ -123,18 +122,5 @@ def show(path: Path) -> None:
             print(f"  trial {row['trial']}: {row['mechanism']} in {row['model']}, found {row['found']}")
 
 
-def main() -> None:
-    """Run the trials that have no row yet, or show the rows."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("command", choices=("run", "show"))
-    parser.add_argument("--machines", type=int, default=100)
-    parser.add_argument("--out", type=Path, required=True, help="folder of the rows")
-    args = parser.parse_args()
-    path = args.out / "check.jsonl"
-    if args.command == "run":
-        run_trials(path, args.machines, run_trial)
-    show(path)
-
-
 if __name__ == "__main__":
-    main()
+    run_command(str(__doc__), "check.jsonl", 100, run_trial, show)

@@ -6,6 +6,7 @@ effect has one amplitude and no further parameter, so that its size is one numbe
 
 from __future__ import annotations
 
+import argparse
 import itertools
 import json
 import math
@@ -21,6 +22,7 @@ from lostmotion.errors import LostMotionError
 from lostmotion_trials.blind.hiding import convert_effects
 from lostmotion_trials.blind.mechanisms import TABLE
 from lostmotion_trials.blind.pilot import Effect, Pilot
+from lostmotion_trials.blind.score import estimate_rate
 from lostmotion_trials.blind.simulator import BlindMachine, Disturbances, draw_rig, simulate_machine
 from lostmotion_trials.integrators.hidden import Hidden
 
@@ -32,6 +34,8 @@ AMPLITUDES: Mapping[str, str] = {
     "hunt_crossley_contact": "coefficient",
 }  # fmt: skip
 """The effects that are hidden, with the name of their amplitude."""
+Trial = Callable[[int], Mapping[str, object]]
+"""A trial: its row by its number."""
 SAMPLES = 2000
 """The largest number of samples of a recording."""
 ATTEMPTS = 200
@@ -103,7 +107,7 @@ def draw_small_machine(rng: np.random.Generator) -> SmallMachine:
     raise ValueError(f"no machine in {ATTEMPTS} attempts")
 
 
-def run_trials(path: Path, count: int, run: Callable[[int], Mapping[str, object]]) -> None:
+def run_trials(path: Path, count: int, run: Trial) -> None:
     """Append a row of JSON for each of `count` trials that has none yet; a trial depends on its number only."""
     path.parent.mkdir(parents=True, exist_ok=True)
     done = {row["trial"] for row in read_rows(path)}
@@ -117,6 +121,22 @@ def run_trials(path: Path, count: int, run: Callable[[int], Mapping[str, object]
         print(trial, row.get("status"), flush=True)
 
 
+def run_command(title: str, rows: str, count: int, run: Trial, show: Callable[[Path], None]) -> None:
+    """Run the trials that have no row yet, or show the rows, as the command line asks.
+
+    `title` is the help, `rows` the name of the file of rows, `count` the usual number of machines.
+    """
+    parser = argparse.ArgumentParser(description=title, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("command", choices=("run", "show"))
+    parser.add_argument("--machines", type=int, default=count)
+    parser.add_argument("--out", type=Path, required=True, help="folder of the rows")
+    args = parser.parse_args()
+    path = args.out / rows
+    if args.command == "run":
+        run_trials(path, args.machines, run)
+    show(path)
+
+
 def read_rows(path: Path) -> list[dict[str, object]]:
     """Return the rows of a file, or none."""
     return [json.loads(line) for line in path.read_text().splitlines()] if path.exists() else []
@@ -124,11 +144,8 @@ def read_rows(path: Path) -> list[dict[str, object]]:
 
 def describe_share(hits: int, count: int) -> str:
     """Return a share with its Clopper-Pearson interval of 95 %."""
-    from scipy.stats import beta
-
-    low = float(beta.ppf(0.025, hits, count - hits + 1)) if hits else 0.0
-    high = float(beta.ppf(0.975, hits + 1, count - hits)) if hits < count else 1.0
-    return f"{hits} of {count} = {100 * hits / max(count, 1):.1f} % [{100 * low:.1f}, {100 * high:.1f}]"
+    rate = estimate_rate(hits, count)
+    return f"{hits} of {count} = {100 * rate.share:.1f} % [{100 * rate.low:.1f}, {100 * rate.high:.1f}]"
 
 
 def split_by(rows: list[dict[str, object]], key: str, edges: list[float]) -> Iterator[tuple[str, list[dict]]]:

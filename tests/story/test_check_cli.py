@@ -2,31 +2,12 @@
 
 import json
 
-import numpy as np
 import pytest
 from click.testing import CliRunner
-from independent import Machine, recording
+from slider_case import CASE, case_in
 
 import lostmotion as lm
 from lostmotion.cli import main
-
-CASE = """
-title = "Slider with backlash"
-
-[[recordings]]
-file = "recording.csv"
-time = "time"
-excitation = { column = "force", quantity = "force", unit = "N" }
-response = { column = "position", quantity = "position", unit = "m" }
-
-[model]
-name = "lin_backlash"
-known = { m = 1.0, k0 = 40000.0, k1 = 0.0 }
-
-[model.estimate]
-c = { low = 0.8, high = 80.0, scale = "log" }
-x0 = { low = 5e-4, high = 5e-2, scale = "log" }
-"""
 
 
 def check(*args):
@@ -38,11 +19,7 @@ def check(*args):
 def case(tmp_path_factory):
     """Return a case of an oscillator with backlash that lacks nothing."""
     folder = tmp_path_factory.mktemp("checked")
-    made = recording(Machine(coulomb=0.0), periods=25, per_period=100, seed=7)
-    rows = np.column_stack([made.time, made.force, made.position])
-    np.savetxt(folder / "recording.csv", rows, delimiter=",", header="time,force,position", comments="", fmt="%.9g")
-    (folder / "case.toml").write_text(CASE, encoding="utf-8")
-    return folder / "case.toml"
+    return case_in(folder, 0.0)
 
 
 @pytest.fixture(scope="module")

@@ -54,11 +54,9 @@ def command(ctx: click.Context, /, case: Path, out: Path, model: str, as_json: b
 
 def _refuse_robot(path: Path, ctx: click.Context) -> None:
     """Raise a `CaseError` for a case of a robot."""
-    from lostmotion.case.reading import parse_case
-    from lostmotion.simulators import INVERSE
+    from lostmotion.robots import is_robot_case
 
-    model = parse_case(path).get("model")
-    if isinstance(model, dict) and {INVERSE, *registry_of(ctx).names("simulator")} & model.keys():
+    if is_robot_case(path, registry_of(ctx)):
         raise CaseError(
             f"{path.name} is the case of a robot, and only machines with equations of motion can be checked before the"
             " fit: run `lostmotion diagnose`, which first checks signs, units, clocks and parameters of a robot"

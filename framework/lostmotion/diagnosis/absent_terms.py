@@ -8,16 +8,17 @@ from collections.abc import Iterable
 from lostmotion.diagnosis.expected_findings import (
     describe_place,
     describe_shape,
+    describe_share,
     describe_term,
     list_shape,
     name_amplitude,
+    name_term,
 )
 from lostmotion.diagnosis.stages import SearchResult, list_fitted_keys
 from lostmotion.evidence.bounds import ALIKE, NONLINEAR, SizeBound, bound_absent
 from lostmotion.inference.natural import find_term
 from lostmotion.likelihood.system import key_of
 from lostmotion.report.words import angles_in, format_size, sentence
-from lostmotion.results import percent
 from lostmotion.results.absent import AbsentTerm, UnlimitedTerm
 from lostmotion.results.diagnosis import Mechanism, OpenTerm
 
@@ -46,15 +47,9 @@ def list_absent(d: SearchResult, found: Iterable[Mechanism], rest: Iterable[Open
     with angles_in(angle):
         told = [_make_absent(d, bound) for bound in bounds if not bound.why]
     limited = {(one.mechanism, one.at) for one in told}
-    others = {one.key: one for one in bounds if one.why and _get_name(d, one.key) not in limited}
+    others = {one.key: one for one in bounds if one.why and name_term(d.before.problem, one.key) not in limited}
     told.sort(key=lambda one: (one.share_of_drive is None, one.share_of_drive or 0.0))
     return tuple(told), tuple(_make_unlimited(d, one) for one in others.values())
-
-
-def _get_name(d: SearchResult, key: str) -> tuple[str, str]:
-    """Return name and place of a term."""
-    term, _ = find_term(d.before.problem, key)
-    return term.name, term.at
 
 
 def _make_absent(d: SearchResult, bound: SizeBound) -> AbsentTerm:
@@ -62,7 +57,6 @@ def _make_absent(d: SearchResult, bound: SizeBound) -> AbsentTerm:
     term, slots = find_term(problem, bound.key)
     shape, unit = list_shape(slots, bound.shape), bound.slots[0].unit
     share = bound.force if math.isfinite(bound.force) else None
-    drive = f" ({percent(share)} of {d.yardstick})" if share is not None else ""
     return AbsentTerm(
         mechanism=term.name,
         at=term.at,
@@ -71,8 +65,8 @@ def _make_absent(d: SearchResult, bound: SizeBound) -> AbsentTerm:
         unit=unit,
         share_of_drive=share,
         given={slot.param.name: bound.shape[slot.key] for slot in shape},
-        says=f"no {describe_term(problem, bound.key, bound.slots)} above {format_size(bound.upper, unit)}{drive}"
-        f"{describe_shape(shape, bound.shape)}",
+        says=f"no {describe_term(problem, bound.key, bound.slots)} above {format_size(bound.upper, unit)}"
+        f"{describe_share(share, d.yardstick)}{describe_shape(shape, bound.shape)}",
     )
 
 

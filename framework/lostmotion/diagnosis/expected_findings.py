@@ -79,7 +79,7 @@ def describe_expectation(forecast: Forecast, yardstick: str, angle: str = "rad")
         rows = forecast.list_detectable()
         effects = [_make_detection(problem, row, yardstick) for row in rows if math.isfinite(row.size)]
         seen = {(one.mechanism, one.at) for one in effects}
-        lost = {row.key: row for row in rows if _name(problem, row.key) not in seen}
+        lost = {row.key: row for row in rows if name_term(problem, row.key) not in seen}
         unseen = tuple(_make_unseen(problem, row) for row in lost.values())
     effects.sort(key=lambda one: (one.share_of_drive is None, one.share_of_drive or 0.0))
     return Expectation(
@@ -116,7 +116,7 @@ def _list_pairs(forecast: Forecast) -> tuple[ParameterPair, ...]:
     return tuple(sorted((r for r in rows if abs(r.correlation) > CORRELATED), key=lambda r: -abs(r.correlation)))
 
 
-def _name(problem: Problem, key: str) -> tuple[str, str]:
+def name_term(problem: Problem, key: str) -> tuple[str, str]:
     """Return name and place of a term."""
     term, _ = find_term(problem, key)
     return term.name, term.at
@@ -126,7 +126,6 @@ def _make_detection(problem: Problem, row: Detectable, yardstick: str) -> Detect
     term, slots = find_term(problem, row.key)
     shape = list_shape(slots, row.shape)
     share = row.share if math.isfinite(row.share) else None
-    drive = f" ({percent(share)} of {yardstick})" if share is not None else ""
     rivals = tuple(dict.fromkeys(find_term(problem, key)[0].name for key in row.rivals))
     beside = f", as it or {' or '.join(map(to_words, rivals))}" if rivals else ""
     return Detection(
@@ -139,7 +138,7 @@ def _make_detection(problem: Problem, row: Detectable, yardstick: str) -> Detect
         given={slot.param.name: row.shape[slot.key] for slot in shape},
         confused_with=rivals,
         says=f"{describe_term(problem, row.key, row.slots)} from {format_size(row.size, row.slots[0].unit)}"
-        f"{drive}{beside}{describe_shape(shape, row.shape)}",
+        f"{describe_share(share, yardstick)}{beside}{describe_shape(shape, row.shape)}",
     )
 
 
@@ -158,6 +157,11 @@ def name_amplitude(slots: Sequence[Slot]) -> str:
     """Return the name of an amplitude; that of the two of a wave is `amplitude`."""
     name = slots[0].param.name
     return "amplitude" if name in WAVE else name
+
+
+def describe_share(share: float | None, yardstick: str) -> str:
+    """Return a share of the drive, or of another yardstick, in brackets; empty where it is not known."""
+    return "" if share is None else f" ({percent(share)} of {yardstick})"
 
 
 def list_shape(slots: Sequence[Slot], values: Mapping[str, float]) -> list[Slot]:

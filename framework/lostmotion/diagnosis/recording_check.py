@@ -12,7 +12,7 @@ from lostmotion.diagnosis.expected_findings import describe_expectation, forecas
 from lostmotion.diagnosis.improvements import list_improvements
 from lostmotion.diagnosis.moving import check_motion, cut_rest
 from lostmotion.diagnosis.report.check_page import summarise_check, write_check
-from lostmotion.diagnosis.stages import list_fitted_keys
+from lostmotion.diagnosis.stages import list_fitted_keys, name_yardstick
 from lostmotion.diagnosis.verdict import find_angle_unit, label_model
 from lostmotion.errors import DataError
 from lostmotion.inference.fit import Fit
@@ -79,8 +79,7 @@ def check_prepared(
             f"{recordings[0].name}: the nominal model cannot follow this recording: check the units and columns of"
             " inputs and sensors, the known values and the priors"
         )
-    free = recordings[0].free
-    angle, yardstick = find_angle_unit(case), "the inertial force" if free else "the drive"
+    angle, yardstick = find_angle_unit(case), name_yardstick(recordings[0])
     expected = describe_expectation(forecast, yardstick, angle)
     say("what would help")
     improvements = list_improvements(nominal, list_fitted_keys(system), case.experiment, rng)
@@ -92,7 +91,7 @@ def check_prepared(
         angle=angle,
         expected=expected,
         improvements=improvements,
-        notes=(*_write_notes(nominal, improvements, free=free), *prepared.notes),
+        notes=(*_write_notes(nominal, improvements, free=recordings[0].free), *prepared.notes),
         provenance=origin_of("check", {"model": case.model, "known": dict(case.known)}, seed, prepared.inputs),
     )
 

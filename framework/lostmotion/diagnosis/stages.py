@@ -134,7 +134,7 @@ class SearchResult:
     @property
     def yardstick(self) -> str:
         """The force with which other forces are compared: the drive, or for a free motion the inertial force."""
-        return "the inertial force" if self.shown.free else "the drive"
+        return name_yardstick(self.shown)
 
     @property
     def corrected(self) -> tuple[Observation, ...]:
@@ -150,6 +150,11 @@ class SearchResult:
     def unknown(self) -> bool:
         """Whether a force with structure is missing that no term of the library explains."""
         return bool(self.learned) or (not self.found and self.unexplained and bool(self.located.structure))
+
+
+def name_yardstick(observation: Observation) -> str:
+    """Return the force with which other forces are compared: the drive, or for a free motion the inertial force."""
+    return "the inertial force" if observation.free else "the drive"
 
 
 def diagnose(

@@ -24,7 +24,8 @@ from lostmotion.evidence.effects import (
     linearise_all,
     set_amplitude,
 )
-from lostmotion.evidence.hypothesis import WAVE, Hypothesis
+from lostmotion.evidence.expansion import compute_cross_information, differentiate_density
+from lostmotion.evidence.hypothesis import Hypothesis, group_amplitudes
 from lostmotion.inference.fit import solve_scaled
 from lostmotion.inference.natural import compute_size, find_term, sort_slots
 from lostmotion.inference.penalties import is_simpler
@@ -86,18 +87,19 @@ def bound_absent(found: Hypothesis, keys: Sequence[str]) -> list[SizeBound]:
 def compute_amplitudes(found: Hypothesis, effect: TermEffect) -> AmplitudePosterior:
     """Return the posterior of the amplitudes of a term beside a hypothesis, with a flat prior."""
     expansion, used = found.expansion, found.used
-    e, v = expansion.here.errors, expansion.here.variances
-    weighted, spread = effect.errors / v, 0.5 * effect.variances / v**2
-    own = weighted @ effect.errors.T + spread @ effect.variances.T
-    cross = weighted @ expansion.errors[used].T + spread @ expansion.variances[used].T
-    gradient = effect.errors @ (-e / v) + effect.variances @ (0.5 * (e * e / v - 1.0) / v)
+    here = expansion.here
+    own = compute_cross_information(here, effect.errors, effect.variances, effect.errors, effect.variances)
+    beside = expansion.errors[used], expansion.variances[used]
+    cross = compute_cross_information(here, effect.errors, effect.variances, *beside)
+    over_errors, over_variances = differentiate_density(here)
+    gradient = effect.errors @ over_errors + effect.variances @ over_variances
     told = np.diag(own)
     scale = 1.0 / np.sqrt(np.where(told > 0.0, told, 1.0))
     covariance = _invert(own - cross @ found.joint_covariance @ cross.T, scale)
     mean = covariance @ (gradient - cross @ found.joint_covariance @ found.pull)
     mine = cross[:, : found.frame.own]
-    beside = expansion.information[: found.frame.own, : found.frame.own]
-    alone = _invert(own - mine @ solve_scaled(beside, mine.T), scale)
+    known = expansion.information[: found.frame.own, : found.frame.own]
+    alone = _invert(own - mine @ solve_scaled(known, mine.T), scale)
     alike = told * np.diag(alone) > 1.0 / DISTINCT
     return AmplitudePosterior(mean, found.scatter * covariance, alike)
 
@@ -111,7 +113,7 @@ def _invert(left: Array, scale: Array) -> Array:
 def _bound_term(found: Hypothesis, problem: Problem, filtered: Sequence[Tangents], key: str) -> Iterator[SizeBound]:
     """Yield the bounds of the amplitudes of a term at its usual shape."""
     shape, (amplitudes, _) = get_usual_shape(problem, key), sort_slots(problem, key)
-    groups = group_amplitudes(problem, key, amplitudes)
+    groups = list_bounded(problem, key, amplitudes)
     if shape is None or not groups:
         return
     theta = found.at[: len(problem.free)]
@@ -141,21 +143,16 @@ def _bound_term(found: Hypothesis, problem: Problem, filtered: Sequence[Tangents
         yield SizeBound(key, slots, shape, math.inf if reason else float(upper), share, reason)
 
 
-def group_amplitudes(problem: Problem, key: str, amplitudes: Sequence[Slot]) -> list[list[int]]:
-    """Return the indices of the amplitudes that are bounded: each alone, those of a wave together.
+def list_bounded(problem: Problem, key: str, amplitudes: Sequence[Slot]) -> list[list[int]]:
+    """Return the indices of the amplitudes that are bounded, in groups (`group_amplitudes`).
 
-    An amplitude that a simpler law has too is that law's, not this one's. Beside a law of the model that it contains, a
-    richer law has its further amplitudes only; without any, it has none.
+    Beside a simpler law of the model that it contains, a richer law has its further amplitudes only; without any, it
+    has none.
     """
     term, system = find_term(problem, key)[0], problem.system
-    simpler = [(k, t) for k, t in zip(system.keys, system.terms, strict=True) if is_simpler(t, term)]
-    shared = {q.name for _, t in simpler for q in t.params}
-    further = [k for k, s in enumerate(amplitudes) if s.param.name not in shared]
-    if any(k in problem.active for k, _ in simpler) and len(further) in (0, len(amplitudes)):
-        return []
-    own = further or list(range(len(amplitudes)))
-    waves = [k for k in own if amplitudes[k].param.name in WAVE]
-    return [[k] for k in own if k not in waves] + ([waves] if waves else [])
+    groups = group_amplitudes(problem, key, amplitudes)
+    beside = any(k in problem.active for k, t in zip(system.keys, system.terms, strict=True) if is_simpler(t, term))
+    return [] if beside and sum(map(len, groups)) == len(amplitudes) else groups
 
 
 def _bound_group(posterior: AmplitudePosterior, amplitudes: Sequence[Slot], group: Sequence[int]) -> float:

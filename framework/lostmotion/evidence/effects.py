@@ -16,7 +16,7 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.evidence.discrepancy import Choice, Quadratic
-from lostmotion.evidence.expansion import Expansion
+from lostmotion.evidence.expansion import Expansion, compute_cross_information, differentiate_density
 from lostmotion.evidence.hypothesis import Hypothesis, solve_posterior
 from lostmotion.inference.candidates import make_term_parameters
 from lostmotion.inference.far_values import hold_shape
@@ -241,15 +241,14 @@ def join_effects(expansion: Expansion, effects: Sequence[TermEffect]) -> Expansi
         blocks={**expansion.blocks, **blocks},
     )
     # the large block is known already: only the rows of the terms are computed
-    new, v = slice(first, None), expansion.here.variances
-    cross = (errors / v) @ joined.errors.T + 0.5 * (variances / v**2) @ joined.variances.T
+    new = slice(first, None)
+    cross = compute_cross_information(expansion.here, errors, variances, joined.errors, joined.variances)
     information = np.zeros((len(joined.at), len(joined.at)))
     information[:first, :first] = expansion.information
     information[new], information[:, new] = cross, cross.T
     joined.__dict__["information"] = information
-    e = expansion.here.errors
-    scores = errors @ (-e / v) + variances @ (0.5 * (e * e / v - 1.0) / v)
-    joined.__dict__["gradient"] = np.append(expansion.gradient, scores)
+    over_errors, over_variances = differentiate_density(expansion.here)
+    joined.__dict__["gradient"] = np.append(expansion.gradient, errors @ over_errors + variances @ over_variances)
     return joined
 
 

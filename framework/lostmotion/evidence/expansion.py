@@ -52,9 +52,9 @@ class Expansion:
 
         It is not finite where the filter has nearly diverged.
         """
-        e, v = there.errors.ravel(), there.variances.ravel()
         with np.errstate(over="ignore", invalid="ignore"):
-            return np.asarray(self.errors @ (-e / v) + self.variances @ (0.5 * (e * e / v - 1.0) / v))
+            over_errors, over_variances = differentiate_density(there)
+            return np.asarray(self.errors @ over_errors + self.variances @ over_variances)
 
     @cached_property
     def information(self) -> Array:
@@ -96,8 +96,8 @@ class Expansion:
 
     def measure_scatter_of(self, rows: NDArray[np.intp]) -> float:
         """Return the same for the coordinates with some indices."""
-        e, v = self.here.errors, self.here.variances
-        scores = self.errors[rows] * (-e / v) + self.variances[rows] * (0.5 * (e * e / v - 1.0) / v)
+        over_errors, over_variances = differentiate_density(self.here)
+        scores = self.errors[rows] * over_errors + self.variances[rows] * over_variances
         sums = np.array([part.sum(axis=1) for part in np.array_split(scores, BLOCKS, axis=1)])
         stated = np.diag(self.information)[rows]
         told = stated > 0.0
@@ -114,6 +114,20 @@ class Expansion:
         whitened = [_compute_inverse_root(self.information[np.ix_(i, i)]) for i in (rows, columns)]
         cross = whitened[0].T @ self.information[np.ix_(rows, columns)] @ whitened[1]
         return float(min(np.linalg.svd(cross, compute_uv=False)[0], 1.0)) if cross.size else 0.0
+
+
+def differentiate_density(here: Innovations) -> tuple[Array, Array]:
+    """Return the derivatives (readings,) of the log-likelihood over one-step errors and over their variances."""
+    e, v = here.errors.ravel(), here.variances.ravel()
+    return -e / v, 0.5 * (e * e / v - 1.0) / v
+
+
+def compute_cross_information(
+    here: Innovations, errors: Array, variances: Array, other_errors: Array, other_variances: Array
+) -> Array:
+    """Return the expected information (m, n) between m and n coordinates, from derivatives (m or n, readings)."""
+    v = here.variances
+    return np.asarray((errors / v) @ other_errors.T + 0.5 * (variances / v**2) @ other_variances.T)
 
 
 def compute_log_evidence(gradient: Array, information: Array, widths: Array) -> float:

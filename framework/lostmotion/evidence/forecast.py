@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from scipy.stats import norm
 
 from lostmotion.contracts import Array
-from lostmotion.evidence.bounds import DISTINCT, FIRST, Amplitudes, group_amplitudes, measure_share
+from lostmotion.evidence.bounds import DISTINCT, FIRST, Amplitudes, list_bounded, measure_share
 from lostmotion.evidence.channel_errors import list_channel_errors
 from lostmotion.evidence.discrepancy import make_frame
 from lostmotion.evidence.effects import (
@@ -162,7 +162,7 @@ class Forecast:
     def _find_sizes(self, key: str) -> list[Detectable]:
         problem, effect = self.found.frame.problem, self.effects[key]
         found = []
-        for group in group_amplitudes(problem, key, effect.amplitudes):
+        for group in list_bounded(problem, key, effect.amplitudes):
             slots = tuple(effect.amplitudes[k] for k in group)
             if parameter := self._find_alike(key, group):
                 found.append(Detectable(key, slots, effect.shape, math.inf, alike=parameter))

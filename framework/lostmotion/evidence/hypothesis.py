@@ -25,6 +25,7 @@ from lostmotion.inference.fit import STRIDE, choose_first_steps, solve_scaled
 from lostmotion.inference.natural import find_term, sort_slots
 from lostmotion.inference.penalties import is_simpler
 from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.system import Slot
 
 UNKNOWN = "unknown"
 """The name of a smooth force that is larger than the usual discrepancy, among the terms of a set."""
@@ -113,35 +114,36 @@ class Hypothesis:
     def pull(self) -> Array:
         """The gradient (used,) of the log posterior over the free coordinates: close to zero, but for bounds."""
         prior = _compute_precision(self.frame, self.expansion, self.choice)
-        middle = np.concatenate([self.expansion.middle[: self.frame.own], self.frame.middle])
-        return np.asarray((self.expansion.gradient - prior * (self.at - middle))[self.used])
+        return _compute_pull(self.frame, self.expansion, prior)[self.used]
 
 
 def list_vague(found: Hypothesis, key: str) -> list[str]:
     """Return the amplitudes of a term, by the name of the parameter, whose 95 % region contains zero.
 
-    The cosine and the sine of a wave are one amplitude: which of them is small depends on the phase alone. Of a law
-    that contains a simpler one, those count that the simpler one lacks: they tell the two apart.
+    Those of a wave are one amplitude (`group_amplitudes`).
     """
     free = found.frame.problem.free[: found.frame.own]
     places = {f.key: i for i, f in enumerate(free) if not f.log}
     slots = [s for s in sort_slots(found.frame.problem, key)[0] if s.key in places]
-    common = _list_common_amplitudes(found.frame.problem, key)
-    slots = [s for s in slots if s.param.name not in common] or slots
-    rows = [[s] for s in slots if s.param.name not in WAVE]
-    waves = [s for s in slots if s.param.name in WAVE]
+    rows = [[slots[k] for k in group] for group in group_amplitudes(found.frame.problem, key, slots)]
     return [
         " and ".join(s.param.name for s in row)
-        for row in (*rows, waves)
-        if row and _is_vague(found, [places[s.key] for s in row], [s.param.null or 0.0 for s in row])
+        for row in rows
+        if _is_vague(found, [places[s.key] for s in row], [s.param.null or 0.0 for s in row])
     ]
 
 
-def _list_common_amplitudes(problem: Problem, key: str) -> set[str]:
-    """Return the names of the amplitudes that a term has in common with the simpler laws that it contains."""
+def group_amplitudes(problem: Problem, key: str, amplitudes: Sequence[Slot]) -> list[list[int]]:
+    """Return the indices of the amplitudes that tell a term from other laws: each alone, those of a wave together.
+
+    Which of the cosine and the sine of a wave is small depends on the phase alone. Of a law that contains simpler ones,
+    those count that the simpler ones lack, if there are any.
+    """
     term, _ = find_term(problem, key)
-    simpler = [other for other in problem.system.terms if is_simpler(other, term)]
-    return {param.name for other in simpler for param in other.params if param.null is not None}
+    shared = {param.name for other in problem.system.terms if is_simpler(other, term) for param in other.params}
+    own = [k for k, s in enumerate(amplitudes) if s.param.name not in shared] or list(range(len(amplitudes)))
+    waves = [k for k in own if amplitudes[k].param.name in WAVE]
+    return [[k] for k in own if k not in waves] + ([waves] if waves else [])
 
 
 def _is_vague(found: Hypothesis, places: Sequence[int], null: Sequence[float]) -> bool:
@@ -252,7 +254,7 @@ def compute_step(frame: JointFrame, expansion: Expansion, choice: Choice) -> tup
     """
     free, at = frame.problem.free[: frame.own], expansion.at
     precision = _compute_precision(frame, expansion, choice)
-    gradient = expansion.gradient - precision * (at - np.concatenate([expansion.middle[: frame.own], frame.middle]))
+    gradient = _compute_pull(frame, expansion, precision)
     low, high = _list_bounds(frame)
     pressed = ((at <= low) & (gradient < 0.0)) | ((at >= high) & (gradient > 0.0))
     step = solve_posterior(frame, expansion, choice, np.flatnonzero(pressed).tolist())
@@ -263,6 +265,12 @@ def compute_step(frame: JointFrame, expansion: Expansion, choice: Choice) -> tup
     step = np.clip(at + step, low, high) - at
     curved = float(step @ expansion.information @ step) + float(np.sum(precision * step**2))
     return step, float(gradient @ step) - 0.5 * curved
+
+
+def _compute_pull(frame: JointFrame, expansion: Expansion, precision: Array) -> Array:
+    """Return the gradient (count,) of the log posterior over all coordinates."""
+    middle = np.concatenate([expansion.middle[: frame.own], frame.middle])
+    return np.asarray(expansion.gradient - precision * (expansion.at - middle))
 
 
 def _list_bounds(frame: JointFrame) -> tuple[Array, Array]:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import html
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from lostmotion.codec import to_plain
 from lostmotion.diagnosis.report import check_page as drawing
+from lostmotion.notebook.answers import Answer, format_answer
 from lostmotion.report import style
 from lostmotion.results import Interval
 from lostmotion.results.expectation import CaseCheck, Detection, Improvement, ParameterPair
@@ -38,30 +37,15 @@ class CheckPlots:
         """Return the smallest sizes of terms that would be named, as shares of the drive."""
         with style.use_style(self.result.angle):
             made = drawing.draw_effects(self.result.expected, self.result.yardstick)
-            if made is None:
-                made = style.make_figure(1.0)
-                made.text(0.5, 0.5, "no force would be named", ha="center", va="center")
-        return made
+            return made or style.make_note("no force would be named")
 
 
 @dataclass(frozen=True)
-class CheckResult:
+class CheckResult(Answer[CaseCheck]):
     """The result of `lostmotion.check`; its representation is the answer in words.
 
     `result` is the content of `check.json`.
     """
-
-    result: CaseCheck
-
-    @property
-    def says(self) -> tuple[str, ...]:
-        """The result in sentences."""
-        return self.result.says
-
-    @property
-    def notes(self) -> tuple[str, ...]:
-        """Limitations of the result, and notes on the recordings."""
-        return self.result.notes
 
     @property
     def parameters(self) -> Mapping[str, Interval]:
@@ -88,11 +72,6 @@ class CheckResult:
         """The figure: `plot.effects()`."""
         return CheckPlots(self.result)
 
-    def to_dict(self) -> dict[str, Any]:
-        """Return the content of `check.json`."""
-        made: dict[str, Any] = to_plain(self.result)
-        return made
-
     def report(self, path: str | Path = "check.html") -> Path:
         """Write the page as self-contained HTML and return its path."""
         return save_text(Path(path), drawing.render_check(self.result))
@@ -108,11 +87,10 @@ class CheckResult:
         return "\n".join([f"{self.result.title}: {self.result.model}", *self.says])
 
     def _repr_html_(self) -> str:
-        items = "".join(f"<li>{html.escape(one)}</li>" for one in self.says)
         with style.use_style(self.result.angle):
             drawn = drawing.draw_effects(self.result.expected, self.result.yardstick, most=drawing.SHOWN)
             figure = style.embed_figure(drawn, "effects") if drawn else ""
-        return f"<h4>{html.escape(self.result.title)}: check before the fit</h4><ul>{items}</ul>{figure}"
+        return format_answer(f"{self.result.title}: check before the fit", self.says, figure)
 
 
 def load_check(folder: Path) -> CheckResult:

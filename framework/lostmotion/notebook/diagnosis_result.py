@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import html
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -12,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lostmotion.case import GUESSED
-from lostmotion.codec import from_plain, to_plain
+from lostmotion.codec import from_plain
 from lostmotion.diagnosis.findings import Outcome
 from lostmotion.diagnosis.report import (
     absent_table,
@@ -27,12 +26,12 @@ from lostmotion.diagnosis.report import (
 from lostmotion.diagnosis.report.page_data import Evidence, make_evidence
 from lostmotion.identification.arviz_groups import predict_readings
 from lostmotion.inference import mixture
+from lostmotion.notebook.answers import DiagnosisAnswer, format_answer
 from lostmotion.notebook.machine import FittedModel, make_fitted_model, restore_fitted_model
 from lostmotion.registry import Registry, default
 from lostmotion.report import style
-from lostmotion.results import Interval
 from lostmotion.results.absent import AbsentTerm
-from lostmotion.results.diagnosis import Candidate, Diagnosis, HeldOutScore, Mechanism
+from lostmotion.results.diagnosis import Candidate, Diagnosis
 from lostmotion.storage import folder_for, load_arrays, load_json, save_datasets, save_json, save_text
 
 if TYPE_CHECKING:
@@ -97,50 +96,24 @@ class DiagnosisPlots:
     def _draw(self, draw: Callable[[Evidence], Figure | None]) -> Figure:
         """Return a figure, or a figure with a short text where there is nothing to draw."""
         with style.use_style(self.evidence.result.units.angle):
-            made = draw(self.evidence)
-            if made is None:
-                made = style.make_figure(1.0)
-                made.text(0.5, 0.5, "there is nothing to draw here", ha="center", va="center")
-        return made
+            return draw(self.evidence) or style.make_note("there is nothing to draw here")
 
 
 @dataclass(frozen=True, eq=False)
-class DiagnosisResult:
+class DiagnosisResult(DiagnosisAnswer[Diagnosis]):
     """The result of `lostmotion.diagnose`; its representation is the answer in words.
 
     `result` is the diagnosis with the content of `diagnosis.json`, `arrays` the dataset behind it; `outcome` holds the
     fits behind both, where the diagnosis was made in this session.
     """
 
-    result: Diagnosis
-    arrays: xr.Dataset
     registry: Registry = field(repr=False)
     outcome: Outcome | None = field(default=None, repr=False)
-
-    @property
-    def verdict(self) -> str:
-        """Whether the model is "adequate", or there is a "mismatch"."""
-        return self.result.verdict
-
-    @property
-    def says(self) -> tuple[str, ...]:
-        """The result in sentences."""
-        return self.result.says
-
-    @property
-    def notes(self) -> tuple[str, ...]:
-        """Notes on the recordings and on the limitations of the result."""
-        return self.result.notes
 
     @property
     def _guesses(self) -> tuple[str, ...]:
         """The notes on what the case supposes."""
         return tuple(note for note in self.notes if note.startswith(GUESSED))
-
-    @property
-    def found(self) -> tuple[Mechanism, ...]:
-        """The missing mechanisms: named ones first, open ones last."""
-        return self.result.found
 
     @property
     def absent(self) -> tuple[AbsentTerm, ...]:
@@ -151,21 +124,6 @@ class DiagnosisResult:
     def ranking(self) -> tuple[Candidate, ...]:
         """All candidates, the most probable first."""
         return self.result.ranking
-
-    @property
-    def parameters_before(self) -> Mapping[str, Interval]:
-        """The parameters of the nominal model, by name."""
-        return self.result.parameters.before
-
-    @property
-    def parameters_after(self) -> Mapping[str, Interval]:
-        """The parameters of the model with the found mechanisms, by name."""
-        return self.result.parameters.after
-
-    @property
-    def heldout(self) -> Mapping[str, HeldOutScore]:
-        """The prediction scores of the models "before" and "after" on held-out data."""
-        return {"before": self.result.fit.before, "after": self.result.fit.after}
 
     @cached_property
     def model(self) -> FittedModel:
@@ -183,15 +141,6 @@ class DiagnosisResult:
     def plot(self) -> DiagnosisPlots:
         """The figures: `plot.prediction()`, `.missing_force()`, `.ranking()`, `.parameters()`, `.sections()`."""
         return DiagnosisPlots(self.evidence)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return the content of `diagnosis.json`."""
-        made: dict[str, Any] = to_plain(self.result)
-        return made
-
-    def to_xarray(self) -> xr.Dataset:
-        """Return the arrays behind the diagnosis, with units and coordinates."""
-        return self.arrays
 
     def to_arviz(self) -> xr.DataTree:
         """Return the groups of ArviZ as a tree: draws of the parameters after (one chain), and the observed data.
@@ -249,12 +198,10 @@ class DiagnosisResult:
         return "\n".join(lines)
 
     def _repr_html_(self) -> str:
-        items = "".join(f"<li>{html.escape(one)}</li>" for one in self._list_sentences())
         with style.use_style(self.evidence.result.units.angle):
             drawn = prediction.draw(self.evidence)
             figure = style.embed_figure(drawn, "prediction") if drawn else ""
-        title = html.escape(self.result.title)
-        return f"<h4>{title}: {html.escape(self.verdict)}</h4><ul>{items}</ul>{figure}"
+        return format_answer(f"{self.result.title}: {self.verdict}", self._list_sentences(), figure)
 
 
 def load_diagnosis(folder: Path, registry: Registry | None = None) -> DiagnosisResult:

@@ -6,12 +6,13 @@ import html
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from lostmotion.codec import to_plain
 from lostmotion.identification.report import figures as drawing
 from lostmotion.identification.report import identification_page as page
 from lostmotion.identification.report.view import DRAWS, RERUN_HINT, RESULT, IdentificationView, make_view
+from lostmotion.notebook.answers import Answer, format_answer
 from lostmotion.report import style
 from lostmotion.results import Interval
 from lostmotion.results.identification import Identification
@@ -47,26 +48,15 @@ class PosteriorPlots:
 
 
 @dataclass(frozen=True, eq=False)
-class IdentificationResult:
+class IdentificationResult(Answer[Identification]):
     """The result of `lostmotion.identify`: `result` is the content of `identification.json`, `groups` of ArviZ."""
 
-    result: Identification
     groups: Mapping[str, xr.Dataset] = field(repr=False)
 
     @property
     def converged(self) -> bool:
         """Whether the chain has converged; without convergence there are no intervals."""
         return self.result.converged
-
-    @property
-    def says(self) -> tuple[str, ...]:
-        """The state of the chain in sentences."""
-        return self.result.says
-
-    @property
-    def notes(self) -> tuple[str, ...]:
-        """Notes on the recordings and on the limitations of the intervals."""
-        return self.result.notes
 
     @property
     def parameters(self) -> Mapping[str, Interval]:
@@ -82,11 +72,6 @@ class IdentificationResult:
     def plot(self) -> PosteriorPlots:
         """The figures: `plot.corner()` and `plot.trace()`."""
         return PosteriorPlots(self.view)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return the content of `identification.json`."""
-        made: dict[str, Any] = to_plain(self.result)
-        return made
 
     def to_xarray(self) -> xr.Dataset:
         """Return the draws of each parameter (chain, draw), with units."""
@@ -119,8 +104,7 @@ class IdentificationResult:
         rows = "".join(
             f"<tr><td>{html.escape(k)}</td><td>{html.escape(str(v))}</td></tr>" for k, v in self.parameters.items()
         )
-        items = "".join(f"<li>{html.escape(one)}</li>" for one in self.says)
-        return f"<h4>{html.escape(self.result.title)}</h4><ul>{items}</ul><table>{rows}</table>"
+        return format_answer(self.result.title, self.says, f"<table>{rows}</table>")
 
 
 def load_identification(folder: Path) -> IdentificationResult:

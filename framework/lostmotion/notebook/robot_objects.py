@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import html
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -13,12 +12,11 @@ from typing import TYPE_CHECKING, Any, NoReturn
 import numpy as np
 
 from lostmotion.case import Prior
-from lostmotion.codec import to_plain
 from lostmotion.errors import CaseError, DataError
+from lostmotion.notebook.answers import DiagnosisAnswer, format_answer
 from lostmotion.recording import Recording
 from lostmotion.report import style
-from lostmotion.results import Interval
-from lostmotion.results.diagnosis import Candidate, HeldOutScore, Mechanism
+from lostmotion.results.diagnosis import Candidate
 from lostmotion.results.robots import Check, RobotDiagnosis
 from lostmotion.robots.arm_case import RobotCase
 from lostmotion.robots.arm_model import RobotModel
@@ -155,31 +153,14 @@ class RobotPlots:
 
 
 @dataclass(frozen=True, eq=False)
-class RobotResult:
+class RobotResult(DiagnosisAnswer[RobotDiagnosis]):
     """The result of `lostmotion.diagnose` for a robot; its representation is the answer in words.
 
     `result` is the diagnosis with the content of `diagnosis.json`, `arrays` the dataset behind it, `written` the text
     of the model with what was found.
     """
 
-    result: RobotDiagnosis
-    arrays: xr.Dataset
     written: str | None = field(repr=False)
-
-    @property
-    def verdict(self) -> str:
-        """Whether the model is "adequate", or there is a "mismatch"."""
-        return self.result.verdict
-
-    @property
-    def says(self) -> tuple[str, ...]:
-        """The result in sentences."""
-        return self.result.says
-
-    @property
-    def notes(self) -> tuple[str, ...]:
-        """Notes on the log and on the limitations of the result."""
-        return self.result.notes
 
     @property
     def checks(self) -> tuple[Check, ...]:
@@ -187,29 +168,9 @@ class RobotResult:
         return self.result.checks
 
     @property
-    def found(self) -> tuple[Mechanism, ...]:
-        """The missing mechanisms, the surest first."""
-        return self.result.found
-
-    @property
     def ranking(self) -> tuple[Candidate, ...]:
         """Every set of mechanisms that was fitted, the most probable first."""
         return self.result.ranking
-
-    @property
-    def parameters_before(self) -> Mapping[str, Interval]:
-        """The estimated values and random forces of the nominal model, by name."""
-        return self.result.parameters.before
-
-    @property
-    def parameters_after(self) -> Mapping[str, Interval]:
-        """The same for the model with the found mechanisms."""
-        return self.result.parameters.after
-
-    @property
-    def heldout(self) -> Mapping[str, HeldOutScore]:
-        """The prediction scores of the models "before" and "after" on held-out data."""
-        return {"before": self.result.fit.before, "after": self.result.fit.after}
 
     @property
     def model(self) -> FoundRobot:
@@ -225,15 +186,6 @@ class RobotResult:
     def plot(self) -> RobotPlots:
         """The figures: `plot.prediction()` and `plot.missing_force()`."""
         return RobotPlots(self.evidence)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return the content of `diagnosis.json`."""
-        made: dict[str, Any] = to_plain(self.result)
-        return made
-
-    def to_xarray(self) -> xr.Dataset:
-        """Return the arrays behind the diagnosis, with units and coordinates."""
-        return self.arrays
 
     def to_arviz(self) -> NoReturn:
         """Raise `CaseError`: the diagnosis of a robot draws no samples."""
@@ -253,9 +205,8 @@ class RobotResult:
         return "\n".join([f"{self.result.title}: {self.verdict}", *self.says])
 
     def _repr_html_(self) -> str:
-        items = "".join(f"<li>{html.escape(one)}</li>" for one in self.says)
         figure = style.embed_figure(self.plot.prediction(), "prediction")
-        return f"<h4>{html.escape(self.result.title)}: {html.escape(self.verdict)}</h4><ul>{items}</ul>{figure}"
+        return format_answer(f"{self.result.title}: {self.verdict}", self.says, figure)
 
 
 def load_robot(folder: Path) -> RobotResult:

@@ -83,6 +83,13 @@ def make_figure(height: float, width: float = WIDTH) -> Figure:
     return Figure(figsize=(width, height), layout=ConstrainedLayoutEngine(w_pad=0.08, h_pad=0.06))
 
 
+def make_note(text: str) -> Figure:
+    """Return a low figure that holds a short text, where there is nothing to draw."""
+    figure = make_figure(1.0)
+    figure.text(0.5, 0.5, text, ha="center", va="center")
+    return figure
+
+
 def scale_of(values: Array, unit: str) -> Scale:
     """Return the scale in which the finite values are easy to read."""
     finite = np.abs(values[np.isfinite(values)])

@@ -8,7 +8,9 @@ gear between them.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numba
 import numpy as np
@@ -104,14 +106,27 @@ def plan_motion(rng: np.random.Generator, samples: int, dt: float) -> tuple[Arra
     q, v, a = np.zeros((3, samples, 2))
     for j, (middle, size) in enumerate(((-0.5 * math.pi, 0.3), (0.0, 0.4))):
         q[:, j] = middle
-        for base in (0.13, 0.31, 0.67, 1.1, 1.9):
-            w = 2.0 * math.pi * base * rng.uniform(0.8, 1.2)
-            amplitude = size * rng.uniform(0.5, 1.2) / (1.0 + (base / 0.6) ** 1.3)
-            angle = w * time + rng.uniform(0.0, 2.0 * math.pi)
-            q[:, j] += amplitude * np.sin(angle)
-            v[:, j] += amplitude * w * np.cos(angle)
-            a[:, j] -= amplitude * w * w * np.sin(angle)
+        add_waves((q[:, j], v[:, j], a[:, j]), time, rng, size=size, paces=(0.13, 0.31, 0.67, 1.1, 1.9))
     return q, v, a
+
+
+def add_waves(
+    motion: tuple[Array, Array, Array],
+    time: NDArray[np.floating[Any]],
+    rng: np.random.Generator,
+    *,
+    size: float,
+    paces: Sequence[float],
+) -> None:
+    """Add random sines about some frequencies (Hz) to position, velocity and acceleration (samples,) of a joint."""
+    q, v, a = motion
+    for base in paces:
+        w = 2.0 * math.pi * base * rng.uniform(0.8, 1.2)
+        amplitude = size * rng.uniform(0.5, 1.2) / (1.0 + (base / 0.6) ** 1.3)
+        angle = w * time + rng.uniform(0.0, 2.0 * math.pi)
+        q += amplitude * np.sin(angle)
+        v += amplitude * w * np.cos(angle)
+        a -= amplitude * w * w * np.sin(angle)
 
 
 def record_motion(

@@ -15,7 +15,7 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from lostmotion_trials.integrators.arm import GRAVITY, Log
+from lostmotion_trials.integrators.arm import GRAVITY, Log, add_waves
 
 Array = NDArray[np.float64]
 STEP = 1e-4
@@ -104,13 +104,7 @@ def plan_chain(rng: np.random.Generator, samples: int, dt: float, joints: int) -
     q, v, a = np.zeros((3, samples, joints))
     for j in range(joints):
         q[:, j] = rng.uniform(-1.0, 1.0)
-        for base in (0.12, 0.29, 0.61, 1.1, 1.7):
-            w = 2.0 * math.pi * base * rng.uniform(0.8, 1.2)
-            amplitude = 0.4 * rng.uniform(0.5, 1.2) / (1.0 + (base / 0.6) ** 1.3)
-            angle = w * time + rng.uniform(0.0, 2.0 * math.pi)
-            q[:, j] += amplitude * np.sin(angle)
-            v[:, j] += amplitude * w * np.cos(angle)
-            a[:, j] -= amplitude * w * w * np.sin(angle)
+        add_waves((q[:, j], v[:, j], a[:, j]), time, rng, size=0.4, paces=(0.12, 0.29, 0.61, 1.1, 1.7))
     return q, v, a
 
 

@@ -62,15 +62,7 @@ def caption(evidence: Evidence) -> str:
 def make_table(evidence: Evidence) -> Grid | None:
     """Return each bound with its share of the drive, and the values of the other parameters for which it holds."""
     rows = evidence.result.absent
-    table = [
-        [
-            label_absent(one, rows),
-            format_size(one.upper, one.unit),
-            DASH if one.share_of_drive is None else percent(one.share_of_drive),
-            one.says.partition(", for ")[2] or DASH,
-        ]
-        for one in rows
-    ]
+    table = [list_size_cells(one, rows, one.upper) for one in rows]
     return Grid(["Not missing", "Larger than", f"Share of {evidence.result.drive.of}", "For"], table)
 
 
@@ -78,6 +70,12 @@ def write_words(evidence: Evidence) -> str:
     """Return the summary, and the terms that the recording does not limit."""
     result = evidence.result
     return " ".join(filter(None, [summarise_absent(result.absent), *(one.says for one in result.unlimited)]))
+
+
+def list_size_cells(one: AbsentTerm | Detection, rows: Sequence[AbsentTerm | Detection], size: float) -> list[str]:
+    """Return the cells of a term: its name, a size, its share of the drive, and the values for which that holds."""
+    share = DASH if one.share_of_drive is None else percent(one.share_of_drive)
+    return [label_absent(one, rows), format_size(size, one.unit), share, one.says.partition(", for ")[2] or DASH]
 
 
 def label_absent(one: AbsentTerm | Detection, rows: Sequence[AbsentTerm | Detection]) -> str:

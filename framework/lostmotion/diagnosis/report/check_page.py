@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from lostmotion.codec import to_plain
 from lostmotion.defaults import USUAL
-from lostmotion.diagnosis.report.absent_table import draw_shares, label_absent
+from lostmotion.diagnosis.report.absent_table import draw_shares, label_absent, list_size_cells
 from lostmotion.diagnosis.report.page_data import Evidence
 from lostmotion.report import style
 from lostmotion.report.pages import Grid, PageSection, draw_sections, load_template, write_page
@@ -160,14 +160,7 @@ def _make_effect_table(result: CaseCheck) -> Grid:
     """Return the smallest size of each term, its share of the drive, and what it cannot be told from."""
     rows = result.expected.effects
     table = [
-        [
-            label_absent(one, rows),
-            format_size(one.smallest, one.unit),
-            DASH if one.share_of_drive is None else percent(one.share_of_drive),
-            one.says.partition(", for ")[2] or DASH,
-            ", ".join(map(to_words, one.confused_with)) or DASH,
-        ]
-        for one in rows
+        [*list_size_cells(one, rows, one.smallest), ", ".join(map(to_words, one.confused_with)) or DASH] for one in rows
     ]
     return Grid(["Term", "Named from", f"Share of {result.yardstick}", "For", "Not told from"], table)
 
