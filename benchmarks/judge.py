@@ -38,8 +38,11 @@ ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUM
 """Each process has one thread, so that its processor time does not depend on the number of cores."""
 
 
-def make_machines(name: str, machines: Path, limit: int) -> list[Path]:
-    """Return the folders of the first machines of a set; those that are missing are written first."""
+def make_machines(name: str, machines: Path, limit: int, fresh: int = 0) -> list[Path]:
+    """Return the folders of the first machines of a set; those that are missing are written first.
+
+    `fresh` is added to the seed of the set: with another number the machines are others.
+    """
     if name == "twelve":
         from judge_machines import make_twelve as make
     elif name == "foreign":
@@ -50,7 +53,7 @@ def make_machines(name: str, machines: Path, limit: int) -> list[Path]:
         from judge_sets import make_imperfect as make
     else:
         from judge_sets import make_clean as make
-    return make(machines / name, limit)
+    return make(machines / name, limit, fresh)
 
 
 def find_machines(name: str, machines: Path, limit: int) -> list[Path]:
@@ -180,7 +183,9 @@ def parse_options() -> argparse.Namespace:
         one.add_argument("--limit", type=int, default=0, help="only the first machines of the set (0: all)")
         if name != "oracle":
             one.add_argument("--set", choices=SETS, required=True)
-        if name != "make":
+        if name == "make":
+            one.add_argument("--fresh", type=int, default=0, help="added to the seed of the set, for other machines")
+        else:
             one.add_argument("--out", type=Path, required=True, help="folder of the rows")
         if name == "run":
             one.add_argument("--code", type=Path, default=Path(), help="checkout whose code is judged")
@@ -202,7 +207,7 @@ def main() -> None:
     """Run one command."""
     args = parse_options()
     if args.command == "make":
-        for folder in make_machines(args.set, args.machines, args.limit):
+        for folder in make_machines(args.set, args.machines, args.limit, args.fresh):
             print(folder)
     elif args.command == "run":
         run_set(args)

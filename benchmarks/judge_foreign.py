@@ -69,11 +69,11 @@ ACCEPT: Mapping[str, tuple[str, ...]] = {
 speed, dry friction, a softening spring, damping that grows with the depth. A Maxwell element has no relative."""
 
 
-def draw_machine(number: int, attempt: int) -> tuple[str, str, BlindMachine, np.random.Generator]:
+def draw_machine(number: int, attempt: int, first: int = SEED) -> tuple[str, str, BlindMachine, np.random.Generator]:
     """Return law and drive of a machine, a random machine for them, and its random numbers."""
     name = list(KINDS)[number % len(KINDS)]
     drive = DRIVES[number // len(KINDS) % len(DRIVES)]
-    rng = np.random.default_rng([SEED, number, attempt])
+    rng = np.random.default_rng([first, number, attempt])
     model = str(rng.choice(KINDS[name][1]))
     natural, mass = draw_log_uniform(rng, 5.0, 100.0), draw_log_uniform(rng, 0.2, 20.0)
     values, amplitude = draw_parameters(model, mass, natural, rng)
@@ -167,12 +167,12 @@ def fit_size(rig: BlindMachine, pilot: Pilot, unit: Law, wanted: float, seed: tu
     return best[1], best[2]
 
 
-def make_machine(number: int, folder: Path) -> Truth:
+def make_machine(number: int, folder: Path, first: int = SEED) -> Truth:
     """Write the first random machine of a number in which its law can act; return its truth."""
     for attempt in range(60):
-        name, drive, rig, rng = draw_machine(number, attempt)
+        name, drive, rig, rng = draw_machine(number, attempt, first)
         wanted = draw_log_uniform(rng, *GAIN)
-        seed = (SEED, number, attempt)
+        seed = (first, number, attempt)
         try:
             pilot = Pilot(rig, simulate_law(rig, Law(), np.zeros(4)))
             check_motion(rig, pilot.q, pilot)
@@ -188,13 +188,13 @@ def make_machine(number: int, folder: Path) -> Truth:
     raise ValueError(f"machine {number}: no machine in 60 attempts")
 
 
-def make_foreign(out: Path, limit: int = 0) -> list[Path]:
+def make_foreign(out: Path, limit: int = 0, fresh: int = 0) -> list[Path]:
     """Return the folders of the machines; those that are missing are written first."""
     folders = []
     for number in range(limit or 40):
         folder = out / f"{number:03d}"
         folders.append(folder)
         if not is_complete(folder):
-            save_truth(folder, make_machine(number, folder))
+            save_truth(folder, make_machine(number, folder, SEED + fresh))
             print(folder, flush=True)
     return folders

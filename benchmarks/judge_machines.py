@@ -180,7 +180,7 @@ def make_pendulum(row: Row, folder: Path, rng: np.random.Generator) -> Mapping[s
     return values
 
 
-def make_twelve(out: Path, limit: int = 0) -> list[Path]:
+def make_twelve(out: Path, limit: int = 0, fresh: int = 0) -> list[Path]:
     """Return the folders of the twelve machines; those that are missing are written first."""
     folders = []
     for number, row in enumerate(ROWS[: limit or None]):
@@ -188,7 +188,7 @@ def make_twelve(out: Path, limit: int = 0) -> list[Path]:
         folders.append(folder)
         if is_complete(folder):
             continue
-        rng = np.random.default_rng([SEED, number])
+        rng = np.random.default_rng([SEED + fresh, number])
         free = row.key == "10_pendulum"
         values = (make_pendulum if free else make_row)(row, folder, rng)
         dt = 1.0 / 200.0 if free else 1.0 / (PACE * row.numbers[5])

@@ -45,11 +45,11 @@ def convert_effect(effect: Effect, rig: BlindMachine, *, rough: bool = False) ->
     return Hiding(effect.what or effect.mechanism, effect.at, full, tuple(sorted(LATE)) if short else accept)
 
 
-def list_library_tasks() -> list[tuple[str, str, str, int, float, int]]:
-    """Return random rows of the library table in a fixed order, more than are used."""
-    rng = np.random.default_rng(LIBRARY_SEED)
+def list_library_tasks(seed: int = LIBRARY_SEED) -> list[tuple[str, str, str, int, float, int]]:
+    """Return random rows of the library table in the order of a seed, more than are used."""
+    rng = np.random.default_rng(seed)
     cells = [
-        (name, sensor, drive, LIBRARY_SEED)
+        (name, sensor, drive, seed)
         for name in sorted(TABLE)
         for sensor in SENSORS
         for drive in DRIVES
@@ -60,13 +60,13 @@ def list_library_tasks() -> list[tuple[str, str, str, int, float, int]]:
     return [(*cells[i], float(g), LIBRARY_SAMPLES) for i, g in zip(order, gains, strict=True)]
 
 
-def make_library(out: Path, limit: int = 0) -> list[Path]:
+def make_library(out: Path, limit: int = 0, fresh: int = 0) -> list[Path]:
     """Return the folders of rows of the library table; those that are missing are written first.
 
     A row that cannot be made (no machine in 200 attempts) is left out.
     """
     folders = []
-    for number, task in enumerate(list_library_tasks()[: limit or LIBRARY_ROWS]):
+    for number, task in enumerate(list_library_tasks(LIBRARY_SEED + fresh)[: limit or LIBRARY_ROWS]):
         folder = out / f"{number:03d}"
         if not is_complete(folder):
             try:
@@ -117,9 +117,9 @@ def conceal(blind: Blind, number: int, folder: Path) -> None:
     save_truth(folder, truth)
 
 
-def make_imperfect(out: Path, limit: int = 0) -> list[Path]:
+def make_imperfect(out: Path, limit: int = 0, fresh: int = 0) -> list[Path]:
     """Return the folders of machines of the imperfect world with one hidden effect each."""
-    blind = Blind(seed=SEED, most=SAMPLES, only=NAMES, world=IMPERFECT)
+    blind = Blind(seed=SEED + fresh, most=SAMPLES, only=NAMES, world=IMPERFECT)
     folders = [out / f"{number:03d}" for number in range(limit or ROWS)]
     for number, folder in enumerate(folders):
         if not is_complete(folder):
@@ -127,7 +127,7 @@ def make_imperfect(out: Path, limit: int = 0) -> list[Path]:
     return folders
 
 
-def make_clean(out: Path, limit: int = 0) -> list[Path]:
+def make_clean(out: Path, limit: int = 0, fresh: int = 0) -> list[Path]:
     """Return the folders of machines that hide nothing, of the perfect and the imperfect world in turn."""
     folders = []
     for number in range(limit or 2 * ROWS):
@@ -135,5 +135,5 @@ def make_clean(out: Path, limit: int = 0) -> list[Path]:
         folder = out / f"{number // 2:03d}-{world}"
         folders.append(folder)
         if not is_complete(folder):
-            conceal(Blind(seed=SEED + 1, most=SAMPLES, clean=True, world=world), number // 2, folder)
+            conceal(Blind(seed=SEED + 1 + fresh, most=SAMPLES, clean=True, world=world), number // 2, folder)
     return folders
