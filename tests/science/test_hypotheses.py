@@ -83,7 +83,7 @@ def test_profiling_is_the_regression_on_the_own_coordinates():
     rng = np.random.default_rng(1)
     errors = rng.standard_normal((4, 500))
     expansion = make_expansion(errors)
-    gradient, information = expansion.profile(np.array([0]), np.array([1, 2, 3]))
+    gradient, information = expansion.curvature.profile(np.array([0]), np.array([1, 2, 3]))
     own, more = errors[0], errors[1:]
     residuals = more - np.outer(more @ own / (own @ own), own)
     assert information == pytest.approx(residuals @ residuals.T, rel=1e-9)

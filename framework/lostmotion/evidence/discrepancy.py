@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from lostmotion.contracts import Array
 from lostmotion.evidence.channel_errors import ChannelError
-from lostmotion.evidence.expansion import Expansion, compute_log_evidence
+from lostmotion.evidence.expansion import Curvature, Expansion, compute_log_evidence
 from lostmotion.evidence.slopes import CHANNEL_STEP, list_channel_slopes, list_force_slopes
 from lostmotion.inference.curves import compute_coefficient_size
 from lostmotion.inference.fit import list_stencil_points, make_stencil
@@ -273,11 +273,11 @@ class Quadratic:
     beside: Array
 
     @classmethod
-    def of(cls, frame: JointFrame, expansion: Expansion, beside: Array | None = None) -> Quadratic:
-        """Return the quadratic of an expansion, whose last coordinates are those of terms, with these widths."""
+    def of(cls, frame: JointFrame, curvature: Curvature, beside: Array | None = None) -> Quadratic:
+        """Return the quadratic of a curvature, whose last coordinates are those of terms, with these widths."""
         widths = np.zeros(0) if beside is None else beside
         more = np.arange(frame.own, frame.count + len(widths))
-        gradient, information = expansion.profile(np.arange(frame.own), more)
+        gradient, information = curvature.profile(np.arange(frame.own), more)
         shift = np.concatenate([frame.middle, np.zeros(len(widths))])
         return cls(frame, gradient - information @ shift, information, widths)
 

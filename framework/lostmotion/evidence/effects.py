@@ -16,7 +16,7 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.evidence.discrepancy import Choice, Quadratic
-from lostmotion.evidence.expansion import Expansion, compute_cross_information, differentiate_density
+from lostmotion.evidence.expansion import Curvature, Expansion, compute_cross_information, differentiate_density
 from lostmotion.evidence.hypothesis import Hypothesis, solve_posterior
 from lostmotion.inference.candidates import make_term_parameters
 from lostmotion.inference.far_values import hold_shape
@@ -75,11 +75,11 @@ def list_promises(
     problem = found.frame.bare(found.at, found.choice)
     theta = found.at[: len(problem.free)]
     filtered = linearise_all(problem, theta)
-    before = Quadratic.of(found.frame, found.expansion).evaluate(found.choice)
+    before = Quadratic.of(found.frame, found.expansion.curvature).evaluate(found.choice)
 
     def test(key: str) -> tuple[Promise, TermEffect] | None:
-        effects = _list_effects(problem, theta, filtered, key, shapes.get(key, ()))
-        tested = [(_predict(found, effect, before + prices[key]), effect) for effect in effects]
+        effects = list(_list_effects(problem, theta, filtered, key, shapes.get(key, ())))
+        tested = zip(_predict_each(found, effects, before + prices[key]), effects, strict=True)
         return max(tested, key=lambda one: one[0].gain, default=None)
 
     tested = [one for one in each(test, list(keys), problem.jobs) if one is not None]
@@ -95,16 +95,18 @@ def _test_onsets(found: Hypothesis, ever: Promise, effect: TermEffect, less: flo
     A filter forgets earlier samples within a few cycles. So the derivatives of the errors after an onset are those of a
     term that acts from the beginning.
     """
-    problem, best = found.frame.problem, ever
+    problem = found.frame.problem
     if not can_have_onset(problem, effect.key):
         return ever
     times = np.concatenate([np.repeat(o.time, len(o.sensors)) for o in problem.observations])
-    for onset in list_onsets(problem).tolist():
-        after = times >= onset
-        cut = replace(effect, errors=effect.errors * after, variances=effect.variances * after)
-        if (promise := _predict(found, cut, less)).gain > best.gain:
-            best = replace(promise, start={**promise.start, onset_key(effect.key): onset})
-    return best
+    onsets = list_onsets(problem).tolist()
+    after = [times >= onset for onset in onsets]
+    cuts = [replace(effect, errors=effect.errors * late, variances=effect.variances * late) for late in after]
+    late = [
+        replace(promise, start={**promise.start, onset_key(effect.key): onset})
+        for onset, promise in zip(onsets, _predict_each(found, cuts, less), strict=True)
+    ]
+    return max((ever, *late), key=lambda one: one.gain)
 
 
 def _list_effects(
@@ -224,37 +226,56 @@ def _compute_differences(
 
 def join_effects(expansion: Expansion, effects: Sequence[TermEffect]) -> Expansion:
     """Return an expansion with the amplitudes of terms as its last coordinates, in blocks with their keys."""
-    first = len(expansion.at)
-    ends = first + np.cumsum([0, *(len(effect.amplitudes) for effect in effects)])
-    count = int(ends[-1]) - first
-    errors = np.vstack([effect.errors for effect in effects]) if effects else expansion.errors[:0]
-    variances = np.vstack([effect.variances for effect in effects]) if effects else expansion.variances[:0]
-    widths = np.concatenate([effect.widths for effect in effects]) if effects else np.zeros(0)
+    ends = len(expansion.at) + np.cumsum([0, *(len(effect.amplitudes) for effect in effects)])
+    more = np.zeros(ends[-1] - ends[0])
+    widths = np.concatenate([more[:0], *(effect.widths for effect in effects)])
     blocks = {effect.key: slice(int(a), int(b)) for effect, a, b in zip(effects, ends[:-1], ends[1:], strict=True)}
-    joined = replace(
+    return replace(
         expansion,
-        at=np.append(expansion.at, np.zeros(count)),
-        errors=np.vstack([expansion.errors, errors]),
-        variances=np.vstack([expansion.variances, variances]),
-        middle=np.append(expansion.middle, np.zeros(count)),
+        at=np.append(expansion.at, more),
+        errors=np.vstack([expansion.errors, *(effect.errors for effect in effects)]),
+        variances=np.vstack([expansion.variances, *(effect.variances for effect in effects)]),
+        middle=np.append(expansion.middle, more),
         precision=np.append(expansion.precision, 1.0 / widths**2),
         blocks={**expansion.blocks, **blocks},
     )
-    # the large block is known already: only the rows of the terms are computed
-    new = slice(first, None)
-    cross = compute_cross_information(expansion.here, errors, variances, joined.errors, joined.variances)
-    information = np.zeros((len(joined.at), len(joined.at)))
-    information[:first, :first] = expansion.information
-    information[new], information[:, new] = cross, cross.T
-    joined.__dict__["information"] = information
-    over_errors, over_variances = differentiate_density(expansion.here)
-    joined.__dict__["gradient"] = np.append(expansion.gradient, errors @ over_errors + variances @ over_variances)
-    return joined
 
 
-def _predict(found: Hypothesis, effect: TermEffect, less: float) -> Promise:
+def _border(expansion: Expansion, effects: Sequence[TermEffect]) -> list[Curvature]:
+    """Return the curvature with the amplitudes of each effect in turn as last coordinates.
+
+    The large block is known already: only the rows of the effects are computed, those of all effects at once.
+    """
+    here = expansion.here
+    errors, variances = np.vstack([e.errors for e in effects]), np.vstack([e.variances for e in effects])
+    over_errors, over_variances = differentiate_density(here)
+    gradient = errors @ over_errors + variances @ over_variances
+    cross = compute_cross_information(here, errors, variances, expansion.errors, expansion.variances)
+    found, first = [], 0
+    for effect in effects:
+        count = len(effect.widths)
+        rows = slice(first, first + count)
+        own = compute_cross_information(here, effect.errors, effect.variances, effect.errors, effect.variances)
+        information = np.block([[expansion.information, cross[rows].T], [cross[rows], own]])
+        middle = np.append(expansion.middle, np.zeros(count))
+        precision = np.append(expansion.precision, 1.0 / effect.widths**2)
+        at, slope = np.append(expansion.at, np.zeros(count)), np.append(expansion.gradient, gradient[rows])
+        found.append(Curvature(at, slope, information, middle, precision))
+        first += count
+    return found
+
+
+def _predict_each(found: Hypothesis, effects: Sequence[TermEffect], less: float) -> list[Promise]:
+    """Return what a term promises at each of some shapes; `less` is paid."""
+    if not effects:
+        return []
+    curvatures = _border(found.expansion, effects)
+    return [_predict(found, *pair, less) for pair in zip(effects, curvatures, strict=True)]
+
+
+def _predict(found: Hypothesis, effect: TermEffect, joined: Curvature, less: float) -> Promise:
     """Return what a term promises at one shape, beside the present smooth forces or in their place; `less` is paid."""
-    joined, frame, n = join_effects(found.expansion, (effect,)), found.frame, len(found.at)
+    frame, n = found.frame, len(found.at)
     told = np.diag(joined.information)[n:] * effect.widths**2
     lost = Promise(effect.key, -math.inf, effect.shape, np.zeros(n), found.choice)
     if not np.any(told > MUTE):

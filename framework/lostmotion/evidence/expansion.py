@@ -26,6 +26,33 @@ BLOCKS = 40
 
 
 @dataclass(frozen=True)
+class Curvature:
+    """The quadratic log-likelihood around the coordinates `at` (n,), and mean and inverse variance of their priors.
+
+    `gradient` has shape (n,) and `information` (n, n).
+    """
+
+    at: Array
+    gradient: Array
+    information: Array
+    middle: Array
+    precision: Array
+
+    def profile(self, own: NDArray[np.intp], more: NDArray[np.intp]) -> tuple[Array, Array]:
+        """Return gradient and information of the coordinates `more` at zero, with the `own` ones re-optimised.
+
+        The prior of the own coordinates counts; that of the others does not. Shapes (count,) and (count, count).
+        """
+        gradient = self.gradient + self.information[:, more] @ self.at[more]
+        gradient[own] -= self.precision[own] * (self.at[own] - self.middle[own])
+        inner = self.information[np.ix_(own, own)] + np.diag(self.precision[own])
+        cross = self.information[np.ix_(own, more)]
+        pulled = solve_scaled(inner, np.column_stack([cross, gradient[own]]))
+        left = self.information[np.ix_(more, more)] - cross.T @ pulled[:, :-1]
+        return gradient[more] - cross.T @ pulled[:, -1], 0.5 * (left + left.T)
+
+
+@dataclass(frozen=True)
 class Expansion:
     """One-step errors at a point and their derivatives with respect to n coordinates, which stand in named blocks.
 
@@ -73,18 +100,10 @@ class Expansion:
         parts = [np.arange(self.blocks[name].start, self.blocks[name].stop) for name in names]
         return np.concatenate(parts) if parts else np.zeros(0, dtype=np.intp)
 
-    def profile(self, own: NDArray[np.intp], more: NDArray[np.intp]) -> tuple[Array, Array]:
-        """Return gradient and information of the coordinates `more` at zero, with the `own` ones re-optimised.
-
-        The prior of the own coordinates counts; that of the others does not. Shapes (count,) and (count, count).
-        """
-        gradient = self.gradient + self.information[:, more] @ self.at[more]
-        gradient[own] -= self.precision[own] * (self.at[own] - self.middle[own])
-        inner = self.information[np.ix_(own, own)] + np.diag(self.precision[own])
-        cross = self.information[np.ix_(own, more)]
-        pulled = solve_scaled(inner, np.column_stack([cross, gradient[own]]))
-        left = self.information[np.ix_(more, more)] - cross.T @ pulled[:, :-1]
-        return gradient[more] - cross.T @ pulled[:, -1], 0.5 * (left + left.T)
+    @cached_property
+    def curvature(self) -> Curvature:
+        """The quadratic log-likelihood around the point."""
+        return Curvature(self.at, self.gradient, self.information, self.middle, self.precision)
 
     def measure_scatter(self, names: tuple[str, ...]) -> float:
         """Return the factor by which scores of some blocks, summed over time, scatter beyond their information.
@@ -127,7 +146,10 @@ def compute_cross_information(
 ) -> Array:
     """Return the expected information (m, n) between m and n coordinates, from derivatives (m or n, readings)."""
     v = here.variances
-    return np.asarray((errors / v) @ other_errors.T + 0.5 * (variances / v**2) @ other_variances.T)
+    found = np.asarray((errors / v) @ other_errors.T)
+    if variances.any():
+        found += 0.5 * (variances / v**2) @ other_variances.T
+    return found
 
 
 def compute_log_evidence(gradient: Array, information: Array, widths: Array) -> float:

@@ -20,7 +20,7 @@ from scipy.stats import chi2
 
 from lostmotion.contracts import Array
 from lostmotion.evidence.discrepancy import Choice, JointFrame, Quadratic
-from lostmotion.evidence.expansion import Expansion
+from lostmotion.evidence.expansion import Curvature, Expansion
 from lostmotion.inference.fit import STRIDE, choose_first_steps, solve_scaled
 from lostmotion.inference.natural import find_term, sort_slots
 from lostmotion.inference.penalties import is_simpler
@@ -107,13 +107,13 @@ class Hypothesis:
     @cached_property
     def precision(self) -> Array:
         """The posterior precision (used, used) of the free coordinates."""
-        prior = _compute_precision(self.frame, self.expansion, self.choice)
+        prior = _compute_precision(self.frame, self.expansion.precision, self.choice)
         return np.asarray(self.expansion.information[np.ix_(self.used, self.used)] + np.diag(prior[self.used]))
 
     @cached_property
     def pull(self) -> Array:
         """The gradient (used,) of the log posterior over the free coordinates: close to zero, but for bounds."""
-        prior = _compute_precision(self.frame, self.expansion, self.choice)
+        prior = _compute_precision(self.frame, self.expansion.precision, self.choice)
         return _compute_pull(self.frame, self.expansion, prior)[self.used]
 
 
@@ -177,7 +177,7 @@ def _make_hypothesis(
     frame: JointFrame, expansion: Expansion, choice: Choice, price: float, *, converged: bool
 ) -> Hypothesis:
     """Return the hypothesis at the point of an expansion, with its log evidence."""
-    quadratic = Quadratic.of(frame, expansion)
+    quadratic = Quadratic.of(frame, expansion.curvature)
     smooth = quadratic.evaluate(choice) - quadratic.evaluate(frame.none)
     evidence = _compute_log_evidence(frame, expansion, choice)
     return Hypothesis(frame, expansion, choice, evidence, smooth, price, converged=converged)
@@ -190,7 +190,7 @@ def _maximise(frame: JointFrame, expansion: Expansion, choice: Choice, *, free: 
     """
     for turn in range(ROUNDS):
         if free:
-            quadratic = Quadratic.of(frame, expansion)
+            quadratic = Quadratic.of(frame, expansion.curvature)
             choice, _ = quadratic.choose(choice) if turn else quadratic.choose_anew(choice)
         step, promise = compute_step(frame, expansion, choice)
         value = _compute_log_posterior(frame, expansion, choice)
@@ -218,31 +218,31 @@ def _list_used(frame: JointFrame, choice: Choice) -> NDArray[np.intp]:
     return np.concatenate([np.arange(frame.own), frame.more[frame.widths(choice) > 0.0]])
 
 
-def _compute_precision(frame: JointFrame, expansion: Expansion, choice: Choice) -> Array:
+def _compute_precision(frame: JointFrame, precision: Array, choice: Choice) -> Array:
     """Return the prior precision (count,) of all coordinates; zero where a coordinate is not used."""
-    widths, found = frame.widths(choice), expansion.precision[: frame.count].copy()
+    widths, found = frame.widths(choice), precision[: frame.count].copy()
     found[frame.own :] = np.where(widths > 0.0, 1.0 / np.where(widths > 0.0, widths, 1.0) ** 2, 0.0)
     return found
 
 
-def solve_posterior(frame: JointFrame, expansion: Expansion, choice: Choice, held: Sequence[int] = ()) -> Array:
+def solve_posterior(frame: JointFrame, curvature: Curvature, choice: Choice, held: Sequence[int] = ()) -> Array:
     """Return the step (n,) to the maximum of the quadratic posterior; `held` coordinates stay.
 
     Coefficients of smooth forces that are absent go to zero. Coordinates beyond those of the frame are amplitudes of
-    terms with the prior of the expansion.
+    terms with the prior of the curvature.
     """
-    at, n = expansion.at, len(expansion.at)
-    precision, middle = expansion.precision.copy(), expansion.middle.copy()
-    precision[: frame.count] = _compute_precision(frame, expansion, choice)
+    at, n = curvature.at, len(curvature.at)
+    precision, middle = curvature.precision.copy(), curvature.middle.copy()
+    precision[: frame.count] = _compute_precision(frame, curvature.precision, choice)
     middle[frame.own : frame.count] = frame.middle
     used = np.setdiff1d(np.append(_list_used(frame, choice), np.arange(frame.count, n)), held)
     gone = np.setdiff1d(np.arange(frame.own, n), used)
     step = np.zeros(n)
     step[gone] = -at[gone]
-    pulled = (expansion.gradient - precision * (at - middle))[used] - expansion.information[np.ix_(used, gone)] @ step[
+    pulled = (curvature.gradient - precision * (at - middle))[used] - curvature.information[np.ix_(used, gone)] @ step[
         gone
     ]
-    inner = expansion.information[np.ix_(used, used)] + np.diag(precision[used])
+    inner = curvature.information[np.ix_(used, used)] + np.diag(precision[used])
     step[used] = solve_scaled(inner + 1e-6 * np.diag(np.diag(inner)), pulled)
     return step
 
@@ -253,11 +253,11 @@ def compute_step(frame: JointFrame, expansion: Expansion, choice: Choice) -> tup
     Own coordinates that are pressed against a bound stay, and logarithms change by a limited amount.
     """
     free, at = frame.problem.free[: frame.own], expansion.at
-    precision = _compute_precision(frame, expansion, choice)
+    precision = _compute_precision(frame, expansion.precision, choice)
     gradient = _compute_pull(frame, expansion, precision)
     low, high = _list_bounds(frame)
     pressed = ((at <= low) & (gradient < 0.0)) | ((at >= high) & (gradient > 0.0))
-    step = solve_posterior(frame, expansion, choice, np.flatnonzero(pressed).tolist())
+    step = solve_posterior(frame, expansion.curvature, choice, np.flatnonzero(pressed).tolist())
     for i, f in enumerate(free):
         if f.log or f.key.startswith("log_"):
             most = MOST_LOG if f.physical else MOST_LEVEL
@@ -319,7 +319,7 @@ def _compute_log_evidence(frame: JointFrame, expansion: Expansion, choice: Choic
     """Return the log marginal likelihood by Laplace's method, all coordinates of the discrepancy integrated."""
     widths = frame.widths(choice)
     used = _list_used(frame, choice)
-    precision = _compute_precision(frame, expansion, choice)
+    precision = _compute_precision(frame, expansion.precision, choice)
     inner = expansion.information[np.ix_(used, used)] + np.diag(precision[used])
     sign, logdet = np.linalg.slogdet(inner)
     if sign <= 0:

@@ -253,7 +253,7 @@ def _step(
 
 def _choose_forces(frame: ArmFrame, seen: Expansion, choice: Choice) -> Choice:
     """Return the best sizes and lengths of the smooth forces, with the own coordinates re-optimised."""
-    gradient, information = seen.profile(np.arange(len(frame.own)), np.arange(len(frame.own), len(seen.at)))
+    gradient, information = seen.curvature.profile(np.arange(len(frame.own)), np.arange(len(frame.own), len(seen.at)))
     return frame.discrepancy.choose(gradient, information, choice)
 
 
