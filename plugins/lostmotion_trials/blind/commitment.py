@@ -187,7 +187,7 @@ def _draw_machine(
     draw: Callable[[], BlindMachine],
     fill: Callable[[Pilot], Filled],
 ) -> tuple[BlindMachine, Filled]:
-    """Return a machine that can have all of these mechanisms, with its effects, its motion and its imperfections."""
+    """Return a machine that can have all of these mechanisms and still moves, with effects, motion and imperfections."""
     for _ in range(TRIES):
         rig = draw()
         if not all(TABLE[name].fits(rig) if name in TABLE else rig.model in SPRUNG for name in names):
@@ -197,7 +197,7 @@ def _draw_machine(
             if "x0" in rig.values and not TOUCHES[0] < float(np.mean(np.abs(pilot.contact_sign))) < TOUCHES[1]:
                 continue
             filled = fill(pilot)
-            if float(np.std(filled[1])) < RUNAWAY * float(np.std(pilot.q)):
+            if 0.0 < float(np.std(filled[1])) < RUNAWAY * float(np.std(pilot.q)):
                 return rig, filled
     raise DataError(f"no machine was drawn that can have {' and '.join(names) or 'nothing'}")
 
