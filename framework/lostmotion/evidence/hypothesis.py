@@ -186,12 +186,18 @@ def _make_hypothesis(
 def _maximise(frame: JointFrame, expansion: Expansion, choice: Choice, *, free: bool) -> tuple[Expansion, Choice, bool]:
     """Return the maximum of the log posterior near a point, its smooth forces, and whether the fit converged.
 
-    With `free` the smooth forces are chosen in each round, otherwise they stay as they are.
+    With `free` the smooth forces are chosen in each round, until one that seemed superfluous is missed without it.
     """
     for turn in range(ROUNDS):
         if free:
             quadratic = Quadratic.of(frame, expansion.curvature)
-            choice, _ = quadratic.choose(choice) if turn else quadratic.choose_anew(choice)
+            new, _ = quadratic.choose(choice) if turn else quadratic.choose_anew(choice)
+            less = _leave_out_absent(frame, expansion, new)
+            if less is not expansion:
+                told = _compute_log_evidence(frame, expansion, choice)
+                free = _compute_log_evidence(frame, less, new) > told
+            if free:
+                expansion, choice = less, new
         step, promise = compute_step(frame, expansion, choice)
         value = _compute_log_posterior(frame, expansion, choice)
         if promise < TOLERANCE:
@@ -203,6 +209,22 @@ def _maximise(frame: JointFrame, expansion: Expansion, choice: Choice, *, free: 
         if _compute_log_posterior(frame, better, choice) - value < TOLERANCE:
             return expansion, choice, True
     return expansion, choice, False
+
+
+def _leave_out_absent(frame: JointFrame, expansion: Expansion, choice: Choice) -> Expansion:
+    """Return an expansion without the smooth forces that a choice leaves out; unchanged where there were none.
+
+    Likelihood and evidence belong to the same forces. The point is the better one of the whole step and of the present
+    one with the coefficients of these forces at zero.
+    """
+    absent = np.flatnonzero(frame.widths(choice) == 0.0) + frame.own
+    if not np.any(expansion.at[absent]):
+        return expansion
+    here, steps = expansion.at.copy(), _tune_steps(frame, expansion)
+    here[absent] = 0.0
+    there = expansion.at + compute_step(frame, expansion, choice)[0]
+    at = max(here, there, key=lambda one: _add_priors(frame, one, choice, frame.log_likelihood(one, choice)))
+    return frame.expand(at, steps, choice)
 
 
 def _tune_steps(frame: JointFrame, expansion: Expansion) -> Array:
