@@ -1,4 +1,4 @@
-"""Usual errors of channels: scale and bend of each sensor, scale and delay of each drive.
+"""Usual errors of channels: scale, bend and hum of each sensor, scale and delay of each drive.
 
 They belong to the recording, not to the model: a recording is corrected for errors of given sizes. The error of a
 sensor depends on the true value, which one-step predictions of the nominal model show without the noise of the moment;
@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lostmotion.contracts import Array
+from lostmotion.evidence.sensor_hum import SensorHum, list_hums
 from lostmotion.inference.fit import Fit
 from lostmotion.likelihood.observation import Observation
 from lostmotion.settings import RivalSettings
@@ -54,7 +55,7 @@ class DriveError:
         return replace(observation, inputs=inputs)
 
 
-ChannelError = SensorError | DriveError
+ChannelError = SensorError | SensorHum | DriveError
 
 
 def list_channel_errors(nominal: Fit, recordings: Sequence[Observation]) -> tuple[ChannelError, ...]:
@@ -64,6 +65,7 @@ def list_channel_errors(nominal: Fit, recordings: Sequence[Observation]) -> tupl
     errors: list[ChannelError] = []
     for sensor in range(len(first.sensors)):
         errors += _list_sensor_errors(sensor, shown, usual)
+        errors += list_hums(sensor, nominal)
     for column in range(first.inputs.shape[1]):
         if any(np.any(o.inputs[:, column]) for o in recordings):
             errors += [DriveError(column, False, usual.scale), DriveError(column, True, usual.late)]

@@ -13,6 +13,7 @@ import numpy as np
 
 from lostmotion.evidence.channel_errors import ChannelError, DriveError
 from lostmotion.evidence.hypothesis import Hypothesis
+from lostmotion.evidence.sensor_hum import SensorHum
 from lostmotion.inference.fit import Fit, maximise
 from lostmotion.likelihood.observation import Observation
 
@@ -54,9 +55,8 @@ class Corrections:
 
     def describe(self, first: Observation) -> Iterator[str]:
         """Yield a clause for each clear correction; `first` is a recording with the names of the channels."""
-        for (error, size), clear in zip(self.errors, self.clear, strict=True):
-            if clear:
-                yield _describe_error(error, size, first)
+        clear = [pair for pair, told in zip(self.errors, self.clear, strict=True) if told]
+        yield from dict.fromkeys(_describe_error(error, size, first) for error, size in clear)
         for name, factor in self.factors:
             yield f"{name} is {factor:.4g} times its known value"
 
@@ -71,6 +71,8 @@ def _describe_error(error: ChannelError, size: float, first: Observation) -> str
             return f"{name} is {'late' if size < 0.0 else 'early'} by {abs(size):.2g} samples"
         return f"the scale of {name} is wrong by {share}"
     name = first.sensors[error.sensor].label
+    if isinstance(error, SensorHum):
+        return f"{name} picks up a wave of {error.pace / (2.0 * math.pi):.4g} Hz"
     if error.power == 1:
         return f"the scale of {name} is wrong by {share}"
     return f"{name} has a {'quadratic' if error.power == 2 else 'cubic'} error of {share} of its range"

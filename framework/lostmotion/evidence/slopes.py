@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from lostmotion.contracts import Array, place_of
-from lostmotion.evidence.channel_errors import ChannelError, SensorError
+from lostmotion.evidence.channel_errors import ChannelError, DriveError
 from lostmotion.inference.curves import compute_coefficient_size
 from lostmotion.inference.learned import LearnedTerm, OverPhase, OverPosition, OverTime
 from lostmotion.inference.natural import find_term
@@ -42,10 +42,10 @@ def list_channel_slopes(filtered: Tangents, errors: Sequence[ChannelError]) -> l
     observation, found = filtered.observation, []
     for error in errors:
         changed = error.correct(observation, CHANNEL_STEP)
-        if isinstance(error, SensorError):
-            found.append(filtered.respond_to_readings((changed.readings - observation.readings)[None] / CHANNEL_STEP))
-        else:
+        if isinstance(error, DriveError):
             found.append(filtered.respond_to_input((changed.inputs - observation.inputs) / CHANNEL_STEP))
+        else:
+            found.append(filtered.respond_to_readings((changed.readings - observation.readings)[None] / CHANNEL_STEP))
     return found
 
 
