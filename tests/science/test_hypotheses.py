@@ -231,3 +231,16 @@ def test_a_hypothesis_from_its_own_maximum_stays_there(rubbing):
     again = fit_hypothesis(best.frame, best.at, best.price, best.choice)
     assert again.log_evidence == pytest.approx(best.log_evidence, abs=0.5)
     assert add_all_curves(rubbing.bare.nominal) is rubbing.bare.nominal
+
+
+@pytest.mark.parametrize("option", [0, 5, 10])
+def test_the_evidence_is_that_of_the_forces_of_a_hypothesis(rubbing, option):
+    """Forces that are left out leave the point, too: a likelihood that contains them has not paid for them."""
+    best = rubbing.found[frozenset({"coulomb_friction"})]
+    frame, every = best.frame, (option,) * len(best.frame.forces)
+    begin = best.at.copy()
+    begin[frame.own :] += 0.1 * frame.widths(every) * (frame.widths(frame.none) == 0.0)
+    found = fit_hypothesis(frame, begin, best.price, every)
+    seen = frame.log_likelihood(found.at, found.choice)
+    assert seen == pytest.approx(float(found.expansion.here.log_likelihood), abs=1e-6)
+    assert not np.any(found.at[frame.own :][frame.widths(found.choice) == 0.0])

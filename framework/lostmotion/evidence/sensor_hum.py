@@ -61,25 +61,35 @@ def find_lines(errors: Array, dt: float, harmonic: float = 0.0) -> Iterator[floa
     """Yield the angular frequencies (rad/s) of the strongest single lines in standardised errors (samples,).
 
     A line stands out of the median of its surroundings with a false-alarm rate of `FALSE_HUM` for a whole recording
-    (Fisher, Proc. R. Soc. A 125 (1929) 54-59). Multiples of the angular frequency `harmonic` of the drive are no hum:
-    missing physics makes them.
+    (Fisher, Proc. R. Soc. A 125 (1929) 54-59); each is subtracted before the next one is looked for. Multiples of the
+    angular frequency `harmonic` of the drive are no hum: missing physics makes them.
     """
+    left, places = errors - np.mean(errors), np.arange(len(errors))
+    for _ in range(MOST_LINES):
+        near = _find_line(left, harmonic * dt * len(errors) / (2.0 * math.pi))
+        if near is None:
+            return
+        pace = _refine_line(left, near)
+        yield pace / dt
+        waves = np.column_stack([np.cos(pace * places), np.sin(pace * places)])
+        left = left - waves @ np.linalg.lstsq(waves, left, rcond=None)[0]
+
+
+def _find_line(errors: Array, driven: float) -> int | None:
+    """Return the place in the spectrum of the strongest significant line; `driven` is that of the drive, 0 without."""
     import pandas as pd
 
-    power = np.abs(np.fft.rfft(errors - np.mean(errors))) ** 2
+    power = np.abs(np.fft.rfft(errors)) ** 2
     bins = np.arange(len(power))
-    if harmonic:
-        first = harmonic * dt * len(errors) / (2.0 * np.pi)
-        power[np.abs(bins - first * np.round(bins / first)) < NEAR] = np.nan
+    if driven:
+        power[np.abs(bins - driven * np.round(bins / driven)) < NEAR] = np.nan
     power[: math.ceil(NEAR)] = np.nan
     around = pd.Series(power).rolling(SURROUNDINGS, center=True, min_periods=SURROUNDINGS // 4).median().to_numpy()
     told = np.nan_to_num(power / around) * math.log(2.0)
-    for _ in range(MOST_LINES):
-        best = int(np.argmax(told))
-        if told[best] < math.log(len(power) / FALSE_HUM):
-            return
-        yield _refine_line(errors, best) / dt
-        told[np.abs(bins - best) < NEAR] = 0.0
+    level = math.log(len(power) / FALSE_HUM)
+    level += 0.5 * (level / math.log(2.0)) ** 2 / SURROUNDINGS  # the median of exponential numbers scatters as well
+    best = int(np.argmax(told))
+    return best if told[best] > level else None
 
 
 def _refine_line(errors: Array, near: int) -> float:
