@@ -63,7 +63,7 @@ def run_trial(trial: int) -> dict[str, object]:
         machine.write(place / "case", size, rng)
         begin, registry = time.process_time(), default()
         prepared = prepare(place / "case" / "case.toml", registry)
-        result = diagnose_prepared(prepared, registry, seed=0, jobs=1, propose=False).result
+        result = diagnose_prepared(prepared, registry, seed=0, jobs=1, propose=False)[0].result
     row = {**head, "size": size, "deviations": deviations, "cpu": round(time.process_time() - begin, 1)}
     row["found"] = [(one.mechanism, one.probability, one.state) for one in result.found]
     own = [one for one in result.absent if one.mechanism == machine.mechanism and machine.at in ("", one.at)]

@@ -189,7 +189,7 @@ def make_case(machine: Machine) -> Any:
 
 def run_machine(seed: int, number: int) -> dict[str, Any]:
     """Return what a diagnosis says of a machine, beside the truth."""
-    from lostmotion.diagnosis.findings import compute_intervals, draw_parameters
+    from lostmotion.diagnosis.outcome import compute_intervals, draw_parameters
     from lostmotion.diagnosis.stages import diagnose
     from lostmotion.likelihood.system import System
     from lostmotion.preparation.candidate_terms import candidates_of

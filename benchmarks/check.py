@@ -60,12 +60,12 @@ def run_trial(trial: int) -> dict[str, object]:
         machine, effect = choose_effect(machine, checked.expected.effects, rng)
         widths: dict[str, float] = {}
         if trial % COMPARED == 0:
-            plain = diagnose_prepared(replace(prepared, terms=()), registry, seed=0, jobs=1, propose=False).result
+            plain = diagnose_prepared(replace(prepared, terms=()), registry, seed=0, jobs=1, propose=False)[0].result
             widths = measure_widths(dict(plain.parameters.after))
         sign = float(rng.choice([-1.0, 1.0])) if machine.signed else 1.0
         machine.write(place / "case", sign * effect.smallest, rng)
         hidden = prepare(place / "case" / "case.toml", registry)
-        result = diagnose_prepared(hidden, registry, seed=0, jobs=1, propose=False).result
+        result = diagnose_prepared(hidden, registry, seed=0, jobs=1, propose=False)[0].result
     found = [(one.mechanism, one.at, one.probability, one.state) for one in result.found]
     return {
         "status": "ok",

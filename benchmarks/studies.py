@@ -58,7 +58,7 @@ def run(study):
 def findings(d):
     """Return names, intervals, gains and statuses of a diagnosis."""
     from lostmotion.codec import to_plain
-    from lostmotion.diagnosis.findings import compute_intervals, draw_parameters
+    from lostmotion.diagnosis.outcome import compute_intervals, draw_parameters
 
     rng = np.random.default_rng(1)
     explained = d.explained

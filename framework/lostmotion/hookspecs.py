@@ -121,6 +121,16 @@ def lostmotion_measures() -> Mapping[str, tuple[str, str]]:
 
 
 @hookspec
+def lostmotion_sections() -> Mapping[str, tuple[str, str]]:
+    """Return `{"name": ("package.module:function", "One line of help.")}` for each section of the page of a diagnosis.
+
+    The function takes nothing and returns a `lostmotion.report.pages.PageSection`, whose functions take an `Evidence`
+    (`lostmotion.diagnosis.report.page_data`): the result and its arrays.
+    """
+    raise NotImplementedError
+
+
+@hookspec
 def lostmotion_readers() -> Mapping[str, tuple[str, str]]:
     """Return `{"xyz": ("package.module:function", "requirement")}` for each ending of a file name, without its dot.
 

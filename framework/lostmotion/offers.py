@@ -12,9 +12,10 @@ from lostmotion import hookspecs
 from lostmotion.errors import nearest
 
 KINDS = ("model", "term", "embedder", "quantifier", "surrogate", "denoiser", "noise", "simulator")
-COMMAND, FUNCTION, RESULT, ROUTE, MEASURE, READER = "command", "function", "result", "route", "measure", "reader"
+COMMAND, FUNCTION, RESULT, ROUTE, MEASURE = "command", "function", "result", "route", "measure"
+SECTION, READER = "section", "reader"
 _SAID = {
-    **dict.fromkeys((COMMAND, FUNCTION, RESULT, ROUTE, MEASURE), "One line of help."),
+    **dict.fromkeys((COMMAND, FUNCTION, RESULT, ROUTE, MEASURE, SECTION), "One line of help."),
     READER: "what to install with pip if its library is absent",
 }
 """The kinds that are functions; a second text belongs to each of their names."""

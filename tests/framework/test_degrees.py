@@ -9,8 +9,8 @@ from types import SimpleNamespace
 import pytest
 import report_fixture as fixture
 
+from lostmotion.diagnosis.gather_facts import find_angle_unit
 from lostmotion.diagnosis.report.diagnosis_page import render
-from lostmotion.diagnosis.verdict import find_angle_unit
 from lostmotion.recording.spec import Channel, RecordingSpec
 from lostmotion.report.words import angles_in, choose_scale
 from lostmotion.results import Interval

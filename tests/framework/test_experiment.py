@@ -5,10 +5,10 @@ import math
 import sys
 from dataclasses import replace
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from made_facts import DELAY, FRICTION, make_facts, make_found
 
 from lostmotion.case import Experiment, load_case
 from lostmotion.diagnosis import rivals
@@ -27,17 +27,14 @@ from lostmotion.diagnosis.rehearsal import (
     simulate_recording,
 )
 from lostmotion.errors import CaseError
-from lostmotion.evidence.explanations import Explanations
 from lostmotion.evidence.hypothesis import UNKNOWN
 from lostmotion.likelihood.drive import DriveHarmonic
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.space import FreeParameter
 from lostmotion.noises import AR1_LEVEL, AR1_MEMORY
 from lostmotion.results.diagnosis import Confusion
-from lostmotion.settings import DEFAULT
 
 RATE, LEVEL, FREQUENCY = 200.0, 10.0, 2.0
-RIVALS = (("linear_stiffness", "ground"), ("sensor_delay", ""))
 BENCHMARK = Path(__file__).parents[2] / "benchmarks" / "experiment.py"
 
 
@@ -214,75 +211,54 @@ def test_limits_that_cannot_be_meant_are_refused(tmp_path, line, says):
         load_case(path)
 
 
-def outcome_of(scores, fits, *, learned=None):
-    """Return as much of a diagnosis as the words about rivals need; `scores` are those of each set of terms."""
-    found = {
-        terms: SimpleNamespace(terms=terms, scatter=1.0, score=lambda temper=1.0, own=score: own / temper)
-        for terms, score in scores.items()
-    }
-    explained = Explanations({fit.problem.active: fit for fit in fits}, found)
-    return SimpleNamespace(
-        explained=explained,
-        found=tuple(explained.terms),
-        before=fits[0],
-        learned=learned,
-        shown=fits[0].problem.observations[0],
-        settings=DEFAULT,
-    )
+RUB, LATE = (frozenset({name}) for name in (FRICTION, DELAY))
+DRIVEN = Observation.of(
+    "driven",
+    np.sin(2.0 * np.pi * FREQUENCY * np.arange(400) / RATE),
+    LEVEL * np.cos(2.0 * np.pi * FREQUENCY * np.arange(400) / RATE)[:, None],
+    1.0 / RATE,
+    "position",
+)
 
 
-CUBIC, LINEAR = frozenset({"cubic_stiffness"}), frozenset({"linear_stiffness"})
+def facts_of(sets, **changes):
+    """Return the facts of a diagnosis that found friction, with these probabilities of sets."""
+    return make_facts(make_found(FRICTION), sets=sets, **changes)
 
 
-@pytest.fixture
-def diagnosed(springs):
-    *_, fits = springs
-    return outcome_of({CUBIC: 10.0, LINEAR: 8.0}, fits)
+@pytest.mark.parametrize(("share", "named"), [(1.0 / 55.0, True), (1.0 / 148.0, False)])
+def test_a_rival_has_a_probability_that_is_worth_telling(share, named):
+    """A hundredth is."""
+    assert rivals.find_rivals(facts_of({RUB: 1.0 - share, LATE: share})) == ({DELAY: LATE} if named else {})
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(("behind", "named"), [(4.0, True), (5.0, False)])
-def test_a_rival_has_a_probability_that_is_worth_telling(springs, behind, named):
-    """A hundredth is: 4 in score are odds of 55, 5 are odds of 148."""
-    *_, fits = springs
-    rivals_of = rivals.find_rivals(outcome_of({CUBIC: 10.0, LINEAR: 10.0 - behind}, fits))
-    assert bool(rivals_of) is named
-    assert not named or rivals_of["linear_stiffness"] is fits[1]
+def test_there_is_no_rival_where_a_curve_was_learned_or_beside_an_unknown_force():
+    assert rivals.find_rivals(facts_of({RUB: 0.7, LATE: 0.3}, learned=True)) == {}
+    assert rivals.find_rivals(facts_of({RUB: 0.7, LATE | {UNKNOWN}: 0.3})) == {}
 
 
-@pytest.mark.slow
-def test_there_is_no_rival_where_a_curve_was_learned_or_beside_an_unknown_force(springs):
-    *_, fits = springs
-    assert rivals.find_rivals(outcome_of({CUBIC: 10.0, LINEAR: 9.0}, fits, learned=object())) == {}
-    assert rivals.find_rivals(outcome_of({CUBIC: 10.0, LINEAR | {UNKNOWN}: 9.0}, fits)) == {}
-
-
-@pytest.mark.slow
-def test_a_rival_is_named_with_the_experiment_that_decides(diagnosed):
-    assert list(rivals.find_rivals(diagnosed)) == ["linear_stiffness"]
-    observation = diagnosed.explained.chosen.problem.observations[0]
-    offered = list_candidates(observation, 100, choose_limits(observation, FREQUENCY), np.random.default_rng(0))
-    proposals = {"linear_stiffness": Proposal(max(offered, key=lambda e: e.level), (40.0, 50.0), (4.0, 6.0), (0, 1))}
-    rows = [Confusion(mechanism=name, at=at, says="") for name, at in RIVALS]
-    first, second = rivals.describe_confusions(diagnosed, rows, proposals)
+def test_a_rival_is_named_with_the_experiment_that_decides():
+    offered = list_candidates(DRIVEN, 100, choose_limits(DRIVEN, FREQUENCY), np.random.default_rng(0))
+    proposals = {DELAY: Proposal(max(offered, key=lambda e: e.level), (40.0, 50.0), (4.0, 6.0), (0, 1))}
+    rows = [Confusion(mechanism=name, at=at, says="") for name, at in ((DELAY, "force"), ("sensor_delay", ""))]
+    facts = facts_of({RUB: 0.7, LATE: 0.3})
+    rows[0] = replace(rows[0], at=facts.find(DELAY).term.at)
+    first, second = rivals.describe_confusions(facts, rows, proposals)
     assert second.mechanism == "sensor_delay"
     assert first.excitation.expected_log_gain == 40.0
     assert first.excitation.unit == "N"
+    assert "has a probability of 0.30" in first.says
     assert "Raise the drive to 20 N at" in first.says
     assert first.says.endswith("this should distinguish them by 40 in log evidence, 10 times as much as a repetition.")
 
 
-@pytest.mark.slow
-def test_without_an_experiment_that_decides_it_says_so(diagnosed):
-    observation = diagnosed.explained.chosen.problem.observations[0]
-    offered = list_candidates(observation, 100, choose_limits(observation, FREQUENCY), np.random.default_rng(0))
-    proposals = {"linear_stiffness": Proposal(offered[0], (1.0, 0.5), (0.0, 0.0), (0, 1))}
-    (only,) = rivals.describe_confusions(diagnosed, [], proposals)
+def test_without_an_experiment_that_decides_it_says_so():
+    offered = list_candidates(DRIVEN, 100, choose_limits(DRIVEN, FREQUENCY), np.random.default_rng(0))
+    proposals = {DELAY: Proposal(offered[0], (1.0, 0.5), (0.0, 0.0), (0, 1))}
+    (only,) = rivals.describe_confusions(facts_of({RUB: 0.7, LATE: 0.3}), [], proposals)
     assert "No excitation within the limits" in only.says
 
 
-@pytest.mark.slow
-def test_no_rival_no_experiment(springs):
-    *_, fits = springs
-    alone = outcome_of({CUBIC: 0.0}, fits)
-    assert rivals.propose_experiments(alone, Experiment(), rng=np.random.default_rng(0)) == {}
+def test_no_rival_no_experiment():
+    facts = facts_of({RUB: 1.0})
+    assert rivals.propose_experiments(facts, {}, Experiment(), rng=np.random.default_rng(0)) == {}

@@ -4,23 +4,20 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from made_facts import make_prediction
 
 from lostmotion.diagnosis import diagnosis_run as ways
 from lostmotion.diagnosis.compare import PARTS, is_better, is_worse
 from lostmotion.settings import DEFAULT
 
 
-def prediction(nrmse, scores, errors=()):
-    return SimpleNamespace(nrmse=nrmse, scores=np.asarray(scores, dtype=float), errors=np.asarray(errors, dtype=float))
-
-
 def test_held_out_data_speak_against_what_predicts_worse():
     flat, rng = np.zeros(20), np.random.default_rng(0)
-    assert is_worse(prediction(0.286, flat), prediction(0.315, flat))
-    assert not is_worse(prediction(0.30, flat), prediction(0.302, flat))
-    assert is_worse(prediction(0.30, flat), prediction(0.2, flat - 0.11 + 0.01 * rng.standard_normal(20)))
-    assert not is_worse(prediction(0.30, flat), prediction(0.2, flat + 0.1))
-    assert is_worse(prediction(0.30, flat), prediction(float("nan"), flat))
+    assert is_worse(make_prediction(0.286, flat), make_prediction(0.315, flat))
+    assert not is_worse(make_prediction(0.30, flat), make_prediction(0.302, flat))
+    assert is_worse(make_prediction(0.30, flat), make_prediction(0.2, flat - 0.11 + 0.01 * rng.standard_normal(20)))
+    assert not is_worse(make_prediction(0.30, flat), make_prediction(0.2, flat + 0.1))
+    assert is_worse(make_prediction(0.30, flat), make_prediction(float("nan"), flat))
 
 
 @pytest.mark.parametrize(("scatter", "gain", "worse"), [(0.3, 0.1, False), (0.01, 0.1, True), (0.3, 0.0, True)])
@@ -29,25 +26,26 @@ def test_a_larger_error_that_is_not_significant_needs_better_one_step_prediction
     rng = np.random.default_rng(4)
     errors = 0.3 * np.exp(scatter * rng.standard_normal(PARTS))
     scores = gain + 0.05 * rng.standard_normal(20)
-    after = prediction(0.315, scores, errors * 1.05 * np.exp(scatter * rng.standard_normal(PARTS)))
-    assert is_worse(prediction(0.30, np.zeros(20), errors), after) is worse
+    after = make_prediction(0.315, scores, errors * 1.05 * np.exp(scatter * rng.standard_normal(PARTS)))
+    assert is_worse(make_prediction(0.30, np.zeros(20), errors), after) is worse
 
 
 def test_a_score_falls_by_chance_in_one_of_twenty_models_that_predict_as_well():
     """2,000 pairs of models, blocks of normal scores: 5 % fall significantly, standard error 0.5 %. Seeded."""
     rng = np.random.default_rng(5)
     falls = [
-        is_worse(prediction(0.3, np.zeros(20)), prediction(0.3, 0.001 * rng.standard_normal(20))) for _ in range(2000)
+        is_worse(make_prediction(0.3, np.zeros(20)), make_prediction(0.3, 0.001 * rng.standard_normal(20)))
+        for _ in range(2000)
     ]
     assert 0.035 < np.mean(falls) < 0.065
 
 
 def test_a_score_that_falls_within_a_wide_scatter_speaks_against_a_model_that_predicts_hardly_better():
     flat = np.zeros(20)
-    outlier = np.where(np.arange(20) == 7, -50.0, 0.5)
-    assert not is_worse(prediction(1.0, flat), prediction(0.4, outlier))
-    assert is_worse(prediction(1.0, flat), prediction(0.9, outlier))
-    assert not is_worse(prediction(1.0, flat), prediction(0.9, flat - 0.005 * np.cos(np.arange(20) * np.pi) - 0.0005))
+    outlier, slight = np.where(np.arange(20) == 7, -50.0, 0.5), -0.005 * np.cos(np.arange(20) * np.pi) - 0.0005
+    assert not is_worse(make_prediction(1.0, flat), make_prediction(0.4, outlier))
+    assert is_worse(make_prediction(1.0, flat), make_prediction(0.9, outlier))
+    assert not is_worse(make_prediction(1.0, flat), make_prediction(0.9, slight))
 
 
 class Refuted:
@@ -71,8 +69,8 @@ class Refuted:
 )
 def test_sets_that_make_free_runs_worse_are_refuted_one_after_the_other(monkeypatch, errors, left, withdrawn):
     def compare_heldout(d):
-        after = prediction(errors["".join(d.found)], [0.0])
-        return SimpleNamespace(diagnosis=d, before=prediction(0.3, [0.0]), after=after)
+        after = make_prediction(errors["".join(d.found)], [0.0])
+        return SimpleNamespace(diagnosis=d, before=make_prediction(0.3, [0.0]), after=after)
 
     def explain_by(explained, d, rng, say):
         gone = tuple(key for key in reversed(d.found) if key not in explained.terms)

@@ -1,161 +1,144 @@
 """Named, likely, open: how sure a diagnosis is, and what is withheld."""
 
-import math
-from types import SimpleNamespace
-
 import pytest
-from made_explanations import (
+from made_facts import (
     CHANGE,
     DELAY,
     FRICTION,
+    NOTHING,
     STRIBECK,
-    diagnosis,
-    explanations,
-    fit_of,
-    hypothesis,
-    missing,
+    WITH_UNKNOWN,
+    make_change,
+    make_facts,
+    make_found,
+    make_prediction,
+    make_sensor,
 )
 
 from lostmotion.codec import to_plain
-from lostmotion.diagnosis.findings import withhold_intervals
+from lostmotion.diagnosis.findings import list_findings, withhold_intervals
 from lostmotion.diagnosis.states import (
     LIKELY,
     NAMED,
     OPEN,
     choose_state,
-    compute_gain,
     compute_probability,
+    doubt_moved_amplitudes,
+    doubt_short_delay,
     is_valid,
     limit_confidence,
+    list_doubts,
     list_open_terms,
-    list_warnings,
     sort_findings,
-    warn_of_moved_amplitudes,
-    warn_of_short_delay,
 )
 from lostmotion.results import Interval
 from lostmotion.results.diagnosis import Mechanism
 from lostmotion.settings import DEFAULT
 
-RUB = {f"{FRICTION}.force": 1.0}
-BRISTLES = {f"{STRIBECK}.force": 1.0, f"{STRIBECK}.excess": 0.5, f"{STRIBECK}.velocity": 0.1}
-LATE = {f"{DELAY}.delay": 0.2}
+RUB, BRISTLES, LATE = (frozenset({name}) for name in (FRICTION, STRIBECK, DELAY))
+FORCE = {"force": Interval(1.0, 0.9, 1.1, "N")}
 
 
-def rubbing(score=10.0, **more):
-    """Return a diagnosis that found friction with a score of so much over nothing missing."""
-    return diagnosis(explanations(hypothesis(RUB, score)), **more)
+def doubts_of(found, **changes):
+    """Return the doubts about a term that alone was found."""
+    return list_doubts(make_facts(found, **changes), found)
 
 
-@pytest.mark.parametrize(("time", "sure"), [(3.0, False), (50.0, True)])
-def test_a_change_at_the_very_beginning_may_be_a_wrong_known_value(time, sure):
-    change = hypothesis({f"{CHANGE}.change": 1.0, f"{CHANGE}.time": time}, 10.0)
-    doubts = list_warnings(diagnosis(explanations(change)), CHANGE)
-    assert doubts == [] if sure else ["first 3 % of the recording" in doubt for doubt in doubts] == [True]
+@pytest.mark.parametrize(("share", "sure"), [(0.03, False), (0.5, True)])
+def test_a_change_at_the_very_beginning_may_be_a_wrong_known_value(share, sure):
+    doubts = doubts_of(make_found(CHANGE, complete=(share,)))
+    assert doubts == () if sure else ["first 3 % of the recording" in doubt for doubt in doubts] == [True]
 
 
 @pytest.mark.parametrize(("more", "sure"), [(12.0, False), (8.0, True)])
 def test_a_further_name_beside_a_discrepancy_that_explains_more_is_likely(more, sure):
-    both = hypothesis({**RUB, **LATE}, 30.0)
-    told = explanations(hypothesis(RUB, 20.0), hypothesis(LATE, 1.0), both, discrepancy=more)
-    said = ["add 12 to the log evidence, this term 10" in d for d in list_warnings(diagnosis(told), DELAY)]
+    rub, late = make_found(FRICTION, gain=29.0), make_found(DELAY, gain=10.0)
+    facts = make_facts(rub, late, leftover=more)
+    said = ["add 12 to the log evidence, this term 10" in doubt for doubt in list_doubts(facts, late)]
     assert said == ([] if sure else [True])
-    assert list_warnings(diagnosis(told), FRICTION) == []
+    assert list_doubts(facts, rub) == ()
 
 
 def test_a_single_name_needs_its_probability_only():
-    assert list_warnings(diagnosis(explanations(hypothesis(RUB, 10.0), discrepancy=300.0)), FRICTION) == []
-
-
-@pytest.mark.parametrize(("error", "shared"), [(10.1, True), (10.4, False)])
-def test_laws_that_predict_the_same_readings_share_their_probability(error, shared):
-    """100 predictions that differ by 0.1 standard deviations are expected to give 0.5, by 0.4 they give 8."""
-    rubbed = hypothesis(RUB, 10.0)
-    told = explanations(rubbed, hypothesis({f"{CHANGE}.change": 1.0}, 4.0, error=error))
-    assert told.inclusion(FRICTION) == pytest.approx(0.5 if shared else 1.0, abs=0.01)
+    assert doubts_of(make_found(FRICTION, gain=10.0), leftover=300.0) == ()
 
 
 @pytest.mark.parametrize(
-    ("left", "valid", "doubts", "state"),
+    ("left", "error", "doubts", "state"),
     [
-        (0.6, False, ["why"], "open"),
-        (0.4, False, ["why"], "likely"),
-        (0.6, True, ["why"], "likely"),
-        (0.4, True, [], "named"),
+        (0.6, 0.5, ["why"], "open"),
+        (0.4, 0.5, ["why"], "likely"),
+        (0.6, 0.01, ["why"], "likely"),
+        (0.4, 0.01, [], "named"),
     ],
 )
-def test_a_term_that_leaves_most_of_the_force_missing_in_a_model_that_is_not_valid_is_open(left, valid, doubts, state):
-    assert choose_state(rubbing(left=missing(left)), doubts, valid=valid) == state
+def test_a_term_that_leaves_most_of_the_force_missing_in_a_model_that_is_not_valid_is_open(left, error, doubts, state):
+    facts = make_facts(make_found(FRICTION), after=make_prediction(error), remains=left)
+    assert choose_state(facts, doubts) == state
 
 
 def test_a_sure_term_is_named():
-    assert list_warnings(rubbing(math.log(99.0)), FRICTION) == []
+    assert doubts_of(make_found(FRICTION), sets={RUB: 0.99, NOTHING: 0.01}) == ()
 
 
 def test_a_term_with_an_alternative_is_not_named_and_says_which():
-    d = diagnosis(explanations(hypothesis(RUB, 20.0), hypothesis(LATE, 20.0 - math.log(4.0))))
-    assert compute_probability(d, FRICTION) == pytest.approx(0.8)
-    (doubt,) = list_warnings(d, FRICTION)
+    found = make_found(FRICTION)
+    facts = make_facts(found, sets={RUB: 0.8, LATE: 0.2})
+    assert compute_probability(facts, found) == pytest.approx(0.8)
+    (doubt,) = list_doubts(facts, found)
     assert doubt == "Its probability is 0.8; the alternative is excitation delay. Together they have the probability 1."
 
 
 def test_a_term_that_nothing_missing_rivals_is_not_named():
-    (doubt,) = list_warnings(rubbing(math.log(4.0)), FRICTION)
+    (doubt,) = doubts_of(make_found(FRICTION), sets={RUB: 0.8, NOTHING: 0.2})
     assert doubt == "Its probability is 0.8; the alternative is a small smooth force without a name."
 
 
 def test_a_law_that_contains_the_term_counts_for_it():
     """Where friction grows towards rest, there is friction; a delay says nothing about friction."""
-    d = diagnosis(explanations(hypothesis(RUB, 20.0), hypothesis(BRISTLES, 20.0)))
-    assert compute_probability(d, FRICTION) == pytest.approx(1.0)
-    assert list_warnings(d, FRICTION) == []
-    d = diagnosis(explanations(hypothesis(RUB, 20.0), hypothesis(LATE, 20.0)))
-    assert compute_probability(d, FRICTION) == pytest.approx(0.5)
+    found = make_found(FRICTION)
+    facts = make_facts(found, sets={RUB: 0.5, BRISTLES: 0.5})
+    assert compute_probability(facts, found) == pytest.approx(1.0)
+    assert list_doubts(facts, found) == ()
+    assert compute_probability(make_facts(found, sets={RUB: 0.5, LATE: 0.5}), found) == pytest.approx(0.5)
 
 
 def test_an_unknown_force_beside_a_term_is_a_doubt():
-    with_it = hypothesis(RUB, 20.0 - math.log(9.0), unknown=True)
-    (doubt,) = list_warnings(diagnosis(explanations(hypothesis(RUB, 20.0), with_it)), FRICTION)
+    found = make_found(FRICTION)
+    (doubt,) = doubts_of(found, sets={RUB: 0.9, WITH_UNKNOWN: 0.1})
     assert "an unknown force" in doubt
     assert "the probability 0.1" in doubt
-    rare = hypothesis(RUB, 20.0 - math.log(99.0), unknown=True)
-    assert list_warnings(diagnosis(explanations(hypothesis(RUB, 20.0), rare)), FRICTION) == []
+    assert doubts_of(found, sets={RUB: 0.99, WITH_UNKNOWN: 0.01}) == ()
 
 
-@pytest.mark.parametrize(("sd", "sure"), [(0.6, False), (0.4, True)])
-def test_a_size_whose_interval_reaches_zero_is_a_doubt(sd, sure):
-    doubts = list_warnings(diagnosis(explanations(hypothesis(RUB, 10.0, sd=sd))), FRICTION)
-    assert doubts == [] if sure else ["interval of its force reaches zero" in doubt for doubt in doubts] == [True]
-
-
-def test_the_gain_of_a_found_term_is_that_beside_the_others():
-    both = hypothesis(RUB | LATE, 30.0)
-    d = diagnosis(explanations(both, hypothesis(RUB, 20.0), hypothesis(LATE, 5.0)))
-    assert compute_gain(d, DELAY) == pytest.approx(10.0)
-    assert compute_gain(d, FRICTION) == pytest.approx(25.0)
+def test_a_size_whose_interval_reaches_zero_is_a_doubt():
+    (doubt,) = doubts_of(make_found(FRICTION, vague=("force",)))
+    assert "interval of its force reaches zero" in doubt
 
 
 def test_a_long_delay_is_no_doubt():
-    for share in (0.01, 0.5):
-        d = diagnosis(explanations(hypothesis({f"{DELAY}.delay": share * 2.0 * math.pi}, 10.0)))
-        assert list_warnings(d, DELAY) == []
+    assert doubts_of(make_found(DELAY, delay=60.0)) == ()
 
 
 def test_a_level_that_moves_when_a_delay_comes_in_is_told_and_the_delay_doubted():
-    both = hypothesis({f"{FRICTION}.force": 0.27, f"{DELAY}.delay": 0.1}, 40.0)
-    d = diagnosis(explanations(both, hypothesis({f"{FRICTION}.force": 0.68}, 20.0)))
-    (told,) = warn_of_moved_amplitudes(d, DELAY)
+    late = make_found(DELAY, moved=(make_change(0.68, 0.27),))
+    facts = make_facts(make_found(FRICTION, gain=40.0), late)
+    (told,) = doubt_moved_amplitudes.write(facts, late)
     assert "0.68 N without excitation delay and 0.27 N with it" in told
-    assert list_warnings(d, DELAY) == [told]
-    assert list_warnings(d, FRICTION) == []
-    still = diagnosis(explanations(both, hypothesis({f"{FRICTION}.force": 0.28}, 20.0)))
-    assert list(warn_of_moved_amplitudes(still, DELAY)) == []
+    assert list_doubts(facts, late) == (told,)
+    for still in (make_change(0.28, 0.27), make_change(0.68, 0.27, sd=0.1)):
+        assert doubt_moved_amplitudes.write(facts, make_found(DELAY, moved=(still,))) == ()
+
+
+def test_only_what_is_rare_or_acts_on_a_channel_is_doubted_because_it_moves_an_amplitude():
+    rub = make_found(FRICTION, moved=(make_change(0.68, 0.27),))
+    assert doubt_moved_amplitudes.write(make_facts(rub), rub)
+    assert doubts_of(rub) == ()
 
 
 def test_what_stays_open_is_told_with_the_reason_once():
-    alone = (fit_of(RUB, log_evidence=30.0), fit_of(LATE, log_evidence=25.0))
-    d = diagnosis(explanations(fits=alone), withdrawn=(DELAY, "unknown"))
-    rows = list_open_terms(d)
+    facts = make_facts(alone={FRICTION: 30.0, DELAY: 25.0}, withdrawn=(DELAY, "unknown"))
+    rows = list_open_terms(facts)
     assert [row.mechanism for row in rows] == ["excitation_delay", "coulomb_friction"]
     assert "held-out data are predicted worse" in rows[0].says
     assert "generic smooth force explains as much" in rows[1].says
@@ -163,16 +146,16 @@ def test_what_stays_open_is_told_with_the_reason_once():
 
 @pytest.mark.parametrize(("gain", "open_"), [(0.9, False), (1.1, True)])
 def test_a_term_is_open_if_it_alone_would_raise_the_evidence_by_much(gain, open_):
-    alone = fit_of(RUB, log_evidence=gain * DEFAULT.rival.much)
-    assert bool(list_open_terms(diagnosis(explanations(fits=(alone,))))) is open_
-    likely = explanations(hypothesis(RUB, -math.log(9.0)), fits=(alone,))
-    assert list_open_terms(diagnosis(likely)) == ()
+    alone = {FRICTION: gain * DEFAULT.rival.much}
+    assert bool(list_open_terms(make_facts(alone=alone))) is open_
+    assert list_open_terms(make_facts(alone=alone, sets={NOTHING: 0.9, RUB: 0.1})) == ()
+    assert list_open_terms(make_facts(alone=alone, learned=True)) == ()
 
 
-@pytest.mark.parametrize(("error", "floor", "good"), [(0.2, 0.01, True), (0.35, 0.1, True), (5.92, 0.01, False),
+@pytest.mark.parametrize(("error", "noise", "good"), [(0.2, 0.01, True), (0.35, 0.1, True), (5.92, 0.01, False),
                                                      (float("nan"), 0.1, False)])  # fmt: skip
-def test_a_model_holds_that_predicts(error, floor, good):
-    assert is_valid(SimpleNamespace(nrmse=error), floor) is good
+def test_a_model_holds_that_predicts(error, noise, good):
+    assert is_valid(make_facts(after=make_prediction(error), sensors=(make_sensor(sd=noise),))) is good
 
 
 def test_intervals_are_withheld_with_the_reason():
@@ -182,12 +165,39 @@ def test_intervals_are_withheld_with_the_reason():
     assert kept == {"median": 1.0, "low": None, "high": None, "unit": "N s/m", "withheld": "because"}
 
 
+def test_an_entry_has_its_sentence_and_in_a_model_that_does_not_predict_no_interval():
+    found = make_found(FRICTION, parameters=FORCE, share=0.1)
+    (entry,) = list_findings(make_facts(found))
+    assert (entry.state, entry.doubts) == (NAMED, ())
+    assert "1.000 N [0.900, 1.100]" in entry.says
+    assert entry.says.endswith(", up to 10 % of the drive.")
+    (entry,) = list_findings(make_facts(found, after=make_prediction(0.6), remains=0.9))
+    assert (entry.state, entry.probability) == (OPEN, DEFAULT.name.simplest)
+    assert "60 % of the response" in entry.doubts[0]
+    assert "1 N opposes" in entry.says
+
+
+@pytest.mark.parametrize(
+    ("changes", "told"),
+    [
+        ({}, []),
+        ({"unexplained": True}, ["A random force acts."]),
+        ({"after": make_prediction(0.6)}, ["The nominal model is not valid"]),
+    ],
+)
+def test_a_force_without_a_name_is_an_entry_where_something_is_missing(changes, told):
+    unnamed = Mechanism(
+        mechanism="random_force", probability=0.9, state=OPEN, parameters={}, says="A random force acts."
+    )
+    entries = list_findings(make_facts(unnamed=unnamed, **changes))
+    assert [entry.says[: len(said)] for entry, said in zip(entries, told, strict=True)] == told
+
+
 @pytest.mark.parametrize(("delay", "told"), [(0.9, True), (1.1, False)])
 def test_a_delay_of_no_more_than_a_sample_is_usual(delay, told):
-    """Samples are 1 s apart."""
-    d = diagnosis(explanations(hypothesis({f"{DELAY}.delay": delay}, 10.0)))
-    assert bool(list(warn_of_short_delay(d, DELAY))) == told
-    assert not list(warn_of_short_delay(rubbing(), FRICTION))
+    late = make_found(DELAY, delay=delay)
+    assert bool(doubt_short_delay.write(make_facts(late), late)) == told
+    assert not doubt_short_delay.write(make_facts(late), make_found(FRICTION))
 
 
 def entry(**told):

@@ -5,10 +5,11 @@ import re
 
 import numpy as np
 import pytest
-from made_explanations import FRICTION, diagnosis, explanations, hypothesis
+from made_facts import FRICTION, make_facts, make_prediction
 
 from lostmotion.diagnosis import unknowns
 from lostmotion.diagnosis.verdict import rank_candidates
+from lostmotion.evidence.hypothesis import UNKNOWN
 from lostmotion.inference.curves import _keep_independent
 from lostmotion.inference.learned import OverPhase, OverPosition, compute_spread, list_covariates
 from lostmotion.inference.proposal import Axis, propose_formula
@@ -16,6 +17,7 @@ from lostmotion.inference.surfaces import KINDS, OverHistory, Surface, list_all_
 from lostmotion.quantities import DAMPING, FORCE, LENGTH, SPEED
 from lostmotion.registry import default
 
+RUB = frozenset({FRICTION})
 X = Axis("x", LENGTH, FORCE, "translation")
 INPUT = np.zeros(1)
 
@@ -155,30 +157,28 @@ def test_what_free_parameters_cover_promises_nothing():
 
 def test_the_odds_of_an_unknown_force_are_those_of_the_explanations_that_have_it():
     """Scores 5 and 3 with it, 4 without: log odds of 1."""
-    d = diagnosis(
-        explanations(
-            hypothesis({f"{FRICTION}.force": 1.0}, 4.0), hypothesis({}, 5.0, unknown=True),
-            hypothesis({f"{FRICTION}.force": 1.0}, 3.0, unknown=True),
-        )
-    )  # fmt: skip
-    weights = np.exp([4.0, 5.0, 3.0, 0.0])
-    p, gain = unknowns.compute_unknown_odds(d)
-    assert p == pytest.approx((weights[1] + weights[2]) / weights.sum())
-    assert gain == pytest.approx(1.0)
+    sets = {frozenset(): 0.0, RUB: 4.0, frozenset({UNKNOWN}): 5.0, RUB | {UNKNOWN}: 3.0}
+    assert unknowns.compute_unknown_odds(0.6, sets, 0.0) == (0.6, 1.0)
 
 
-@pytest.mark.parametrize(("unexplained", "p"), [(False, 0.0), (True, 1.0 - math.exp(-3.0))])
-def test_a_random_force_beyond_the_usual_is_an_unknown_force_if_nothing_was_found(unexplained, p):
-    d = diagnosis(explanations())
-    d.unexplained, d.random_gain = unexplained, 3.0
-    assert unknowns.compute_unknown_odds(d) == pytest.approx((p, 3.0 * unexplained))
+@pytest.mark.parametrize(("random_gain", "p"), [(0.0, 0.0), (3.0, 1.0 - math.exp(-3.0))])
+def test_a_random_force_beyond_the_usual_is_an_unknown_force_if_nothing_was_found(random_gain, p):
+    assert unknowns.compute_unknown_odds(0.0, {frozenset(): 0.0}, random_gain) == pytest.approx((p, random_gain))
 
 
 @pytest.mark.parametrize("random_gain", [0.0, 3.0, 30.0])
-@pytest.mark.parametrize("smooth", [(), (-20.0,), (20.0,)])
+@pytest.mark.parametrize("smooth", [0.0, 2e-9, 1.0 - 2e-9])
 def test_nothing_missing_and_something_unknown_are_not_both_probable(random_gain, smooth):
     """Also where an unknown smooth force is improbable, and a random force is not."""
-    d = diagnosis(explanations(*(hypothesis({}, score, unknown=True) for score in smooth)))
-    d.unexplained, d.random_gain = random_gain > 0.0, random_gain
-    rows = {row.mechanism: row.probability for row in rank_candidates(d, (), failed=False)}
+    sets = {frozenset(): 1.0 - smooth, frozenset({UNKNOWN}): smooth}
+    unknown, gain = unknowns.compute_unknown_odds(smooth, {terms: math.log(p or 1e-99) for terms, p in sets.items()},
+                                                  random_gain)  # fmt: skip
+    ranking = rank_candidates(make_facts(sets=sets, unknown=unknown, unknown_gain=gain), ())
+    rows = {row.mechanism: row.probability for row in ranking}
     assert rows["nothing_missing"] + rows["unknown"] <= 1.0 + 1e-9
+    assert rows["unknown"] == pytest.approx(max(smooth, 1.0 - math.exp(-random_gain)))
+
+
+def test_a_model_that_does_not_predict_lacks_something_whatever_the_evidence_says():
+    rows = rank_candidates(make_facts(after=make_prediction(0.9)), ())
+    assert {row.mechanism: row.probability for row in rows if row.probability} == {"unknown": 1.0}

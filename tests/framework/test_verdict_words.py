@@ -1,25 +1,23 @@
 """What the opening sentences of a diagnosis say: of changes either way, of loud noise, of sensors, and of nothing."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 import report_fixture as made
+from made_facts import FRICTION, make_facts, make_found, make_prediction, make_sensor
 
-from lostmotion.diagnosis import verdict
 from lostmotion.diagnosis.diagnosis_run import note_unused
-from lostmotion.diagnosis.notes import note_large_noise
+from lostmotion.diagnosis.facts import PriorBound
+from lostmotion.diagnosis.notes import note_large_noise, write_notes
 from lostmotion.diagnosis.report.opening import make_badge
 from lostmotion.diagnosis.stages import _check_moving
+from lostmotion.diagnosis.verdict import summarise
 from lostmotion.errors import DataError
 from lostmotion.inference.setup import count_lasting_samples
+from lostmotion.inference.unseen import BodyPosition
 from lostmotion.likelihood.observation import Observation, Sensor
-from lostmotion.noises import AR1
 from lostmotion.results import Interval, attach_unit
 from lostmotion.results.diagnosis import Mechanism
 from lostmotion.results.mismatch import UnexplainedForce
-from lostmotion.settings import DEFAULT
-from lostmotion_plugins.models.basic import LinearOscillator
 
 
 def observed(readings, *names):
@@ -29,22 +27,17 @@ def observed(readings, *names):
     return Observation("seen", readings, np.zeros((len(readings), 1)), 0.01, sensors)
 
 
-def diagnosed(slow, *names, white=0.0):
-    """Return as much of an outcome as sentences need: sensors that read a sine, of which so much passes for noise."""
-    wave = np.sqrt(2.0) * np.sin(0.1 * np.arange(6283))
-    shown = observed(np.stack([wave] * max(len(names), 1), axis=1), *names)
-    problem = SimpleNamespace(
-        observations=(shown,),
-        noise=lambda theta, index, sensor: AR1().covariance((slow[sensor], 0.03), 0.01),
-        measurement=lambda theta, index, sensor: slow[sensor] ** 2 + white**2,
+FOUND = Mechanism(mechanism="friction", probability=1.0, state="named", parameters={}, says="Friction acts.")
+
+
+def summarise_forces(forces, errors):
+    """Return the sentence on forces (N rms) and errors before and after a law was found."""
+    before, after = (UnexplainedForce(True, force, "N", 0.1) for force in forces)
+    predictions = [make_prediction(error) for error in errors]
+    facts = make_facts(
+        make_found(FRICTION), force_before=before, force_after=after, before=predictions[0], after=predictions[1]
     )
-    after = SimpleNamespace(problem=problem, theta=np.zeros(0))
-    problem.system = SimpleNamespace(model=LinearOscillator())
-    diagnosis = SimpleNamespace(
-        after=after, shown=shown, found=("friction",), named=(), unexplained=False, settings=DEFAULT
-    )
-    scales, horizon = [1.0] * len(shown.sensors), SimpleNamespace(number=1, unit="drive periods")
-    return SimpleNamespace(diagnosis=diagnosis, after=SimpleNamespace(scales=scales), horizon=horizon)
+    return summarise(facts, [FOUND])[1]
 
 
 @pytest.mark.parametrize(
@@ -56,42 +49,52 @@ def diagnosed(slow, *names, white=0.0):
         ((1.0, 2.0), (0.2, 0.1), "With it the free-running * falls from 20 % to 10 %"),
     ],
 )
-def test_what_grows_is_not_said_to_fall(monkeypatch, force, error, told):
-    outcome = diagnosed([0.0])
-    outcome.before, outcome.after.nrmse = SimpleNamespace(nrmse=error[0]), error[1]
-    monkeypatch.setattr(verdict, "compute_noise_floor", lambda _: 0.01)
-    monkeypatch.setattr(verdict, "measure_unexplained", lambda _, after: UnexplainedForce(True, force[after], "N", 0.1))
-    friction = Mechanism(mechanism="friction", probability=1.0, state="named", parameters={}, says="Friction acts.")
-    said = verdict.summarise(outcome, [friction])[1]
+def test_what_grows_is_not_said_to_fall(force, error, told):
+    said = summarise_forces(force, error)
     start, end = told.split(" * ")
     assert start in said
     assert f"over one drive period {end} of the response" in said
 
 
-def test_a_force_within_the_noise_is_not_said_to_rise(monkeypatch):
-    outcome = diagnosed([0.0])
-    outcome.before, outcome.after.nrmse = SimpleNamespace(nrmse=0.2), 0.1
-    monkeypatch.setattr(verdict, "compute_noise_floor", lambda _: 0.01)
-    monkeypatch.setattr(
-        verdict, "measure_unexplained", lambda _, after: UnexplainedForce(not after, 2.0 if after else 1.0, "N", 0.1)
-    )
-    friction = Mechanism(mechanism="friction", probability=1.0, state="named", parameters={}, says="Friction acts.")
-    assert verdict.summarise(outcome, [friction])[1].startswith(
-        "With it the free-running prediction error of held-out data over one drive period falls from 20 % to 10 %"
-    )
+def test_a_force_on_another_body_is_told_on_the_first_one():
+    both = make_facts(make_found(FRICTION), on_other_body=True)
+    assert "the unexplained force, if it acts on the first body, falls from 2 to 1 N" in summarise(both, [FOUND])[1]
 
 
 def test_noise_that_may_be_motion_is_doubted():
-    assert note_large_noise(diagnosed([0.2])) == []
-    assert note_large_noise(diagnosed([0.0], white=0.7)) == []
-    assert note_large_noise(diagnosed([0.0], white=0.9))[0].startswith(
-        "The estimated noise is 90 % of the held-out readings"
-    )
-    assert note_large_noise(diagnosed([0.5]))[0].startswith(
+    def doubt(*sensors):
+        return note_large_noise.write(make_facts(sensors=sensors))
+
+    assert doubt(make_sensor(sd=0.2, slow=0.2)) == ()
+    assert doubt(make_sensor(sd=0.7)) == ()
+    assert doubt(make_sensor(sd=0.9))[0].startswith("The estimated noise is 90 % of the held-out readings")
+    assert doubt(make_sensor(sd=0.5, slow=0.5))[0].startswith(
         "The estimated noise is autocorrelated and is 50 % of the held-out readings"
     )
-    (only,) = note_large_noise(diagnosed([0.1, 0.9], "front", "rear"))
+    (only,) = doubt(make_sensor(name="front", sd=0.1, slow=0.1), make_sensor(name="rear", sd=0.9, slow=0.9))
     assert only.startswith("The estimated noise of rear is autocorrelated and is 90 %")
+
+
+@pytest.mark.parametrize(
+    ("changes", "start"),
+    [
+        ({"bounds": (PriorBound("c", 3.0, "N s/m"),)}, "c is at the bound 3 N s/m of its prior"),
+        (
+            {"after": make_prediction(0.2)},
+            "The error of free runs over held-out data is 20 times the",
+        ),
+        ({"corrected": ("the gain is 1.02",)}, "Usual errors of channels and known values are corrected: the gain is"),
+        ({"skipped": ("a", "b"), "explanations": 7}, "The search used up its processor time after 7 explanations"),
+        ({"sensors": (make_sensor(words=("Noise drifts.",)),)}, "Noise drifts."),
+        ({"contacts": ("A bounce is short.",)}, "A bounce is short."),
+        ({"position": BodyPosition(np.array([1.0, -1.0]), np.full(2, 0.05))}, "No sensor measures the position: it is"),
+        ({"position": BodyPosition(np.zeros(2), np.full(2, np.inf))}, "No sensor measures the position, and the"),
+    ],
+)
+def test_a_note_is_written_where_its_facts_are_there_and_nowhere_else(changes, start):
+    assert write_notes(make_facts()) == ()
+    (note,) = write_notes(make_facts(**changes))
+    assert note.startswith(start)
 
 
 @pytest.mark.parametrize(("mechanism", "words"), [("random_force", "open"), ("unknown", "open"),

@@ -1,6 +1,7 @@
-"""Lets the tests of this folder `import independent`, which pytest's importlib mode does not do by itself."""
+"""Lets the tests of this folder import `independent`, and `made_facts` of tests/framework: importlib mode does not."""
 
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parent))
+for folder in ("framework", "science"):
+    sys.path.insert(0, str(Path(__file__).parents[1] / folder))

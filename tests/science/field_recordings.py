@@ -14,7 +14,7 @@ from field import elsewhere
 from truths import system_of
 
 from lostmotion.case import CaseFile, Prior
-from lostmotion.diagnosis.findings import compute_intervals, draw_parameters
+from lostmotion.diagnosis.outcome import compute_intervals, draw_parameters
 from lostmotion.diagnosis.stages import diagnose
 from lostmotion.likelihood.drive import DriveHarmonic
 from lostmotion.likelihood.observation import Observation

@@ -10,8 +10,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from made_facts import make_facts
 from scipy.stats import binom
 
+from lostmotion.diagnosis.gather_facts import find_position
 from lostmotion.diagnosis.notes import note_unknown_position
 from lostmotion.inference.fit import maximise
 from lostmotion.inference.setup import choose_steps, compute_scales, make_problem, search_maximum, split_heldout
@@ -147,6 +149,11 @@ def test_a_part_of_a_recording_begins_where_it_does():
     assert whole.part(1, 5).begun is None
 
 
+def notes_on_position(fit, observation):
+    """Return the notes on the position of a fitted machine during a recording."""
+    return note_unknown_position.write(make_facts(position=find_position(fit, observation)))
+
+
 def test_a_position_that_no_sensor_shows_is_told_with_its_band():
     """The position under hits, smoothed at the truth. Errors of neighbours go together, so one recording tells little.
 
@@ -158,17 +165,17 @@ def test_a_position_that_no_sensor_shows_is_told_with_its_band():
     error = place.mean - states[:, 0]
     assert np.mean(np.abs(error) < 2.0 * place.sd) > 0.9
     assert np.std(error) > 0.3 * np.sqrt(np.mean(place.sd**2))
-    assert note_unknown_position(fit, observation) == []
+    assert notes_on_position(fit, observation) == ()
     loud = replace(fit, local=replace(fit.local, theta=fit.theta + 10.0 * (np.array(fit.problem.keys) == RANDOM)))
     pairs = zip(fit.problem.free, loud.theta, strict=True)
     levels = [replace(f, low=x, high=x) if f.key == RANDOM else f for f, x in pairs]
-    (said,) = note_unknown_position(replace(loud, problem=replace(fit.problem, free=tuple(levels))), observation)
+    (said,) = notes_on_position(replace(loud, problem=replace(fit.problem, free=tuple(levels))), observation)
     told = re.search(r"known to \+-(\S+) mm only .* (\S+) % of its amplitude", said)
     amplitude = 1e3 * math.sqrt(2.0) * states[:, 0].std()
     assert float(told[1]) / amplitude == pytest.approx(0.01 * float(told[2]), rel=0.15)
     assert float(told[2]) > 1.0
     shown = Observation.of("seen", states[:, 0], observation.inputs, machine.dt, "position")
-    assert note_unknown_position(fit, shown) == []
+    assert notes_on_position(fit, shown) == ()
 
 
 @pytest.mark.slow

@@ -7,7 +7,7 @@ import pytest
 from truths import FORCE, FRICTION, case_of, observation_of, system_of
 
 from lostmotion.diagnosis.compare import average_exponent, choose_heldout_horizon, compute_rates, cut_heldout, predict
-from lostmotion.diagnosis.findings import compute_intervals, draw_parameters
+from lostmotion.diagnosis.outcome import compute_intervals, draw_parameters
 from lostmotion.diagnosis.stages import diagnose
 
 pytestmark = pytest.mark.slow

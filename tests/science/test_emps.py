@@ -8,7 +8,7 @@ from machines import CARRIAGE, EMPS, EMPS_FILES, PUBLISHED
 
 from lostmotion.diagnosis.compare import compute_rates, cut_heldout, predict
 from lostmotion.diagnosis.diagnosis_run import check_heldout, draw_posteriors
-from lostmotion.diagnosis.findings import compute_intervals, draw_parameters
+from lostmotion.diagnosis.outcome import compute_intervals, draw_parameters
 from lostmotion.diagnosis.stages import diagnose
 from lostmotion.inference.candidates import compute_slopes, fit_term, run_score_test
 from lostmotion.likelihood.system import System

@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 
 import lostmotion as lm
-from lostmotion.diagnosis.diagnosis_run import explains_scale, run_diagnosis
+from lostmotion.diagnosis.diagnosis_run import run_diagnosis
 from lostmotion.diagnosis.scales import describe_wrong_scale
+from lostmotion.diagnosis.write_result import explains_scale
 from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.prepare import Prepared, prepare
 from lostmotion.registry import Registry, default
+from lostmotion.results.diagnosis import Mechanism
 
 
 def describe(prepared: Prepared) -> tuple[str, ...]:
@@ -122,5 +123,8 @@ def test_what_is_missing_in_a_machine_is_no_wrong_scale(term: str | None, seed: 
 )  # fmt: skip
 def test_a_law_explains_a_scale_only_where_it_explains_the_recording(states, share, left, explains):
     """A law that leaves a third of the missing force stands for an error of the sign: 2.6 times the drive was seen."""
-    found = [SimpleNamespace(state=state, share_of_drive=share) for state in states]
+    found = [
+        Mechanism(mechanism="m", probability=1.0, state=state, share_of_drive=share, parameters={}, says="")
+        for state in states
+    ]
     assert explains_scale(found, left) == explains

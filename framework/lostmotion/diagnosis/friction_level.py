@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from lostmotion.contracts import Array, Term
-from lostmotion.diagnosis.findings import Outcome
+from lostmotion.diagnosis.outcome import Outcome
 from lostmotion.diagnosis.stages import SearchResult, list_physical_keys
 from lostmotion.inference.natural import find_term
 from lostmotion.likelihood.system import Slot

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.diagnosis.findings import DRAWS, draw_parameters
+from lostmotion.diagnosis.outcome import DRAWS, draw_parameters
 from lostmotion.diagnosis.stages import SearchResult, list_physical_keys
 from lostmotion.inference.origin import shift_origin
 

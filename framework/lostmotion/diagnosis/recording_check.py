@@ -9,11 +9,12 @@ import numpy as np
 
 from lostmotion.codec import to_plain
 from lostmotion.diagnosis.expected_findings import describe_expectation, forecast_recordings
+from lostmotion.diagnosis.gather_facts import find_angle_unit
 from lostmotion.diagnosis.improvements import list_improvements
 from lostmotion.diagnosis.moving import check_motion, cut_rest
 from lostmotion.diagnosis.report.check_page import summarise_check, write_check
 from lostmotion.diagnosis.stages import list_fitted_keys, name_yardstick
-from lostmotion.diagnosis.verdict import find_angle_unit, label_model
+from lostmotion.diagnosis.write_result import label_model
 from lostmotion.errors import DataError
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.random_force import compute_random_force_gain

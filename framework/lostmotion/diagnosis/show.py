@@ -11,8 +11,8 @@ import numpy as np
 from lostmotion.contracts import Array
 from lostmotion.defaults import ATTRACTORS
 from lostmotion.diagnosis.compare import Prediction, average_exponent_blocks
-from lostmotion.diagnosis.findings import Outcome
 from lostmotion.diagnosis.free_decays import find_stretches
+from lostmotion.diagnosis.outcome import Outcome
 from lostmotion.diagnosis.show_words import ABSENT, TRANSIENT, describe_behaviour
 from lostmotion.likelihood.predict import Horizon, observe_states
 from lostmotion.offers import MEASURE

@@ -8,8 +8,8 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.diagnosis.compared_motions import take_section
-from lostmotion.diagnosis.findings import Outcome
 from lostmotion.diagnosis.friction_level import list_levels
+from lostmotion.diagnosis.outcome import Outcome
 from lostmotion.diagnosis.stages import ForceLocation, SearchResult, list_physical_keys
 from lostmotion.inference.fit import Fit
 from lostmotion.quantities import unit_of

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -68,7 +68,7 @@ def make_learned_entry(d: SearchResult) -> Mechanism:
         at=unknown.terms[0].at,
         probability=d.explained.inclusion(UNKNOWN),
         state=OPEN,
-        log_odds=compute_unknown_odds(d)[1],
+        log_odds=weigh_unknown(d)[1],
         depends_on=tuple(depends),
         parameters={"rms": size},
         curve=curves[0],
@@ -227,17 +227,24 @@ def _find_formula(d: SearchResult, band: Band) -> tuple[str, float] | None:
     return (f"{band.term.times} ({found.text})" if band.term.times else found.text), found.share
 
 
-def compute_unknown_odds(d: SearchResult) -> tuple[float, float]:
+def weigh_unknown(d: SearchResult) -> tuple[float, float]:
+    """Return the probability of a force that the library does not contain, and its log evidence."""
+    scores = {terms: one.score() for terms, one in d.explained.found.items()}
+    random = d.random_gain if d.unexplained and not d.found else 0.0
+    return compute_unknown_odds(d.explained.inclusion(UNKNOWN), scores, random)
+
+
+def compute_unknown_odds(p: float, scores: Mapping[frozenset[str], float], random_gain: float) -> tuple[float, float]:
     """Return the probability of a force that the library does not contain, and its log evidence.
 
-    It is an unknown smooth force or, where nothing was found, a random force beyond the usual.
+    It is an unknown smooth force with the probability `p`, in sets of terms with these scores, or a random force that
+    adds `random_gain` in log-likelihood.
     """
-    p, found = d.explained.inclusion(UNKNOWN), d.explained
-    random = 1.0 - math.exp(-d.random_gain) if d.unexplained and not d.found else 0.0
+    random = 1.0 - math.exp(-random_gain)
     if random >= p:
-        return random, d.random_gain if random else 0.0
-    known = [one.score() for terms, one in found.found.items() if UNKNOWN not in terms]
-    with_it = [one.score() for terms, one in found.found.items() if UNKNOWN in terms]
+        return random, random_gain
+    known = [score for terms, score in scores.items() if UNKNOWN not in terms]
+    with_it = [score for terms, score in scores.items() if UNKNOWN in terms]
     return p, max(with_it) - max(known)
 
 

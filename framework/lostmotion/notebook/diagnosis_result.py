@@ -12,7 +12,8 @@ import numpy as np
 
 from lostmotion.case import GUESSED
 from lostmotion.codec import from_plain
-from lostmotion.diagnosis.findings import Outcome
+from lostmotion.diagnosis.guest_sections import find_sections
+from lostmotion.diagnosis.outcome import Outcome
 from lostmotion.diagnosis.report import (
     absent_table,
     diagnosis_page,
@@ -32,7 +33,7 @@ from lostmotion.registry import Registry, default
 from lostmotion.report import style
 from lostmotion.results.absent import AbsentTerm
 from lostmotion.results.diagnosis import Candidate, Diagnosis
-from lostmotion.storage import folder_for, load_arrays, load_json, save_datasets, save_json, save_text
+from lostmotion.storage import folder_for, load_arrays, load_json, save_text
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -178,15 +179,12 @@ class DiagnosisResult(DiagnosisAnswer[Diagnosis]):
 
     def report(self, path: str | Path = "report.html") -> Path:
         """Write the page as self-contained HTML and return its path."""
-        return save_text(Path(path), diagnosis_page.render(self.evidence))
+        return save_text(Path(path), diagnosis_page.render(self.evidence, find_sections(self.registry)))
 
     def save(self, folder: str | Path) -> Path:
         """Write `diagnosis.json`, `arrays.nc` and `report.html` into a folder, for `load`, and return it."""
         place = folder_for(Path(folder))
-        save_datasets(place / "arrays.nc", {None: self.arrays})
-        save_json(place / "diagnosis.json", self.to_dict())
-        self.report(place / "report.html")
-        return place
+        return diagnosis_page.save_diagnosis(self.evidence, place, find_sections(self.registry))
 
     def _list_sentences(self) -> Iterator[str]:
         """Yield the answer, the most usual bounds of what is not missing, and what the case supposes."""

@@ -99,10 +99,10 @@ def diagnose(
             )
             found = RobotResult(made.result, made.arrays, made.written)
         else:
-            done = diagnose_prepared(
+            evidence, outcome = diagnose_prepared(
                 asked.prepare(known_to, terms, limits), known_to, seed=seed, jobs=jobs, say=say, settings=limits
             )
-            found = DiagnosisResult(done.result, done.arrays, known_to, done.outcome)
+            found = DiagnosisResult(evidence.result, evidence.data, known_to, outcome)
     if out is not None:
         found.save(out)
     return found

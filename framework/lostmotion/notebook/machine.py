@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from lostmotion.arguments import anything, checked, mapping, maybe, number, positive
 from lostmotion.contracts import Array, Assembly, Model, Term
-from lostmotion.diagnosis.findings import Outcome
+from lostmotion.diagnosis.outcome import Outcome
 from lostmotion.errors import CaseError, DataError, nearest
 from lostmotion.likelihood.sensors import Sensor
 from lostmotion.quantities import unit_of

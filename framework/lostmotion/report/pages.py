@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Generic, NamedTuple, TypeVar
+from typing import Generic, NamedTuple, Protocol, TypeVar, cast
 
 from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined, Template
 from markupsafe import Markup
@@ -32,10 +32,18 @@ def trim_table(head: list[str], rows: list[list[str]]) -> Grid:
     return Grid([head[k] for k in kept], [[row[k] for k in kept] for row in rows])
 
 
+class Provider(Protocol):
+    """What a page is drawn from: a result with its arrays."""
+
+    def provides(self, name: str) -> bool:
+        """Return whether there is a key of the result or an array of this name that is not empty."""
+
+
 class PageSection(NamedTuple, Generic[E]):
     """A section of a page: its name, its title, and functions that return its content.
 
-    `words` are above the figure, `caption` is below it, then follows the `table` with the style class `look`.
+    `words` are above the figure, `caption` is below it, then follows the `table` with the style class `look`. A section
+    is left out where a key of the result, or an array, that it `requires` is absent or empty.
     """
 
     name: str
@@ -45,6 +53,7 @@ class PageSection(NamedTuple, Generic[E]):
     table: Callable[[E], Grid | None] = lambda _: None
     words: Callable[[E], str] = lambda _: ""
     look: str = "tight"
+    requires: tuple[str, ...] = ()
 
 
 class DrawnSection(NamedTuple):
@@ -60,8 +69,10 @@ class DrawnSection(NamedTuple):
 
 
 def draw_sections(sections: Sequence[PageSection[E]], evidence: E) -> Iterator[DrawnSection]:
-    """Yield the sections that have a figure, a table with rows, or words."""
+    """Yield the sections that have what they require, and a figure, a table with rows, or words."""
     for one in sections:
+        if not all(cast(Provider, evidence).provides(name) for name in one.requires):
+            continue
         figure, table, words = one.draw(evidence), one.table(evidence), one.words(evidence)
         if figure is None and not (table and table.rows) and not words:
             continue
@@ -69,6 +80,18 @@ def draw_sections(sections: Sequence[PageSection[E]], evidence: E) -> Iterator[D
         # The markup comes from matplotlib, which escapes all text.
         markup = style.embed_figure(figure, one.name) if figure else Markup()
         yield DrawnSection(one.name, title, markup, one.caption(evidence) if figure else "", table, words, one.look)
+
+
+def draw_guests(guests: Mapping[str, Callable[[], PageSection[E]]], evidence: E) -> Iterator[DrawnSection]:
+    """Yield the sections of third parties, by name; one that fails says so in words, and the page is complete."""
+    for name, load in guests.items():
+        try:
+            yield from draw_sections([load()], evidence)
+        except Exception as err:  # code of a third party
+            said = str(err) if isinstance(err, LostMotionError) else f"{type(err).__name__}: {err}"
+            yield DrawnSection(
+                name, name, Markup(), "", words=f"This section cannot be drawn ({said}): inform its author."
+            )
 
 
 def write_page(page: Path, render: Callable[[], str], source: str) -> Path:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable, Mapping
 from pathlib import Path
+from types import MappingProxyType
 
 from lostmotion.codec import to_plain
 from lostmotion.diagnosis.report import (
@@ -27,8 +29,9 @@ from lostmotion.diagnosis.report import (
 )
 from lostmotion.diagnosis.report.page_data import RERUN_HINT, Evidence, read_evidence
 from lostmotion.report import style
-from lostmotion.report.pages import PageSection, draw_sections, load_template, write_page
+from lostmotion.report.pages import PageSection, draw_guests, draw_sections, load_template, write_page
 from lostmotion.report.words import split_headline, typeset
+from lostmotion.storage import save_datasets, save_json
 
 SECTIONS: tuple[PageSection[Evidence], ...] = (
     PageSection(
@@ -38,15 +41,38 @@ SECTIONS: tuple[PageSection[Evidence], ...] = (
         check_page.caption_expected,
         check_page.make_expected_table,
         check_page.write_expected,
+        requires=("expected",),
     ),
-    PageSection("prediction", "Recording and prediction", prediction.draw, prediction.caption),
-    PageSection("decay", "Free decay", decay_figure.draw, decay_figure.caption, words=decay_figure.write_words),
-    PageSection("sensors", "All sensors", sensor_figure.draw, sensor_figure.caption, sensor_figure.make_table),
+    PageSection(
+        "prediction", "Recording and prediction", prediction.draw, prediction.caption, requires=("time", "response")
+    ),
+    PageSection(
+        "decay",
+        "Free decay",
+        decay_figure.draw,
+        decay_figure.caption,
+        words=decay_figure.write_words,
+        requires=("decay",),
+    ),
+    PageSection(
+        "sensors",
+        "All sensors",
+        sensor_figure.draw,
+        sensor_figure.caption,
+        sensor_figure.make_table,
+        requires=("response_2",),
+    ),
     PageSection("missing", "The force that the model does not explain", missing.draw, missing.caption),
     PageSection("when", "When the model disagrees", strip.draw, strip.caption, strip.make_table),
-    PageSection("learned", "The learned force", learned_figure.draw, learned_figure.caption),
-    PageSection("levels", "Friction over the time", friction_figure.draw, friction_figure.caption),
-    PageSection("ranking", "Ranking of the candidates", ranking.draw, ranking.caption),
+    PageSection("learned", "The learned force", learned_figure.draw, learned_figure.caption, requires=("found",)),
+    PageSection(
+        "levels",
+        "Friction over the time",
+        friction_figure.draw,
+        friction_figure.caption,
+        requires=("friction_level",),
+    ),
+    PageSection("ranking", "Ranking of the candidates", ranking.draw, ranking.caption, requires=("ranking",)),
     PageSection(
         "absent",
         "What is not missing",
@@ -59,26 +85,43 @@ SECTIONS: tuple[PageSection[Evidence], ...] = (
         "parameters", "Parameters", parameter_figure.draw, parameter_figure.caption, parameter_figure.make_table
     ),
     PageSection(
-        "sharing", "Parameters in each recording", table=sharing_table.make_table, words=sharing_table.write_words
+        "sharing",
+        "Parameters in each recording",
+        table=sharing_table.make_table,
+        words=sharing_table.write_words,
+        requires=("sharing",),
     ),
     PageSection("portraits", portraits.make_title, portraits.draw, portraits.caption),
     PageSection("show", "Before and after in numbers", table=behaviour_table.make_table, look="prose"),
-    PageSection("growth", "Growth of the prediction error", growth.draw, growth.caption),
+    PageSection("growth", "Growth of the prediction error", growth.draw, growth.caption, requires=("lead",)),
     PageSection("whiteness", "Are the innovations white?", growth.draw_whiteness, growth.caption_whiteness),
 )
 
 
-def write_report(folder: Path) -> Path:
+Guests = Mapping[str, Callable[[], PageSection[Evidence]]]
+"""The sections of third parties, by name, each with the function that loads it."""
+NONE: Guests = MappingProxyType({})
+
+
+def write_report(folder: Path, guests: Guests = NONE) -> Path:
     """Return the path of `report.html`, written from `diagnosis.json` and `arrays.nc` in the folder."""
     evidence = read_evidence(folder)
-    return write_page(folder / "report.html", lambda: render(evidence), RERUN_HINT)
+    return write_page(folder / "report.html", lambda: render(evidence, guests), RERUN_HINT)
 
 
-def render(evidence: Evidence) -> str:
-    """Return the page as one self-contained HTML text."""
+def save_diagnosis(evidence: Evidence, folder: Path, guests: Guests = NONE) -> Path:
+    """Return the folder after writing `diagnosis.json`, `arrays.nc` and `report.html` into it."""
+    save_datasets(folder / "arrays.nc", {None: evidence.data})
+    save_json(folder / "diagnosis.json", to_plain(evidence.result))
+    write_report(folder, guests)
+    return folder
+
+
+def render(evidence: Evidence, guests: Guests = NONE) -> str:
+    """Return the page as one self-contained HTML text; sections of `guests` follow those of the framework."""
     result = evidence.result
     with style.use_style(result.units.angle):
-        sections = list(draw_sections(SECTIONS, evidence))
+        sections = [*draw_sections(SECTIONS, evidence), *draw_guests(guests, evidence)]
         numbers, mechanisms = top_tables.make_number_table(evidence), top_tables.make_mechanism_table(evidence)
     return load_template("page.html.j2", __package__).render(
         title=result.title,

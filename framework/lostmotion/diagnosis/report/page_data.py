@@ -61,6 +61,10 @@ class Evidence(Drawable):
 
     result: Diagnosis
 
+    def provides(self, name: str) -> bool:
+        """Return whether a key of the result, or an array, of this name exists and is not empty."""
+        return bool(getattr(self.result, name, None)) or self.has(name)
+
     @property
     def augmented(self) -> bool:
         """Whether something was found, so that there are a model before and a model after."""

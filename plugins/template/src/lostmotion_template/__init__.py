@@ -33,3 +33,9 @@ def lostmotion_commands() -> dict[str, tuple[str, str]]:
 def lostmotion_noises() -> dict[str, str]:
     """Return the noises of this package, which a case names: `noise = "flicker_noise"`."""
     return {"flicker_noise": f"{_HERE}.noises:FlickerNoise"}
+
+
+@hookimpl
+def lostmotion_sections() -> dict[str, tuple[str, str]]:
+    """Return the sections that this package adds to the page of a diagnosis."""
+    return {"power": (f"{_HERE}.sections:make_power_section", "The power of the missing force over the recording.")}

@@ -1,0 +1,321 @@
+"""The facts of a diagnosis, gathered from its search and the predictions of both models."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+
+import numpy as np
+
+from lostmotion.case import CaseFile
+from lostmotion.contracts import Array, Model, SensorTerm, Term
+from lostmotion.diagnosis.facts import (
+    AmplitudeChange,
+    CandidateTerm,
+    Facts,
+    FoundTerm,
+    PriorBound,
+    SensorNoise,
+    Support,
+)
+from lostmotion.diagnosis.outcome import Outcome, compute_intervals
+from lostmotion.diagnosis.stages import SearchResult, list_fitted_keys, list_physical_keys
+from lostmotion.diagnosis.states import NAMED
+from lostmotion.diagnosis.unknowns import make_learned_entry, make_unnamed_entry, weigh_unknown
+from lostmotion.evidence.hypothesis import list_vague
+from lostmotion.inference.contacts import list_short_contacts
+from lostmotion.inference.fit import Fit
+from lostmotion.inference.late import estimate_onset
+from lostmotion.inference.natural import find_term
+from lostmotion.inference.origin import list_shifted, list_unlocated
+from lostmotion.inference.penalties import compute_penalty
+from lostmotion.inference.unseen import BodyPosition, smooth_body_position
+from lostmotion.likelihood.initial import shows_place
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.sensor_noise import compute_variance
+from lostmotion.likelihood.system import key_of
+from lostmotion.quantities import TIME, unit_of
+from lostmotion.report.words import to_words
+from lostmotion.results import Interval, attach_unit, rounded
+from lostmotion.results.diagnosis import DriveFacts, Mechanism, Units
+from lostmotion.results.mismatch import UnexplainedForce
+
+EDGE = 1e-3
+"""A parameter is at a bound of its prior within this share of its range."""
+
+
+def gather_facts(outcome: Outcome, case: CaseFile, said: Sequence[str] = ()) -> Facts:
+    """Return the facts of a diagnosis; `said` are the notes on the case and its recordings."""
+    d = outcome.diagnosis
+    model, first = d.after.problem.system.model, d.explained.chosen.problem.observations[0]
+    intervals = compute_intervals(d.after, outcome.draws_after)
+    unknown, gain = weigh_unknown(d)
+    return Facts(
+        settings=d.settings,
+        motion=model.motion,
+        drive=describe_drive(d),
+        input_unit=unit_of(model.inputs[0], model.motion),
+        level=first.travel,
+        sensors=_list_sensors(outcome),
+        before=outcome.before,
+        after=outcome.after,
+        horizon=outcome.horizon,
+        force_before=measure_unexplained(d, after=False),
+        force_after=measure_unexplained(d, after=True),
+        sets=d.explained.probabilities,
+        candidates=_list_candidates(d),
+        found=tuple(_make_found(outcome, key, intervals) for key in d.named),
+        quantised=tuple(_make_quantised_entry(d, key) for key in d.quantised),
+        unnamed=_make_unnamed(d),
+        parameters_before=compute_intervals(d.before, outcome.draws_before),
+        parameters_after=intervals,
+        augmented=bool(d.found),
+        learned=d.learned is not None,
+        unexplained=d.unexplained,
+        structured=bool(d.left and d.left.structure),
+        on_other_body=_acts_on_other_body(d),
+        remains=_measure_remains(d),
+        smooth_fitted=any(one.unknown for one in d.explained.found.values()),
+        unknown=unknown,
+        unknown_gain=gain,
+        leftover=d.explained.leftover,
+        explanations=len(d.explained.found),
+        skipped=d.explained.skipped,
+        withdrawn=d.withdrawn,
+        corrected=tuple(d.corrections.describe(d.shown)),
+        contacts=tuple(list_short_contacts(d.after)),
+        bounds=tuple(_list_bounds(d.after)),
+        position=find_position(d.after, d.shown),
+        recordings=(*d.train, *d.held) if d.shown is d.held[0] else (d.shown,),
+        fitted=d.train,
+        held=d.held,
+        said=tuple(said),
+        angle=find_angle_unit(case),
+    )
+
+
+def find_angle_unit(case: CaseFile) -> str:
+    """Return the unit of angles in a case: deg if a column is in degrees, else rad."""
+    columns = [c for recording in case.recordings for c in (*recording.inputs, *recording.sensors)]
+    return "deg" if any(c.unit.startswith(("deg", "°")) for c in columns) else "rad"
+
+
+def list_units(d: SearchResult) -> Units:
+    """Return the units of the arrays."""
+    if d.after.problem.system.model.motion == "rotation":
+        return Units("rad", "rad/s", "N m", "s")
+    return Units("m", "m/s", "N", "s")
+
+
+def describe_drive(d: SearchResult) -> DriveFacts:
+    """Return amplitude, unit and frequency of the drive."""
+    period = d.shown.period
+    return DriveFacts(
+        amplitude=d.after.problem.scales.force,
+        unit=list_units(d).force,
+        of=d.yardstick,
+        frequency=1.0 / (period * d.shown.dt) if period else None,
+        free=d.shown.free,
+    )
+
+
+def measure_unexplained(d: SearchResult, *, after: bool) -> UnexplainedForce:
+    """Return the force that the augmented (`after`) or the nominal model leaves unexplained."""
+    located = d.left if after and d.left else d.located
+    rms = float(np.std(located.missing.force))
+    significant = d.unexplained if after else bool(d.found or d.unexplained)
+    return UnexplainedForce(significant, rms, list_units(d).force, rms / d.after.problem.scales.force)
+
+
+def find_position(fit: Fit, observation: Observation) -> BodyPosition | None:
+    """Return the smoothed position during a recording; None where a sensor shows it."""
+    return None if shows_place(observation) else smooth_body_position(fit, observation)
+
+
+def _measure_remains(d: SearchResult) -> float:
+    """Return the share of the missing force that is still missing with all findings; 0 without a random force."""
+    if not (d.unexplained and d.left):
+        return 0.0
+    return float(np.std(d.left.missing.force) / np.std(d.located.missing.force))
+
+
+def _list_sensors(outcome: Outcome) -> tuple[SensorNoise, ...]:
+    """Return the noise of each sensor in the augmented model, with the sentences of its parts."""
+    d = outcome.diagnosis
+    problem, theta, motion = d.after.problem, d.after.theta, d.after.problem.system.model.motion
+    first, marked = problem.observations[0], {find_term(d.before.problem, key)[0].at for key in d.quantised}
+    rows = []
+    for i, (sensor, scale) in enumerate(zip(d.shown.sensors, outcome.after.scales, strict=True)):
+        whole, fitted = problem.measurement(theta, 0, i), problem.find_sensor(0, i).noises
+        slow = problem.noise(theta, 0, i).variance_after(first.samples // 2)
+        kind = " + ".join(noise.name for noise in fitted[1:]) or fitted[0].name
+        if kind == "white" and sensor.place in marked:
+            kind = "quantised"
+        words = []
+        for noise, values in zip(fitted, problem.noise_values(theta[None], 0, i), strict=True):
+            p = tuple(values[0].tolist())
+            words.append(noise.words(p, compute_variance(noise.covariance(p, first.dt), first, i) / whole))
+        rows.append(
+            SensorNoise(
+                name=sensor.label,
+                channel=sensor.channel,
+                unit=unit_of(sensor.channel, motion),
+                sd=math.sqrt(whole),
+                slow=slow**0.5,
+                scale=scale,
+                kind=kind,
+                words=tuple(filter(None, words)),
+            )
+        )
+    return tuple(rows)
+
+
+def _list_bounds(fit: Fit) -> Iterator[PriorBound]:
+    """Yield the parameters of the model that are at a bound of their prior."""
+    for f, at in zip(fit.problem.free, fit.theta, strict=True):
+        reach = EDGE * (f.high - f.low)
+        if f.physical and "." not in f.parameter and not f.low + reach < at < f.high - reach:
+            yield PriorBound(f.key, f.value(f.low if at <= f.low + reach else f.high), f.unit)
+
+
+def _list_candidates(d: SearchResult) -> tuple[CandidateTerm, ...]:
+    explained, system = d.explained, d.explained.nominal.problem.system
+    many, nothing = len(list_fitted_keys(system)), explained.nominal.log_evidence
+    alone = {next(iter(terms)): fit.log_evidence for terms, fit in explained.fits.items() if len(terms) == 1}
+    return tuple(
+        CandidateTerm(
+            key=key,
+            term=term,
+            gain=explained.gain(key),
+            price=compute_penalty(term, many, d.settings),
+            fitted=frozenset({key}) in explained.found,
+            alone=alone[key] - nothing if key in alone else None,
+        )
+        for key, term in ((key_of(term), term) for term in system.terms)
+    )
+
+
+def _make_unnamed(d: SearchResult) -> Mechanism | None:
+    """Return the entry of a force that no term explains; None where terms explain all."""
+    if d.learned:
+        return make_learned_entry(d)
+    return make_unnamed_entry(d) if d.unexplained or not d.found else None
+
+
+def _make_found(outcome: Outcome, key: str, intervals: Mapping[str, Interval]) -> FoundTerm:
+    d = outcome.diagnosis
+    term, slots = find_term(d.after.problem, key)
+    system, known = d.after.problem.system, d.after.problem.known
+    held = {s.key: float(known[system.index[s.key]]) for s in slots}
+    own = {s.param.name: intervals.get(s.key) or _make_interval(np.full(1, held[s.key]), s.unit) for s in slots}
+    parameters, unlocated = own | _compute_derived(outcome, term, held), None
+    if key in list_unlocated(d.after):
+        medians = {name: i.median for name, i in parameters.items()}
+        unlocated = tuple(list_shifted(term, medians, d.after.problem.scales.length))
+    return FoundTerm(
+        key=key,
+        term=term,
+        parameters=parameters,
+        share=float(np.max(np.abs(d.laws[key]))) / d.after.problem.scales.force,
+        support=_make_support(d, key),
+        since=estimate_onset(d.after, key),
+        place=term.at if term.at in list_other_places(system.model) else "",
+        sensor=_name_sensor(d, term),
+        unlocated=unlocated,
+    )
+
+
+def _make_support(d: SearchResult, key: str) -> Support:
+    return Support(
+        gain=d.explained.gain_beside(key),
+        vague=tuple(list_vague(d.explained.best, key)),
+        moved=tuple(_list_moved(d, key)),
+        delay=_count_delay(d.after, key),
+        complete=tuple(_list_complete(d, key)),
+    )
+
+
+def _list_moved(d: SearchResult, key: str) -> Iterator[AmplitudeChange]:
+    """Yield the amplitudes of other found terms, without a found term and beside it."""
+    whole = d.explained.best
+    less = d.explained.found.get(whole.terms - {key})
+    if less is None or key not in whole.terms:
+        return
+    sds = np.sqrt(np.maximum(np.diag(less.covariance), 0.0))
+    for f, at, sd in zip(less.frame.problem.free[: less.frame.own], less.theta, sds, strict=True):
+        owner, _, name = f.key.rpartition(".")
+        if owner and not f.log and f.key in whole.values:
+            law = to_words(owner.partition("@")[0])
+            yield AmplitudeChange(law, name, f.unit, float(at), float(whole.values[f.key]), float(sd))
+
+
+def _count_delay(fit: Fit, key: str) -> float | None:
+    """Return the delay or the time constant of a channel in samples; None for other terms."""
+    term, slots = find_term(fit.problem, key)
+    late = [s for s in slots if s.param.dimension == TIME and s.key in fit.values]
+    if term.acts == "motion" or not late:
+        return None
+    return abs(fit.values[late[0].key]) / fit.problem.observations[0].dt
+
+
+def _list_complete(d: SearchResult, key: str) -> Iterator[float]:
+    """Yield the share of the recording after which each change is complete."""
+    problem = d.after.problem
+    for slot in find_term(problem, key)[1]:
+        if slot.param.lasting and slot.param.dimension == TIME and slot.key in d.after.values:
+            first = problem.observations[0]
+            yield (d.after.values[slot.key] - float(first.time[0])) / (first.samples * first.dt)
+
+
+def list_other_places(model: Model) -> set[str]:
+    """Return the names of the places where a force acts on another body than the first."""
+    first = model.interfaces[0]
+    return {place.name for place in model.interfaces if place.row != first.row or place.against != first.against}
+
+
+def _acts_on_other_body(d: SearchResult) -> bool:
+    at = {find_term(d.after.problem, key)[0].at for key in d.named}
+    return bool(at & list_other_places(d.after.problem.system.model))
+
+
+def _name_sensor(d: SearchResult, term: Term) -> str:
+    """Return the name of the sensor on which a term acts; empty for a single sensor."""
+    if not isinstance(term, SensorTerm) or len(d.shown.sensors) < 2:
+        return ""
+    return next((s.label for s in d.shown.sensors if s.place == term.at), "")
+
+
+def _make_quantised_entry(d: SearchResult, key: str) -> Mechanism:
+    """Return the entry of a term that is visible in the stored values: their quantisation."""
+    term, slots = find_term(d.before.problem, key)
+    rows = zip(slots, *d.quantised[key], strict=True)
+    channel = next((s.channel for s in d.shown.sensors if s.place == term.at), d.shown.channel)
+    unit = unit_of(channel, d.after.problem.system.model.motion)
+    own = {s.param.name: Interval(v, v - 1.96 * sd, v + 1.96 * sd, unit) for s, v, sd in rows}
+    numbers = {name: attach_unit(rounded(i.median, 3), i.unit) for name, i in own.items()}
+    sensor = _name_sensor(d, term)
+    beside = f" (sensor {sensor!r})" if sensor else ""
+    return Mechanism(
+        mechanism=term.name,
+        at=term.at,
+        probability=1.0,
+        state=NAMED,
+        parameters=own,
+        says=f"{term.physics.format(**numbers)}{beside}, as the stored values show.",
+    )
+
+
+def _compute_derived(outcome: Outcome, term: Term, held: Mapping[str, float]) -> dict[str, Interval]:
+    """Return the intervals of the derived numbers of a term, from draws of its parameters (`held` if not free)."""
+    after = outcome.diagnosis.after
+    columns = {key: i for i, key in enumerate(list_physical_keys(after))}
+    rows = [[row[columns[k]] if k in columns else value for k, value in held.items()] for row in outcome.draws_after]
+    made = np.array([term.derived(tuple(row)) for row in rows])
+    motion = after.problem.system.model.motion
+    return {q.name: _make_interval(column, q.unit(motion)) for q, column in zip(term.further, made.T, strict=True)}
+
+
+def _make_interval(draws: Array, unit: str) -> Interval:
+    """Return median and central 95 % interval of draws (count,)."""
+    low, median, high = np.quantile(draws, [0.025, 0.5, 0.975])
+    return Interval(float(median), float(low), float(high), unit)
