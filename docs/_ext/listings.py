@@ -166,8 +166,10 @@ class Thresholds(SphinxDirective):
             section += nodes.title("", "", nodes.literal("", stage.name))
             section += nodes.paragraph("", "", *format_code(about))
             own = [one for one in DEFAULT if one.key.startswith(f"{stage.name}.")]
-            rows = [(one.key, f"{one.value:.4g}", " ".join(filter(None, (one.why, one.source)))) for one in own]
-            section += make_table(("setting", "value", "why"), rows)
+            rows = [
+                (one.key, f"{one.value:.4g}", one.unit, " ".join(filter(None, (one.why, one.source)))) for one in own
+            ]
+            section += make_table(("setting", "value", "unit", "why"), rows)
             made.append(section)
         return made
 

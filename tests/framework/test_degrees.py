@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import re
-from types import SimpleNamespace
 
 import pytest
 import report_fixture as fixture
@@ -52,4 +51,4 @@ def test_a_page_of_a_case_in_degrees_shows_no_angle_in_rad():
 @pytest.mark.parametrize(("unit", "told"), [("deg", "deg"), ("degrees", "deg"), ("rad", "rad"), ("m", "rad")])
 def test_a_case_with_a_column_in_degrees_is_one_in_degrees(unit, told):
     seen = RecordingSpec("run.csv", "t", None, (), (Channel("angle", "position", unit),))
-    assert find_angle_unit(SimpleNamespace(recordings=(seen,))) == told
+    assert find_angle_unit((seen,)) == told

@@ -20,9 +20,10 @@ CHAOS = Path(__file__).parents[2] / "plugins" / "lostmotion_chaos"
 
 def test_each_has_a_reason_and_a_key_of_its_own():
     told = list(DEFAULT)
-    assert len({one.key for one in told}) == len(told)
+    assert len({one.key for one in told}) == len(told) <= 60
     for one in told:
         assert one.why.endswith(".")
+        assert one.unit
         assert one.value == one.default
         assert math.isfinite(one.value)
 

@@ -1,7 +1,6 @@
 """Where the package of chaos is absent, everything else works, and a sentence names the package."""
 
 import math
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,7 +10,7 @@ import lostmotion
 from lostmotion import registry
 from lostmotion.case import load_case
 from lostmotion.cli import main
-from lostmotion.diagnosis.show import measure_attractors
+from lostmotion.diagnosis.show import refuse_attractors
 from lostmotion.diagnosis.show_words import ABSENT
 from lostmotion.errors import PluginError
 from lostmotion.identification.identification_run import identify_case
@@ -70,8 +69,7 @@ def test_the_route_of_levels_is_absent_with_a_sentence(bare, tmp_path):
 def test_a_diagnosis_says_that_attractors_were_not_measured(bare):
     time = 0.01 * np.arange(400)
     shown = Observation.of("driven", np.sin(time), np.cos(time)[:, None], 0.01, "position")
-    outcome = SimpleNamespace(diagnosis=SimpleNamespace(shown=shown))
-    found = measure_attractors(outcome, {}, bare, np.random.default_rng(0))
+    found = refuse_attractors(shown, bare)
     assert {one.status for one in (*found.distances.values(), *found.dimensions.values())} == {ABSENT}
     assert math.isnan(found.distances["before"].value)
     assert ABSENCE.format("measure 'attractors'") in found.dimensions["recorded"].says

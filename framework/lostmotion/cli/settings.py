@@ -36,6 +36,7 @@ def command(stage: str, as_json: bool, settings: Settings) -> None:
     for one in settings:
         if one.key.startswith(f"{stage}." if stage else ""):
             changed = "" if one.value == one.default else f"   (default {one.default:.6g})"
-            click.secho(f"{one.key} = {one.value:.6g}{changed}", bold=True)
+            unit = "" if one.unit == "1" else f" {one.unit}"
+            click.secho(f"{one.key} = {one.value:.6g}{unit}{changed}", bold=True)
             source = f" Source: {one.source}." if one.source else ""
             click.echo(click.wrap_text(one.why + source, 100, "    ", "    "))

@@ -33,6 +33,8 @@ REACH = 8.0
 """Error growth is computed over this many Lyapunov times or periods."""
 SEGMENT = 3.0
 
+MUCH_SMALLER = 0.5
+"""The error of free runs is much smaller when it falls below this share."""
 PARTS = 10
 """Free runs of two models are compared over this number of successive parts of the held-out data."""
 
@@ -173,7 +175,7 @@ def is_worse(before: Prediction, after: Prediction, limits: HeldOutSettings = DE
     fall = -float(np.mean(more))
     if _is_positive(-more, limits.chance):
         return True
-    return fall > limits.fall and after.nrmse > limits.less * before.nrmse
+    return fall > limits.fall and after.nrmse > MUCH_SMALLER * before.nrmse
 
 
 def _is_positive(values: Array, chance: float) -> bool:

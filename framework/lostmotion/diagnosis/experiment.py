@@ -14,7 +14,6 @@ from lostmotion.diagnosis.rehearsal import EvidenceBudget, RehearsedModel, compu
 from lostmotion.inference.fit import Fit
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.observation import Observation
-from lostmotion.settings import DEFAULT, ExperimentSettings
 
 __all__ = [
     "Excitation",
@@ -32,6 +31,9 @@ ROUNDS, HALFWAY = 4, 2
 MOST_REFINED, MOST_FITTED, DRAWS = 6, 2, 2
 """The number of excitations that are evaluated again with incomplete fits, the number evaluated with complete fits, and
 the number of simulated recordings that are averaged for each of the latter."""
+PLAIN, IMITATED, CERTAIN = 5.0, 0.2, 12.0
+"""One model can imitate the other when the log Bayes factor in favour of the other is never above `PLAIN`, or above the
+share `IMITATED` of the opposite one, unless it is above `CERTAIN`."""
 Ways = tuple[float, float]
 """The expected log Bayes factor in favour of the true model, if the chosen model is true and if the rival is true."""
 
@@ -80,7 +82,7 @@ def propose(
     rough = weighed.compute_ways(offered, 0)
     say("expected gains of the best excitations and of a repetition")
     good = weighed.compute_ways([e for e, _ in _select_best(rough, (0, 1), MOST_REFINED, max)], HALFWAY)
-    counted = _select_counted([ways for _, ways in good if ways], chosen.problem.settings.experiment)
+    counted = _select_counted([ways for _, ways in good if ways])
     again = [e for e, _ in _select_best(good, counted, MOST_FITTED, min)]
     *fine, (_, repeat) = weighed.average_ways([*again, repeat_drive(observation, samples, natural)])
     found = _select_best(fine, counted, 1, min)
@@ -153,9 +155,9 @@ def _select_best(
     return sorted(through, key=lambda pair: -of(pair[1][k] for k in counted))[:most]  # type: ignore[return-value]
 
 
-def _select_counted(found: Sequence[Ways], limits: ExperimentSettings = DEFAULT.experiment) -> tuple[int, ...]:
+def _select_counted(found: Sequence[Ways]) -> tuple[int, ...]:
     """Return which true models an experiment can confirm: both, unless one model imitates the other."""
     tops = [max((ways[k] for ways in found), default=0.0) for k in (0, 1)]
-    least = [min(max(limits.plain, limits.imitated * tops[1 - k]), limits.certain) for k in (0, 1)]
+    least = [min(max(PLAIN, IMITATED * tops[1 - k]), CERTAIN) for k in (0, 1)]
     shown = tuple(k for k in (0, 1) if tops[k] > least[k])
     return shown or (0, 1)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -20,7 +21,6 @@ from lostmotion.recording.warnings import is_impulsive
 from lostmotion.report.words import choose_scale, to_words
 from lostmotion.results import percent, rounded
 from lostmotion.results.behaviour import DecayCycles, Decays
-from lostmotion.settings import DEFAULT, NoteSettings
 from lostmotion.signals.decay import Decay, decay_of
 from lostmotion.signals.impacts import hits_of, onsets_of
 from lostmotion.signals.trends import says
@@ -40,6 +40,25 @@ NONE_MEASURED = (
     "No free decay could be measured: this requires at least four cycles of one mode that exceed the noise and fall by"
     " at least 10 %."
 )
+
+
+@dataclass(frozen=True)
+class DecayOptions:
+    """When a part of a decay is compared with that of a model, and when two values agree; errors are relative."""
+
+    known: float = 0.02
+    """A part is compared when its decrement or frequency has a smaller standard error."""
+    certain: float = 3.0
+    """A part is also compared when the model differs by this many standard errors."""
+    change: float = 0.05
+    """A decrement that changes by less than this share is constant; a frequency with a tenth of it."""
+    decrement: float = 0.15
+    """A model has the recorded decrement when its error is below this."""
+    frequency: float = 0.02
+    """A model has the recorded frequency when its error is below this."""
+
+
+OPTIONS = DecayOptions()
 
 
 class DecayStretch(NamedTuple):
@@ -162,9 +181,7 @@ def _describe_decay(d: SearchResult, measured: Measured, models: dict[str, list[
         begun = (d.shown.begin + stretch.start) * d.shown.dt
         opening = f"Of {len(measured)} decays, that from {rounded(begun, 4)} s has the largest range: "
     words = says(decay, scale.unit, factor=scale.factor)
-    parts = [
-        _compare_decays(_name_model(d, name), decay, made[widest], d.settings.note) for name, made in models.items()
-    ]
+    parts = [_compare_decays(_name_model(d, name), decay, made[widest]) for name, made in models.items()]
     compared = "; ".join(parts)
     return f"{opening}{words if not opening else words[:1].lower() + words[1:]} {compared[:1].upper()}{compared[1:]}."
 
@@ -179,19 +196,19 @@ def _name_model(d: SearchResult, version: str) -> str:
     return f"the model with {' and '.join([', '.join(terms[:-1]), terms[-1]] if len(terms) > 1 else terms)}"
 
 
-def _compare_decays(who: str, seen: Decay, made: Decay | None, limits: NoteSettings) -> str:
+def _compare_decays(who: str, seen: Decay, made: Decay | None) -> str:
     """Return a clause on the difference between the decay of a model and the recorded one."""
     if made is None:
         return f"a free run of {who} has no measurable decay"
-    loss, pitch = (compute_largest_error(seen, made, name, limits) for name in ("decrement", "frequency"))
+    loss, pitch = (compute_largest_error(seen, made, name) for name in ("decrement", "frequency"))
     if math.isnan(loss):
         return f"{who} has too few amplitudes in common with the recording for a comparison"
-    if loss < limits.decrement and pitch < limits.frequency:
+    if loss < OPTIONS.decrement and pitch < OPTIONS.frequency:
         return (
             f"{who} has the recorded decrement to within {percent(loss)} and the frequency to within {percent(pitch)}"
         )
-    loss_range = _describe_range(made.decrement, limits.decay_change, "a decrement")
-    pitch_range = _describe_range(made.frequency, 0.1 * limits.decay_change, "a frequency", " Hz")
+    loss_range = _describe_range(made.decrement, OPTIONS.change, "a decrement")
+    pitch_range = _describe_range(made.frequency, 0.1 * OPTIONS.change, "a frequency", " Hz")
     return (
         f"{who} decays with {loss_range}, up to {percent(loss)} from the recorded one, and {pitch_range}, up to"
         f" {percent(pitch)} from it"
@@ -206,7 +223,7 @@ def _describe_range(values: Array, share: float, what: str, unit: str = "") -> s
     return f"{what} that changes from {rounded(first, 3)} to {rounded(last, 3)}{unit}"
 
 
-def compute_largest_error(seen: Decay, made: Decay, name: str, limits: NoteSettings = DEFAULT.note) -> float:
+def compute_largest_error(seen: Decay, made: Decay, name: str) -> float:
     """Return the largest relative error of a model in the recorded `name`, over at most eight parts of the decay.
 
     Only common amplitudes are compared; NaN if there are too few. Cycles are weighted by the squared amplitude. A part
@@ -226,7 +243,7 @@ def compute_largest_error(seen: Decay, made: Decay, name: str, limits: NoteSetti
         model, true = (float(np.average(v[inside], weights=weights[inside])) for v in (expected, values))
         error = math.sqrt(OVERLAP * float(np.sum((weights * errors)[inside] ** 2))) / float(np.sum(weights[inside]))
         apart, scale = abs(model - true), max(abs(true), 1e-300)
-        return apart / scale, error < limits.decay_known * scale or apart > limits.decay_certain * error
+        return apart / scale, error < OPTIONS.known * scale or apart > OPTIONS.certain * error
 
     parts = np.array_split(np.arange(shared.size), min(PARTS, shared.size // FEWEST))
     counted = [share for share, counts in map(part, parts) if counts]

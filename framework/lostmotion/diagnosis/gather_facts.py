@@ -35,6 +35,7 @@ from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.sensor_noise import compute_variance
 from lostmotion.likelihood.system import key_of
 from lostmotion.quantities import TIME, unit_of
+from lostmotion.recording.spec import RecordingSpec
 from lostmotion.report.words import to_words
 from lostmotion.results import Interval, attach_unit, rounded
 from lostmotion.results.diagnosis import DriveFacts, Mechanism, Units
@@ -90,13 +91,13 @@ def gather_facts(outcome: Outcome, case: CaseFile, said: Sequence[str] = ()) -> 
         fitted=d.train,
         held=d.held,
         said=tuple(said),
-        angle=find_angle_unit(case),
+        angle=find_angle_unit(case.recordings),
     )
 
 
-def find_angle_unit(case: CaseFile) -> str:
-    """Return the unit of angles in a case: deg if a column is in degrees, else rad."""
-    columns = [c for recording in case.recordings for c in (*recording.inputs, *recording.sensors)]
+def find_angle_unit(recordings: Sequence[RecordingSpec]) -> str:
+    """Return the unit of angles in the recordings of a case: deg if a column is in degrees, else rad."""
+    columns = [c for recording in recordings for c in (*recording.inputs, *recording.sensors)]
     return "deg" if any(c.unit.startswith(("deg", "°")) for c in columns) else "rad"
 
 

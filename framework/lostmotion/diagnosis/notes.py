@@ -11,6 +11,9 @@ from lostmotion.diagnosis.repetition_notes import note_repetitions
 from lostmotion.diagnosis.states import doubt_moved_amplitudes, doubt_short_delay
 from lostmotion.results import percent, rounded
 
+SLOW = 0.3
+"""Autocorrelated noise above this share of the held-out readings of a sensor may be motion."""
+
 
 @remark("recordings")
 def note_unrecorded_inputs(facts: Facts) -> Iterator[str]:
@@ -56,9 +59,9 @@ def note_large_noise(facts: Facts) -> Iterator[str]:
     limits = facts.settings.note
     for sensor in facts.sensors:
         slow, share = (size / sensor.scale for size in (sensor.slow, sensor.sd))
-        if slow > limits.coloured or share > limits.noise:
+        if slow > SLOW or share > limits.noise:
             whose = f" of {sensor.name}" if len(facts.sensors) > 1 else ""
-            kind = " is autocorrelated and" if slow > limits.coloured else ""
+            kind = " is autocorrelated and" if slow > SLOW else ""
             yield (
                 f"The estimated noise{whose}{kind} is {percent(share)} of the held-out readings: it may be motion that"
                 " the model does not describe, such as another mode, or the sensor may not measure what the case states"
@@ -101,7 +104,7 @@ def note_budget(facts: Facts) -> Iterator[str]:
 @remark("recordings")
 def note_repeated_motion(facts: Facts) -> Iterator[str]:
     """Yield notes on cycles that are equal, and on held-out data that repeat fitted data."""
-    yield from note_repetitions(facts.recordings, facts.fitted, facts.held, facts.settings.note)
+    yield from note_repetitions(facts.recordings, facts.fitted, facts.held)
 
 
 @remark("position")

@@ -80,7 +80,7 @@ def check_prepared(
             f"{recordings[0].name}: the nominal model cannot follow this recording: check the units and columns of"
             " inputs and sensors, the known values and the priors"
         )
-    angle, yardstick = find_angle_unit(case), name_yardstick(recordings[0])
+    angle, yardstick = find_angle_unit(case.recordings), name_yardstick(recordings[0])
     expected = describe_expectation(forecast, yardstick, angle)
     say("what would help")
     improvements = list_improvements(nominal, list_fitted_keys(system), case.experiment, rng)

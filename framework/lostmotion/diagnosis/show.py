@@ -14,6 +14,7 @@ from lostmotion.diagnosis.compare import Prediction, average_exponent_blocks
 from lostmotion.diagnosis.free_decays import find_stretches
 from lostmotion.diagnosis.outcome import Outcome
 from lostmotion.diagnosis.show_words import ABSENT, TRANSIENT, describe_behaviour
+from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import Horizon, observe_states
 from lostmotion.offers import MEASURE
 from lostmotion.registry import Registry
@@ -104,10 +105,8 @@ def measure_attractors(
 ) -> Attractors:
     """Return what a package measures of the attractors; a motion that decays has none."""
     d = outcome.diagnosis
-    if find_stretches(d.shown):
-        return Attractors.refused(TRANSIENT, "The motion dies away.")
-    if ATTRACTORS not in registry.offered(MEASURE):
-        return Attractors.refused(ABSENT, f"Not measured: {registry.explain_absence(MEASURE, ATTRACTORS)}.")
+    if refused := refuse_attractors(d.shown, registry):
+        return refused
     models = {"before": (outcome.before, d.before)} | ({"after": (outcome.after, d.after)} if d.found else {})
     runs = {
         name: observe_states(fit.problem.on((d.shown,)), fit.theta, states[name]) for name, (_, fit) in models.items()
@@ -122,6 +121,15 @@ def measure_attractors(
     )
     measured: Attractors = registry.function(MEASURE, ATTRACTORS)(motions, registry, rng, d.settings.motion)
     return measured
+
+
+def refuse_attractors(shown: Observation, registry: Registry) -> Attractors | None:
+    """Return why attractors are not measured: the motion decays, or no package measures them; None if they are."""
+    if find_stretches(shown):
+        return Attractors.refused(TRANSIENT, "The motion dies away.")
+    if ATTRACTORS not in registry.offered(MEASURE):
+        return Attractors.refused(ABSENT, f"Not measured: {registry.explain_absence(MEASURE, ATTRACTORS)}.")
+    return None
 
 
 def _make_exponent(prediction: Prediction) -> ExponentInterval:

@@ -15,12 +15,14 @@ from lostmotion.results.behaviour import (
     ModelBehaviour,
     NoiseFloor,
 )
-from lostmotion.settings import DEFAULT, NoteSettings, Settings
+from lostmotion.settings import DEFAULT, Settings
 
 TRANSIENT = "transient"
 """The status of a measure of attractors if the motion decays; it has no sentence."""
 ABSENT = "absent"
 """The status of a measure that no installed package offers."""
+DIFFERENT, POSSIBLE = 0.01, 0.05
+"""A distance between attractors is significant, or may be, when its p-value is below this."""
 
 
 def describe_behaviour(
@@ -40,7 +42,7 @@ def describe_behaviour(
         heldout_log_score=_describe_score(last, floor),
         free_run_error=_describe_error(last, floor, horizon),
         valid_prediction_time=_describe_valid_time(last),
-        attractor_distance=_describe_distance(last.attractor_distance, strobed, limits.note),
+        attractor_distance=_describe_distance(last.attractor_distance, strobed),
         largest_exponent=_describe_exponent(last.largest_exponent, driven=driven),
         d2=_describe_dimension(floor.d2, last.d2),
         whiteness=_describe_whiteness(last.whiteness.p, limits.name.white),
@@ -71,7 +73,7 @@ def _describe_valid_time(last: ModelBehaviour) -> str:
     return f"{opening}."
 
 
-def _describe_distance(entry: Distance, strobed: bool, limits: NoteSettings) -> str:
+def _describe_distance(entry: Distance, strobed: bool) -> str:
     where = "Poincaré sections (one point per drive period)" if strobed else "points of position and velocity"
     opening = f"Energy distance between {where} of recording and free run"
     if entry.status == TRANSIENT:
@@ -83,9 +85,9 @@ def _describe_distance(entry: Distance, strobed: bool, limits: NoteSettings) -> 
     if entry.status != "ok":
         return f"{opening}: the free run diverges."
     closing = "the noise floor is the distance between the halves of the recording"
-    if entry.p < limits.distance:
+    if entry.p < DIFFERENT:
         return f"{opening}: the difference is significant (p = {rounded(entry.p)}); {closing}."
-    if entry.p < limits.distance_open:
+    if entry.p < POSSIBLE:
         return f"{opening}: the difference may be significant (p = {rounded(entry.p)}); {closing}."
     return f"{opening}: the difference is not significant (p = {rounded(entry.p)}); {closing}."
 

@@ -16,6 +16,10 @@ from lostmotion.results.diagnosis import Mechanism, OpenTerm
 from lostmotion.settings import DEFAULT
 
 NAMED, LIKELY, OPEN = "named", "likely", "open"
+ABOVE_NOISE = 5.0
+"""A model that does not predict has errors of free runs that exceed this many times the noise."""
+MOVED = 0.2
+"""An amplitude that was not identified moves by this share of itself."""
 SHORT = 1.0
 """A delay of no more than this number of samples may be that of the acquisition system."""
 
@@ -23,7 +27,7 @@ SHORT = 1.0
 def is_valid(facts: Facts) -> bool:
     """Return whether the last model predicts held-out data."""
     limits, error = facts.settings.name, facts.after.nrmse
-    return math.isfinite(error) and not error > max(limits.error, limits.error_noise * facts.noise_floor)
+    return math.isfinite(error) and not error > max(limits.error, ABOVE_NOISE * facts.noise_floor)
 
 
 def explain_withheld(facts: Facts) -> str:
@@ -114,7 +118,7 @@ def doubt_moved_amplitudes(facts: Facts, found: FoundTerm) -> Iterator[str]:
     """Yield a doubt for each amplitude of another found term that changes strongly when this one is added."""
     limits = facts.settings.name
     for one in found.support.moved:
-        if abs(one.beside - one.alone) > max(limits.moved * one.sd, limits.moved_share * abs(one.alone)):
+        if abs(one.beside - one.alone) > max(limits.moved * one.sd, MOVED * abs(one.alone)):
             first, then = (attach_unit(rounded(value, 3), one.unit) for value in (one.alone, one.beside))
             yield (
                 f"The {one.name} of {one.term} is {first} without {to_words(found.term.name)} and {then} with it:"

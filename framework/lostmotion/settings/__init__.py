@@ -2,8 +2,9 @@
 
 Each has a reason and, where one exists, a source. They are passed as arguments, are recorded in the provenance of each
 result, and can be changed: `lostmotion diagnose CASE.toml --set select.decisive=4`, or
-`lostmotion.diagnose(case, settings={"select.decisive": 4.0})`. `lostmotion settings` lists them. Numerical details,
-such as the step of a finite difference, are constants of the module that uses them.
+`lostmotion.diagnose(case, settings={"select.decisive": 4.0})`. `lostmotion settings` lists them. Numerical
+options, which no user has a reason to change, are `Options` of the module that uses them; those of the numerical core
+are class attributes of its stage here.
 """
 
 from __future__ import annotations
@@ -54,11 +55,12 @@ __all__ = [
 
 
 class Setting(NamedTuple):
-    """One threshold: its key `stage.name`, value and default, the reason for it, its source and its range."""
+    """One threshold: its key `stage.name`, value, default and unit, the reason for it, its source and its range."""
 
     key: str
     value: float
     default: float
+    unit: str
     why: str
     source: str
     least: float

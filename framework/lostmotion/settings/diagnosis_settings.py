@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import ClassVar
 
 from lostmotion.settings.threshold import threshold
 
@@ -13,7 +14,9 @@ class LocateSettings:
     """Locating the missing force."""
 
     significant: float = threshold(
-        8.0, "A random force beyond the usual noise of the drive counts when it gains this much in log-likelihood."
+        8.0,
+        "A random force beyond the usual noise of the drive counts when it gains this much in log-likelihood.",
+        unit="nat",
     )
     structured: float = threshold(
         0.1, "A covariate counts as structure when it explains more than this share of the missing force.", most=1.0
@@ -22,38 +25,6 @@ class LocateSettings:
         0.05,
         "The probability of a false positive over all covariates together.",
         "Vovk, Wang, Annals of Statistics 49 (2021) 1736-1754",
-        most=1.0,
-    )
-    told: float = threshold(
-        0.05, "A covariate that explains less than this share of the variance is not reported.", most=1.0
-    )
-    tied: float = threshold(
-        3.0,
-        "Covariates whose log likelihood ratios differ by less than this (a factor of twenty) are reported together.",
-    )
-    signed: float = threshold(
-        0.97,
-        (
-            "The sign of the velocity is reported in place of the velocity when it explains at least this share of "
-            "what the velocity explains."
-        ),
-        most=1.0,
-    )
-    visible: float = threshold(
-        0.01,
-        (
-            "A figure shows the share that a significant covariate explains from this share on: a force on another "
-            "body changes the likelihood, but hardly the force on the first body."
-        ),
-        most=1.0,
-    )
-    parity: float = threshold(
-        0.8,
-        (
-            "A missing force is called odd or even in a covariate when that part has more than this share of the mean "
-            "square of both."
-        ),
-        least=0.5,
         most=1.0,
     )
     quiet: float = threshold(
@@ -65,6 +36,17 @@ class LocateSettings:
         most=1.0,
     )
 
+    told: ClassVar[float] = 0.05
+    """A covariate that explains less than this share of the variance is not reported."""
+    tied: ClassVar[float] = 3.0
+    """Covariates whose log likelihood ratios differ by less than this (a factor of twenty) are reported together."""
+    signed: ClassVar[float] = 0.97
+    """The sign of the velocity is reported in place of the velocity when it explains at least this share of what the
+    velocity explains."""
+    parity: ClassVar[float] = 0.8
+    """A missing force is called odd or even in a covariate when that part has more than this share of the mean square
+    of both."""
+
 
 @dataclass(frozen=True)
 class SelectSettings:
@@ -74,34 +56,19 @@ class SelectSettings:
         math.log(20.0),
         "A term is selected when its log odds exceed this value (odds of twenty).",
         "Kass, Raftery, J. Am. Stat. Assoc. 90 (1995) 773-795",
+        unit="nat",
     )
-    further: float = threshold(1.5, "The log prior penalty of each further parameter of a term.")
+    further: float = threshold(1.5, "The log prior penalty of each further parameter of a term.", unit="nat")
     onset: float = threshold(
-        math.log(100.0), "The log prior penalty of a term that begins during the recording: one in a hundred."
+        math.log(100.0),
+        "The log prior penalty of a term that begins during the recording: one in a hundred.",
+        unit="nat",
     )
     share: float = threshold(
         0.2, "A learned curve has to reduce a random force beyond the usual one by this share.", most=1.0
     )
-    far: float = threshold(
-        8.0,
-        "A value of an amplitude beyond the reach of a score test is tried when it gains this much in log-likelihood.",
-    )
     budget: float = threshold(
-        0.0, "The processor time of the search, in s; 0: work in proportion to the readings and the states."
-    )
-    onset_first: float = threshold(
-        0.04, "An onset before this share of a recording is not considered: the term acts from the beginning.", most=1.0
-    )
-    onset_last: float = threshold(0.9, "An onset after this share of a recording is not considered.", most=1.0)
-    shape_steady: float = threshold(
-        2.0,
-        (
-            "A shape of a law is tested when its correlation with the gradient is this many standard errors from zero. "
-            "A stop that is hit in a few places of a sweep has 2.3."
-        ),
-    )
-    shape_gain: float = threshold(
-        8.0, "A shape that a scan finds is tried when its score test predicts this gain in log-likelihood."
+        0.0, "The processor time of the search, in s; 0: work in proportion to the readings and the states.", unit="s"
     )
     noise_memory: float = threshold(
         8.0,
@@ -109,7 +76,20 @@ class SelectSettings:
             "Noise of a sensor is modelled as AR(1) when this raises the log-likelihood by at least this much: for "
             "white noise the two parameters of AR(1) have no effect."
         ),
+        unit="nat",
     )
+
+    far: ClassVar[float] = 8.0
+    """A value of an amplitude beyond the reach of a score test is tried when it gains this much in log-likelihood."""
+    onset_first: ClassVar[float] = 0.04
+    """An onset before this share of a recording is not considered: the term acts from the beginning."""
+    onset_last: ClassVar[float] = 0.9
+    """An onset after this share of a recording is not considered."""
+    shape_steady: ClassVar[float] = 2.0
+    """A shape of a law is tested when its correlation with the gradient is this many standard errors from zero. A stop
+    that is hit in a few places of a sweep has 2.3."""
+    shape_gain: ClassVar[float] = 8.0
+    """A shape that a scan finds is tried when its score test predicts this gain in log-likelihood."""
 
 
 @dataclass(frozen=True)
@@ -130,6 +110,7 @@ class RivalSettings:
     late: float = threshold(
         0.1,
         "The standard deviation of the delay between channels, in samples, of a system that samples them together.",
+        unit="samples",
     )
     much: float = threshold(
         20.0,
@@ -137,6 +118,7 @@ class RivalSettings:
             "A term is listed as open when it adds more than this log evidence to the nominal model, and is improbable "
             "beside the usual errors of a model."
         ),
+        unit="nat",
     )
 
 
@@ -147,35 +129,27 @@ class UnknownSettings:
     hope: float = threshold(
         0.3, "Curves are tried that predict at least this share of the gain of the best set of terms.", most=1.0
     )
-    kept: float = threshold(
-        0.2, "A curve that changes the size of a named law by more than this share belongs to that law.", most=1.0
+    most_curves: float = threshold(
+        2.0, "The greatest number of learned curves in a diagnosis.", least=1.0, unit="curves"
     )
-    alike: float = threshold(
-        0.8, "A curve resembles a law that explains at least this share of its variance.", most=1.0
-    )
-    alike_two: float = threshold(
-        0.9, "A curve resembles two laws that together explain at least this share of its variance.", most=1.0
-    )
-    formula: float = threshold(
-        0.8, "A formula is proposed when it explains at least this share of the variance of a curve.", most=1.0
-    )
-    formula_gain: float = threshold(
-        6.0,
-        "A formula gets a further piece when Akaike's criterion improves by at least this much.",
-        "Akaike, IEEE Trans. Automatic Control 19 (1974) 716-723",
-    )
-    formula_full: float = threshold(
-        0.98, "A formula gets no further piece when it explains this share of the variance of a curve.", most=1.0
-    )
-    formula_pieces: float = threshold(3.0, "The greatest number of pieces of a formula.", least=1.0)
-    most_curves: float = threshold(2.0, "The greatest number of learned curves in a diagnosis.", least=1.0)
-    usual: float = threshold(
-        3.0,
-        (
-            "Curves have to reduce the random force where that is more than this many times the usual noise of the "
-            "drive."
-        ),
-    )
+
+    kept: ClassVar[float] = 0.2
+    """A curve that changes the size of a named law by more than this share belongs to that law."""
+    alike: ClassVar[float] = 0.8
+    """A curve resembles a law that explains at least this share of its variance."""
+    alike_two: ClassVar[float] = 0.9
+    """A curve resembles two laws that together explain at least this share of its variance."""
+    formula: ClassVar[float] = 0.8
+    """A formula is proposed when it explains at least this share of the variance of a curve."""
+    formula_gain: ClassVar[float] = 6.0
+    """A formula gets a further piece when Akaike's criterion improves by at least this much (Akaike, IEEE Trans.
+    Automatic Control 19 (1974) 716-723)."""
+    formula_full: ClassVar[float] = 0.98
+    """A formula gets no further piece when it explains this share of the variance of a curve."""
+    formula_pieces: ClassVar[float] = 3.0
+    """The greatest number of pieces of a formula."""
+    usual: ClassVar[float] = 3.0
+    """Curves have to reduce the random force where it is more than this many times the usual noise of the drive."""
 
 
 @dataclass(frozen=True)
@@ -184,9 +158,6 @@ class HeldOutSettings:
 
     share: float = threshold(
         0.3, "The share of a recording, or of the recordings, that is held out.", least=0.05, most=0.7
-    )
-    alive: float = threshold(
-        4.0, "A motion has decayed when its standard deviation is less than this many times the noise of the sensor."
     )
     valid: float = threshold(
         0.4,
@@ -200,12 +171,14 @@ class HeldOutSettings:
             " free runs is much smaller."
         ),
     )
-    less: float = threshold(0.5, "The error of free runs is much smaller when it falls below this share.", most=1.0)
     chance: float = threshold(
         0.05,
         "The significance level for calling a model better or worse: Student's test over parts of held-out data.",
         most=1.0,
     )
+
+    alive: ClassVar[float] = 4.0
+    """A motion has decayed when its standard deviation is less than this many times the noise of the sensor."""
 
 
 @dataclass(frozen=True)
@@ -230,10 +203,9 @@ class NameSettings:
     )
     worth: float = threshold(0.01, "A term that was not found is listed when its probability is above this.", most=1.0)
     moved: float = threshold(
-        5.0, "An amplitude that moves by this many standard deviations when a further term is added was not identified."
-    )
-    moved_share: float = threshold(
-        0.2, "The amplitude must also move by this share of itself (see `name.moved`).", most=1.0
+        5.0,
+        "An amplitude that moves by this many standard deviations when a further term is added was not identified.",
+        unit="sd",
     )
     remains: float = threshold(
         0.5,
@@ -253,9 +225,6 @@ class NameSettings:
         0.3,
         "A model is rejected when the error of free runs exceeds this share of the response (see `name.error_noise`).",
     )
-    error_noise: float = threshold(
-        5.0, "The error of free runs must also exceed this many times the noise (see `name.error`)."
-    )
     white: float = threshold(
         0.01,
         "A p-value of whiteness below this is reported as a finding, and below five times this as a doubt.",
@@ -272,33 +241,21 @@ class SharedSettings:
         0.01, "Values that differ by less than this share count as equal in engineering terms.", most=1.0
     )
     most_own: float = threshold(
-        3.0, "The greatest number of parameters that get a value for each recording: beyond it the model does not hold."
-    )
-    instead: float = threshold(
         3.0,
-        "Another parameter is named as an alternative explanation when its log-likelihood is lower by less than this.",
+        "The greatest number of parameters that get a value for each recording: beyond it the model does not hold.",
+        unit="parameters",
     )
-    fits: float = threshold(
-        0.05,
-        (
-            "A power of the level describes the values, and all recordings but one agree, when the p-value of the "
-            "residuals exceeds this."
-        ),
-        most=1.0,
-    )
-    exponent: float = threshold(
-        3.0, "The exponent of a power of the level is at least this many standard errors from zero."
-    )
-    steepest: float = threshold(
-        4.0, "The largest exponent of a power of the level: a steeper one describes a difference of another kind."
-    )
-    vague: float = threshold(
-        0.05,
-        "The relative error of the rms as a measure of the level: values may deviate from a power by this share.",
-        most=1.0,
-    )
-    spread: float = threshold(
-        1.1,
-        "Levels of the drive within this factor count as one level; the levels of the response are used then.",
-        least=1.0,
-    )
+
+    instead: ClassVar[float] = 3.0
+    """Another parameter is named as an alternative explanation when its log-likelihood is lower by less than this."""
+    fits: ClassVar[float] = 0.05
+    """A power of the level describes the values, and all recordings but one agree, when the p-value of the residuals
+    exceeds this."""
+    exponent: ClassVar[float] = 3.0
+    """The exponent of a power of the level is at least this many standard errors from zero."""
+    steepest: ClassVar[float] = 4.0
+    """The largest exponent of a power of the level: a steeper one describes a difference of another kind."""
+    vague: ClassVar[float] = 0.05
+    """The relative error of the rms as a measure of the level: values may deviate from a power by this share."""
+    spread: ClassVar[float] = 1.1
+    """Levels of the drive within this factor count as one level; the levels of the response are used then."""

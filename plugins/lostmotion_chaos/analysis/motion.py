@@ -9,6 +9,7 @@ import numpy as np
 
 from lostmotion.contracts import Series
 from lostmotion.results import decimals_of, percent
+from lostmotion_chaos.analysis.motion_options import OPTIONS
 from lostmotion_chaos.analysis.period import MAX_RETURN_PERIODS, MotionEvidence, find_return, measure_returns
 from lostmotion_chaos.analysis.signs import collect_signs, format_estimate, is_growing, measure_turn
 from lostmotion_chaos.defaults import SURROGATE_OF_CYCLES
@@ -95,7 +96,7 @@ def _judge_unsteady(it: SignedEvidence) -> Verdict | None:
     size = [float(np.std(half)) for half in halves]
     pace = [float(np.std(np.diff(half))) / (dt * max(s, 1e-300)) for half, s in zip(halves, size, strict=True)]
     for what, unit, (first, second) in (("size", "", size), ("pace", " rad/s", pace)):
-        if max(first, second) > it.evidence.limits.uneven * min(first, second):
+        if max(first, second) > OPTIONS.uneven * min(first, second):
             says = (
                 f"The {what} of the motion changes along the recording, from {first:.3g}{unit} in its first half to "
                 f"{second:.3g}{unit} in its second half (root mean square). All signs assume a stationary motion: "
@@ -108,9 +109,7 @@ def _judge_unsteady(it: SignedEvidence) -> Verdict | None:
 def _judge_periodic(it: SignedEvidence) -> Verdict | None:
     """Return periodic if the motion repeats after some periods to within its noise."""
     period = it.evidence.base.period
-    times, left = (
-        (0, 0.0) if period is None else find_return(it.evidence.raw, period, it.evidence.noise, it.evidence.limits)
-    )
+    times, left = (0, 0.0) if period is None else find_return(it.evidence.raw, period, it.evidence.noise)
     if not times or period is None:
         return None
     cycle = "each period" if times == 1 else f"every {times} periods"
@@ -137,7 +136,7 @@ def _judge_drifting(it: SignedEvidence) -> Verdict | None:
     steady = replace(evidence.raw, x=rest)
     line = base_line(rest, steady.dt)
     for found in (period, *((line.period,) if line else ())):
-        times, left = find_return(steady, found, noise, evidence.limits)
+        times, left = find_return(steady, found, noise)
         if times:
             break
     if not times:
@@ -160,7 +159,7 @@ def _judge_quasiperiodic(it: SignedEvidence) -> Verdict | None:
         return None
     pair = f"{1.0 / period:.4g} Hz and {found['second']:.4g} Hz"
     duration = evidence.raw.n * evidence.raw.dt
-    resolution = evidence.limits.resolution
+    resolution = OPTIONS.resolution
     locked = _find_common_period(found["second"] * period, resolution / (duration / period))
     if locked and not _has_growing_miss(evidence.raw, locked * period, resolution):
         says = (
@@ -196,7 +195,7 @@ def _has_growing_miss(raw: Series, period: float, resolution: float) -> bool:
 
 def _judge_coarse(it: SignedEvidence) -> Verdict | None:
     """Return undecided if the sensor shows too few values to distinguish neighbouring states."""
-    values, fewest = len(np.unique(it.evidence.raw.x)), it.evidence.limits.fewest_values
+    values, fewest = len(np.unique(it.evidence.raw.x)), OPTIONS.fewest_values
     if values >= fewest:
         return None
     says = (
@@ -229,7 +228,7 @@ def _judge_fluctuating(it: SignedEvidence) -> Verdict | None:
     left = float(np.nanmin(measure_returns(evidence.raw, period)))
     shuffled = it.get_state(CYCLE_TEST) == "against"
     signs = "for" in (it.get_state("exponent"), it.get_state("dimension")) or is_growing(evidence.exponent)
-    if left**2 > it.evidence.limits.left or (signs and not shuffled):
+    if left**2 > OPTIONS.left or (signs and not shuffled):
         return None
     p = next((t.p for t in evidence.tests if t.method == SURROGATE_OF_CYCLES), np.nan)
     why = (
@@ -287,17 +286,17 @@ def _judge_short(it: SignedEvidence) -> Verdict | None:
 
 def _why_silent(it: SignedEvidence) -> str:
     """Return why there is neither an exponent nor a dimension: a coarse sensor, few periods, or what both say."""
-    evidence, limits = it.evidence, it.evidence.limits
+    evidence = it.evidence
     values, periods = len(np.unique(evidence.raw.x)), evidence.raw.n * evidence.raw.dt / measure_turn(evidence)
     if values < FINE:
         return (
             f"its {values} different values are too coarse for an exponent or a dimension: use a finer sensor or a "
             "larger motion."
         )
-    if periods < limits.enough_periods:
+    if periods < OPTIONS.enough_periods:
         return (
             f"the recording is too short for an exponent or a dimension: it has {periods:.0f} periods, and at least "
-            f"{limits.enough_periods:g} are needed."
+            f"{OPTIONS.enough_periods:g} are needed."
         )
     reasons = dict.fromkeys(one.says for one in (evidence.exponent, evidence.dimension) if one.says)
     return f"neither an exponent nor a dimension could be measured. {' '.join(reasons)}"
@@ -307,7 +306,7 @@ def _is_long_enough(evidence: MotionEvidence) -> bool:
     """Return whether there were enough points and turns for an exponent and a dimension."""
     statuses = {evidence.exponent.status, evidence.dimension.status}
     short = statuses & {"too_short", "too_few_neighbours", "failed"}
-    return not short and evidence.raw.n * evidence.raw.dt / measure_turn(evidence) >= evidence.limits.enough_periods
+    return not short and evidence.raw.n * evidence.raw.dt / measure_turn(evidence) >= OPTIONS.enough_periods
 
 
 def _judge_stochastic(it: SignedEvidence) -> Verdict | None:

@@ -13,6 +13,7 @@ from lostmotion.results import Estimate
 from lostmotion.settings import DEFAULT, MotionSettings
 from lostmotion.signals import refined_period
 from lostmotion_chaos.analysis.denoise import Denoised
+from lostmotion_chaos.analysis.motion_options import OPTIONS
 from lostmotion_chaos.analysis.source import Source
 from lostmotion_chaos.analysis.surrogates import SurrogateTest
 from lostmotion_chaos.results import DriveSource
@@ -85,14 +86,14 @@ def measure_returns(series: Series, period: float, most: int = MAX_RETURN_PERIOD
     return np.asarray(return_spread(series.x, series.dt, period, most=most) / math.sqrt(2.0))
 
 
-def find_return(raw: Series, period: float, noise: float, limits: MotionSettings = DEFAULT.motion) -> tuple[int, float]:
+def find_return(raw: Series, period: float, noise: float) -> tuple[int, float]:
     """Return after how many periods a motion repeats to within its noise (0: never), and the remaining difference.
 
     `noise` and the difference are shares of the standard deviation.
     """
     spread = measure_returns(raw, period, 2 * MAX_RETURN_PERIODS)
-    limit = limits.slack * noise + limits.floor
+    limit = OPTIONS.slack * noise + OPTIONS.floor
     once, twice = spread[:MAX_RETURN_PERIODS], spread[1::2]
     # A motion of two frequencies nearly returns after some periods, and misses by twice as much after twice as many.
-    back = np.flatnonzero((once <= limit) & ~(twice > limits.drift * once + limits.drift_floor))
+    back = np.flatnonzero((once <= limit) & ~(twice > OPTIONS.drift * once + OPTIONS.drift_floor))
     return (int(back[0]) + 1, float(spread[back[0]])) if len(back) else (0, float(np.nanmin(once)))

@@ -14,6 +14,7 @@ from lostmotion.settings import DEFAULT, MotionSettings
 from lostmotion.signals import spectrum, without_harmonics
 from lostmotion.storage import StoredArray
 from lostmotion_chaos.analysis.channel import AnalysedChannel
+from lostmotion_chaos.analysis.motion_options import OPTIONS
 from lostmotion_chaos.analysis.surrogates import SurrogateTest
 from lostmotion_chaos.results import (
     Analysis,
@@ -108,7 +109,7 @@ def write_notes(found: AnalysedChannel, limits: MotionSettings = DEFAULT.motion)
         if one.status == "uncertain" or (one.ok and one.says):
             notes.append(f"On the {what}: {one.says}")
     periods = math.nan if found.base.period is None else len(source.x) * source.dt / found.base.period
-    if periods < limits.note_periods:
+    if periods < OPTIONS.note_periods:
         notes.append(
             f"The recording has {periods:.0f} periods: exponents and dimensions need some hundreds, so record longer."
         )

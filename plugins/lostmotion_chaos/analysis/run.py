@@ -23,6 +23,7 @@ from lostmotion_chaos.analysis.channel import AnalysedChannel
 from lostmotion_chaos.analysis.denoise import Denoised, denoise
 from lostmotion_chaos.analysis.embed import embed
 from lostmotion_chaos.analysis.motion import judge_motion
+from lostmotion_chaos.analysis.motion_options import OPTIONS
 from lostmotion_chaos.analysis.period import BasePeriod, MotionEvidence, find_base_period, measure_returns
 from lostmotion_chaos.analysis.quantify import quantify
 from lostmotion_chaos.analysis.report.page import write_analysis
@@ -202,8 +203,7 @@ def _reduce_noise(raw: Series, third_party: MethodWatch, request: AnalysisReques
     registry = third_party.registry
     meter, rng = _make_quantifier(registry, METER), request.make_rng("denoise")
     level = meter.estimate(raw, rng=rng)
-    limits = request.settings.motion
-    if request.denoiser == "none" or (request.denoiser is None and not limits.quiet < level.value < limits.loud):
+    if request.denoiser == "none" or (request.denoiser is None and not OPTIONS.quiet < level.value < OPTIONS.loud):
         return Denoised(raw, level, level), "none"
     name = request.denoiser or DENOISER
     denoiser = registry.make("denoiser", name)
@@ -258,7 +258,7 @@ def _choose_options(name: str, raw: Series, limits: MotionSettings) -> dict[str,
         return {}
     spread = measure_returns(raw, raw.period)[:MAX_PERIODS_TOGETHER]
     best = int(np.nanargmin(spread))
-    return {"together": best + 1} if spread[best] < limits.together * spread[0] else {}
+    return {"together": best + 1} if spread[best] < OPTIONS.together * spread[0] else {}
 
 
 def _measure_surrogate_dims(

@@ -11,6 +11,7 @@ import math
 import numpy as np
 
 from lostmotion.results import Estimate, percent
+from lostmotion_chaos.analysis.motion_options import OPTIONS
 from lostmotion_chaos.analysis.period import MAX_RETURN_PERIODS, MotionEvidence, find_return
 from lostmotion_chaos.analysis.surrogates import SurrogateTest
 from lostmotion_chaos.defaults import SURROGATE_OF_CYCLES
@@ -48,7 +49,7 @@ def find_tones(evidence: MotionEvidence) -> TwoTones | None:
         return None
     tones = two_tones(raw.x, raw.dt, 1.0 / period)
     limits = evidence.limits
-    explained = tones.left <= limits.slack * evidence.noise + limits.tones_floor
+    explained = tones.left <= OPTIONS.slack * evidence.noise + OPTIONS.tones_floor
     return tones if explained and tones.second * raw.n * raw.dt >= limits.fewest_periods else None
 
 
@@ -68,7 +69,7 @@ def _assess_return(evidence: MotionEvidence) -> Sign:
         return sign("silent", "No period is known, so a return could not be searched for.")
     many = evidence.raw.n * evidence.raw.dt / period
     fewest = evidence.limits.fewest_periods
-    times, left = find_return(evidence.raw, period, evidence.noise, evidence.limits)
+    times, left = find_return(evidence.raw, period, evidence.noise)
     figures = {"miss": left, "noise": evidence.noise, "periods": many}
     if times:
         cycle = "each period" if times == 1 else f"every {times} periods"
@@ -176,7 +177,7 @@ def _assess_entropy(evidence: MotionEvidence) -> Sign:
         return sign("against", found.says)
     if found.status not in ("ok", "uncertain") or not math.isfinite(found.value):
         return sign("silent", found.says)
-    if found.high * turn < evidence.limits.still:
+    if found.high * turn < OPTIONS.still:
         return sign("against", f"The entropy is {format_estimate(found)}: practically zero in one cycle of the motion.")
     if not found.low > 0.0:
         return sign("silent", f"The interval of the entropy, {format_estimate(found)}, includes zero.")

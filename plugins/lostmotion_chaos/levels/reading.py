@@ -18,7 +18,7 @@ from lostmotion.errors import CaseError
 from lostmotion.recording import Recording, load_recording
 from lostmotion.registry import Registry
 from lostmotion.results import Estimate, percent
-from lostmotion.settings import DEFAULT, LevelSettings, MotionSettings, Settings
+from lostmotion.settings import DEFAULT, MotionSettings, Settings
 from lostmotion.signals import refined_period
 from lostmotion_chaos.analysis.embed import embed
 from lostmotion_chaos.analysis.period import find_return
@@ -39,6 +39,9 @@ Measured with `benchmarks/levels.py chaos --machines 358`, where 114 exponents a
 Dimensions of machines driven by a force are estimated too small, which looks like more damping. Those of machines on a
 moving base are estimated too large: most of the response is the motion of the base, and noise that is small relative to
 it is four times as large relative to the chaotic part."""
+HARMONIC = 0.1
+"""A drive is harmonic when this share of its standard deviation, or less, is not a sine of one frequency: its noise and
+small harmonics."""
 FORCE_UNITS = ("N", "N m")
 """Units of a drive that is a force or torque, not a motion of the base."""
 
@@ -97,7 +100,7 @@ def read_level(
 
     A motion that repeats to within its noise is periodic; otherwise the exponent decides.
     """
-    amplitude, omega = fit_harmonic(signals, settings.levels)
+    amplitude, omega = fit_harmonic(signals)
     motion = settings.motion
     level = Level(signals.name, amplitude, omega, unit=signals.unit)
     period = 2.0 * math.pi / omega
@@ -133,7 +136,7 @@ def correct_estimate(name: str, estimate: Estimate) -> Measured:
     return Measured(value, math.hypot(scale * claimed, share * estimate.value))
 
 
-def fit_harmonic(signals: Signals, limits: LevelSettings = DEFAULT.levels) -> tuple[float, float]:
+def fit_harmonic(signals: Signals) -> tuple[float, float]:
     """Return amplitude and angular frequency (rad/s) of the drive, by least squares on the measured excitation."""
     period = refined_period(signals.u, signals.dt)
     if period is None:
@@ -146,9 +149,9 @@ def fit_harmonic(signals: Signals, limits: LevelSettings = DEFAULT.levels) -> tu
     waves = np.stack([np.cos(angle), np.sin(angle), np.ones_like(angle)], axis=1)
     found = np.linalg.lstsq(waves, signals.u, rcond=None)[0]
     rest = float(np.std(signals.u - waves @ found)) / max(float(np.std(signals.u)), 1e-300)
-    if rest > limits.harmonic:
+    if rest > HARMONIC:
         raise CaseError(
             f"the excitation of {signals.name} is not a sine: {percent(rest)} of it remain beside the best sine, and "
-            f"the quantifier route allows {100 * limits.harmonic:g} %"
+            f"the quantifier route allows {100 * HARMONIC:g} %"
         )
     return float(math.hypot(found[0], found[1])), omega

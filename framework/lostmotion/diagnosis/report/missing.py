@@ -12,6 +12,10 @@ from lostmotion.report import style
 from lostmotion.report.words import Scale, percent, with_unit
 from lostmotion.results import Array
 
+VISIBLE = 0.01
+"""A figure shows the share that a significant covariate explains from this share on.
+
+A force on another body changes the likelihood, but hardly the force on the first body."""
 COVARIATE_NAMES = {"position": "position", "velocity": "velocity", "phase": "drive phase", "time": "slow time"}
 
 
@@ -107,7 +111,7 @@ def _title_share(axes: Axes, evidence: Evidence, covariate: str) -> None:
     name = COVARIATE_NAMES.get(covariate, covariate)
     explained = f"{percent(share)} explained by {name}"
     if covariate in where.significant:
-        visible = share >= evidence.settings.locate.visible
+        visible = share >= VISIBLE
         shown = explained if visible else f"{name}: significant by likelihood"
         axes.set_title(f"{shown} *", color="black", fontweight="bold")
     else:
