@@ -215,7 +215,7 @@ def plugin(seeds, rng, folder, write_only):
         return Param(**given)
 
     body = {"name": "odd", "physics": "A force of {size} acts", "formula": "size", "paper": "none"}
-    body |= {key: odd() for key in (*body, "needs", "states", "resembles", "motions") if rng.random() < 0.15}
+    body |= {key: odd() for key in (*body, "needs", "states", "motions") if rng.random() < 0.15}
     body["force"] = staticmethod(lambda t, x, v, u, p, s: p[0])
     if not write_only:
         body["params"] = (one(),) if rng.random() < 0.8 else odd()

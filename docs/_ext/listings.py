@@ -60,7 +60,7 @@ def list_attributes(cls: Any) -> Iterator[tuple[str, str]]:
     for word in ("formula", "null", "unit", "reads", "paper"):
         if isinstance(text := getattr(cls, word, None), str):
             yield {"null": "null hypothesis", "reads": "reads a"}.get(word, word), text
-    for word in ("states", "inputs", "channels", "needs", "resembles"):
+    for word in ("states", "inputs", "channels", "needs"):
         if names := getattr(cls, word, ()):
             yield word, ", ".join(names)
     if kept := getattr(cls, "preserves", ()):

@@ -14,6 +14,7 @@ from typing import Any, ClassVar, Generic, Literal, Self
 
 import numpy as np
 
+from lostmotion.defaults import RARE
 from lostmotion.errors import ContractError, nearest
 from lostmotion.noises import Noise, NoiseBlock, NoiseParameter, SensorScales
 from lostmotion.parts import PSEUDO_NEEDS, Array, Drive, Group, Input, Interface, Motion, Param, Values
@@ -101,11 +102,9 @@ class Term(ABC):
     a `null` is an amplitude: where all of these are at their null, the force is exactly zero. `p` holds the values of
     `params`, then of `needs`: parameters that the interface `holds`, or names in `PSEUDO_NEEDS`. Each of `states`
     starts at zero, except the first ones, for which `begins` gives their size: a dimension or a parameter. `further`
-    declares the results of `derived`. `resembles` names terms that explain recordings almost as well; `equals` those
-    that no recording of a machine with constant parameters can tell from this one; `extends` simpler laws that it
-    contains. A term whose effect is the same `anywhere` is tried only at the ground. `unlikely` is subtracted from the
-    log odds of a rare cause. `usual` errors of a channel belong to the discrepancy. `force` and `rate` are static, or
-    methods that read numeric fields.
+    declares the results of `derived`. `equals` names terms that no recording of a machine with constant parameters can
+    tell from this one, `extends` simpler laws that it contains. `force` and `rate` are static, or methods that read
+    numeric fields. How rare a cause is stands in one table, `defaults.RARE`.
     """
 
     at: str
@@ -120,12 +119,8 @@ class Term(ABC):
     needs: ClassVar[tuple[str, ...]] = ()
     motions: ClassVar[tuple[str, ...]] = ("translation", "rotation")
     further: ClassVar[tuple[Param, ...]] = ()
-    resembles: ClassVar[tuple[str, ...]] = ()
     equals: ClassVar[tuple[str, ...]] = ()
     extends: ClassVar[tuple[str, ...]] = ()
-    anywhere: ClassVar[bool] = False
-    unlikely: ClassVar[float] = 0.0
-    usual: ClassVar[bool] = False
 
     @staticmethod
     @abstractmethod
@@ -165,6 +160,11 @@ class Term(ABC):
     def marked(self) -> bool:
         """Whether the term is read from the stored values (`SensorTerm.quantisation`) and therefore not fitted."""
         return False
+
+    @property
+    def unlikely(self) -> float:
+        """The log odds against this cause: those of a rare one in `defaults.RARE`, else zero."""
+        return RARE[self.name].odds if self.name in RARE else 0.0
 
     def null(self) -> dict[str, float]:
         """Return the null of each amplitude, by name: with these values the term has no effect."""

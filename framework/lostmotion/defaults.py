@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import NamedTuple
 
 OSCILLATOR, CARRIAGE, JOINT, SLIDER = "linear_oscillator", "rigid_drive", "robot_joint", "backlash_slider"
 """The textbook models for a first case: with a spring; without one; with a base that turns; with a base that shifts."""
@@ -14,6 +15,27 @@ SOURCES: Mapping[str, str] = dict.fromkeys(("analyse", "map", "reproduce", *STEP
 """The package of commands and functions that are documented as parts of lostmotion, for messages where it is absent."""
 PLAY, INERTIA_CHANGE = "backlash", "inertia_change"
 """The mechanisms of a robot that are terms of other machines as well, under the same names."""
+
+
+class Rarity(NamedTuple):
+    """The log odds against a cause that is rarer than friction, play, stiffness or damping, with the reason."""
+
+    odds: float
+    why: str
+
+
+_DELAY = Rarity(1.5, "most acquisition systems sample their channels together, within a tenth of a sample")
+_WAVE = Rarity(3.0, "each multiple of the frequency of the drive is a further chance to fit a periodic force")
+RARE: Mapping[str, Rarity] = {
+    "excitation_delay": _DELAY, "sensor_delay": _DELAY, "actuator_lag": _DELAY, "sensor_lag": _DELAY,
+    "excitation_harmonic": _WAVE, "parametric_stiffness": _WAVE,
+    "directional_friction": Rarity(3.0, "dry friction with one level and a constant force are more common"),
+    "friction_drift_twice": Rarity(1.0, "one time constant describes most machines that warm up"),
+    "end_stop": Rarity(1.0, "most machines do not reach their stops in a recording"),
+}  # fmt: skip
+"""The prior odds of terms in any machine: those that are not listed are equally common."""
+AT_GROUND = ("offset_force", "hidden_mode", "inertia_change")
+"""Terms whose effect is the same at every place of a machine: they are tried at the ground only."""
 RARE_IN_JOINTS: Mapping[str, float] = {
     "bilinear_stiffness": 2.0, "cubic_stiffness": 1.0, "quadratic_stiffness": 1.5,  # a joint rarely has any spring
     "gravity_pendulum": 1.0,  # a wrong mass shows as inertia too

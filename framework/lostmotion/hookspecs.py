@@ -114,8 +114,8 @@ def lostmotion_routes() -> Mapping[str, tuple[str, str]]:
 def lostmotion_measures() -> Mapping[str, tuple[str, str]]:
     """Return `{"attractors": ("package.module:function", "One line of help.")}`: what a diagnosis measures of motions.
 
-    The function takes `Motions` (`contracts`), a `Registry`, a random generator and `MotionSettings`, and returns
-    `Attractors` (`contracts`).
+    The function takes `Motions` (`contracts`), a `Registry` and a random generator, and returns `Attractors`
+    (`contracts`).
     """
     raise NotImplementedError
 

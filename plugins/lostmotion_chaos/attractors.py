@@ -14,7 +14,6 @@ from lostmotion.errors import LostMotionError
 from lostmotion.registry import Registry
 from lostmotion.results import Estimate
 from lostmotion.results.behaviour import DimensionInterval, Distance
-from lostmotion.settings import MotionSettings
 from lostmotion.subjects import Attractors, Motions
 from lostmotion_chaos.analysis.embed import embed
 from lostmotion_chaos.analysis.period import find_return
@@ -37,12 +36,10 @@ FEWEST_PERIODS = 50
 PERIODIC = "The motion is periodic: its orbit is a closed curve, and no dimension is estimated."
 
 
-def measure_attractors(
-    motions: Motions, registry: Registry, rng: np.random.Generator, limits: MotionSettings
-) -> Attractors:
+def measure_attractors(motions: Motions, registry: Registry, rng: np.random.Generator) -> Attractors:
     """Return distances and dimensions of the motions of a diagnosis; methods are plugins of `registry`."""
     distances, stroboscopic = measure_distances(motions, rng)
-    return Attractors(distances, _estimate_dimensions(motions, DimensionEstimator(registry, rng, limits)), stroboscopic)
+    return Attractors(distances, _estimate_dimensions(motions, DimensionEstimator(registry, rng)), stroboscopic)
 
 
 def measure_distances(motions: Motions, rng: np.random.Generator) -> tuple[dict[str, Distance], bool]:
@@ -117,11 +114,10 @@ def _make_dimension(estimate: Estimate) -> DimensionInterval:
 
 @dataclass(frozen=True)
 class DimensionEstimator:
-    """Estimates correlation dimensions, with the plugins of `registry`, unless a motion repeats by `limits`."""
+    """Estimates correlation dimensions, with the plugins of `registry`, unless a motion repeats."""
 
     registry: Registry
     rng: np.random.Generator
-    limits: MotionSettings
 
     def estimate(self, series: Series, noise: float) -> Estimate:
         """Return the dimension of a series with noise (share of its deviation); a refusal if the series is periodic."""
@@ -129,7 +125,7 @@ class DimensionEstimator:
             return Estimate.refused(
                 "too_short", f"Fewer than {FEWEST_PERIODS} drive periods are too few for a dimension."
             )
-        if series.period and find_return(series, series.period, noise, self.limits)[0]:
+        if series.period and find_return(series, series.period, noise)[0]:
             return Estimate.refused("regular", PERIODIC)
         return quantify(series, self.registry.make("quantifier", DIMENSION, pairs=PAIRS), rng=self.rng)
 

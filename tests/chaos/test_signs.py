@@ -12,6 +12,7 @@ from lostmotion.contracts import Series
 from lostmotion.results import Embedding, Estimate
 from lostmotion.settings import DEFAULT
 from lostmotion_chaos.analysis.motion import _find_common_period, judge_motion
+from lostmotion_chaos.analysis.motion_options import OPTIONS
 from lostmotion_chaos.analysis.period import BasePeriod, MotionEvidence
 from lostmotion_chaos.analysis.signs import collect_signs
 from lostmotion_chaos.analysis.surrogates import SurrogateTest
@@ -169,7 +170,7 @@ def test_a_motion_that_changes_is_told_nothing_of(what):
 )
 def test_frequencies_are_told_apart_as_far_as_a_recording_resolves_them(ratio, periods, after):
     """A beam in one well at 4/3 of its drive: four seconds of it were called quasiperiodic."""
-    assert _find_common_period(ratio, DEFAULT.motion.resolution / periods) == after
+    assert _find_common_period(ratio, OPTIONS.resolution / periods) == after
 
 
 def find_plateau(rows, first=3):

@@ -331,7 +331,6 @@ BAD = [
     ("motions_are_known", Drag, {"motions": ("sideways",)}, set()),
     ("begins_are_sizes", Drag, {"begins": (LENGTH,)}, set()),
     ("begins_are_sizes", Memory, {"begins": ("nothing",)}, set()),
-    ("resembles_names_others", Drag, {"resembles": ("drag",)}, set()),
     ("states_and_rate_go_together", Drag, {"states": ("held",)}, set()),
     ("states_and_rate_go_together", Memory, {"states": ()}, set()),
     ("force_is_zero_at_null", Drag, {"force": staticmethod(pushes_always)}, set()),

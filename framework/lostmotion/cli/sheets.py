@@ -11,7 +11,7 @@ from lostmotion.contracts import Param
 from lostmotion.registry import Entry
 
 TEXT_FIELDS = ("physics", "formula", "null", "paper", "motion", "reads", "unit")
-LIST_FIELDS = ("states", "inputs", "channels", "needs", "motions", "resembles")
+LIST_FIELDS = ("states", "inputs", "channels", "needs", "motions")
 SET_FIELDS = ("preserves",)
 
 
@@ -62,7 +62,6 @@ class PluginSheet:
     channels: tuple[str, ...] | None = described("what sensors of a model can see", default=None)
     needs: tuple[str, ...] | None = described("parameters that a place must have for it", default=None)
     motions: tuple[str, ...] | None = described("kinds of motion it can be used in", default=None)
-    resembles: tuple[str, ...] | None = described("terms that few recordings distinguish from it", default=None)
     interfaces: tuple[PlaceSheet, ...] | None = described("places at which a force can act on a model", default=None)
     parameters: tuple[ParameterSheet, ...] | None = described("its parameters", default=None)
     options: Mapping[str, object] | None = described("its options with their defaults", default=None)
@@ -92,7 +91,6 @@ def make_sheet(entry: Entry, cls: type[Any]) -> PluginSheet:
         channels=_get_names(cls, "channels"),
         needs=_get_names(cls, "needs"),
         motions=_get_names(cls, "motions"),
-        resembles=_get_names(cls, "resembles"),
         interfaces=tuple(places) or None,
         parameters=tuple(_make_parameter_sheet(q, motions, entry.kind) for q in getattr(cls, "params", None) or ())
         or None,

@@ -119,7 +119,7 @@ def measure_attractors(
         period=d.shown.period,
         noise=math.sqrt(d.after.problem.measurement(d.after.theta)),
     )
-    measured: Attractors = registry.function(MEASURE, ATTRACTORS)(motions, registry, rng, d.settings.motion)
+    measured: Attractors = registry.function(MEASURE, ATTRACTORS)(motions, registry, rng)
     return measured
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from lostmotion.contracts import Model, Term
+from lostmotion.defaults import AT_GROUND
 from lostmotion.likelihood.observation import Observation
 
 
@@ -19,7 +20,8 @@ def candidates_of(
         term(at=place.name)  # type: ignore[call-arg]
         for place in model.interfaces
         for term in terms
-        if term.acts == "motion" and (not term.anywhere or place.name == "ground" or len(model.interfaces) == 1)
+        if term.acts == "motion"
+        and (term.name not in AT_GROUND or place.name == "ground" or len(model.interfaces) == 1)
     ]
     tried += [
         term(at=at, **_channel_of(term, at, observations))  # type: ignore[call-arg]

@@ -8,7 +8,7 @@ from numbers import Real
 from typing import Any
 
 TEXTS = ("name", "physics", "formula", "paper", "motion")
-LISTS = ("states", "inputs", "channels", "needs", "motions", "resembles", "equals")
+LISTS = ("states", "inputs", "channels", "needs", "motions", "equals")
 _MISSING = object()
 
 Check = Callable[[Any], bool]

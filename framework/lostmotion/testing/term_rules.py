@@ -16,7 +16,7 @@ from lostmotion.contracts import Array, DriveTerm, SensorTerm, Term
 from lostmotion.likelihood.plan import make_law, prepare_values
 from lostmotion.quantities import Dimension
 from lostmotion.testing.probes import STEP, Point, compile_function, points_of_term, relative_difference
-from lostmotion.testing.rules import SNAKE, join_words, rule
+from lostmotion.testing.rules import join_words, rule
 from lostmotion.testing.shared_rules import find_repeated
 
 _STEPS = 5
@@ -105,13 +105,6 @@ def begins_are_sizes(term: Term) -> str:
     if bad:
         return f"{bad[0]!r} is neither a dimension nor one of its parameters"
     return "" if len(term.begins) <= len(term.states) else f"{len(term.begins)} sizes for {len(term.states)} states"
-
-
-@rule("term", declaration=True, courtesy=True)
-def resembles_names_others(term: Term) -> str:
-    """List in `resembles` the names of other terms that a recording may not distinguish from this one."""
-    bad = [name for name in term.resembles if name == term.name or not SNAKE.fullmatch(str(name))]
-    return f"{bad[0]!r} is not another term" if bad else ""
 
 
 @rule("term", declaration=True)

@@ -110,7 +110,7 @@ def read_level(
         return quantify(series, registry.make("quantifier", name, **options), rng=rng)
 
     def repeats(noise: float) -> bool:
-        return bool(find_return(series, period, noise, motion)[0])
+        return bool(find_return(series, period, noise)[0])
 
     if repeats(motion.loudest) and repeats(_bound_noise(measured(METER), motion)):
         return ReadLevel(replace(level, motion="periodic"))

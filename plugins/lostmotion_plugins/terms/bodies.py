@@ -44,7 +44,6 @@ class HiddenMode(Term):
     states = ("hidden_place", "hidden_speed")
     begins = (LENGTH, SPEED)
     needs = ("inertia", "shake_input")
-    anywhere = True
 
     def fits(self, model: Model) -> bool:
         """Return whether the term can act in `model`: at a body, and not between two."""
@@ -82,7 +81,6 @@ class InertiaChange(Term):
         ),
     )  # fmt: skip
     needs = ("inertia", "acceleration", "shake_input")
-    anywhere = True
 
     def fits(self, model: Model) -> bool:
         """Return whether the term can act in `model`: at a body, and not between two."""

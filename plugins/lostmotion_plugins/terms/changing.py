@@ -23,7 +23,6 @@ class ParametricStiffness(Term):
 
     at: str = "ground"
     name: ClassVar[str] = "parametric_stiffness"
-    unlikely: ClassVar[float] = 3.0
     physics: ClassVar[str] = (
         "The stiffness pulsates at {ratio} times the frequency of the drive: by {cosine} of its mean as a cosine and"
         " {sine} as a sine"

@@ -22,7 +22,6 @@ class ContactDamping(Term):
     paper: ClassVar[str] = "Gilardi, Sharf, Mechanism and Machine Theory 37 (2002) 1213-1239, section 4.1"
     params = (Param("coefficient", "damping in contact", DAMPING, low=0.0, null=0.0),)
     needs = ("x0",)
-    resembles = ("hunt_crossley_contact",)
 
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
@@ -59,7 +58,6 @@ class HuntCrossleyContact(Term):
         Param("coefficient", "damping over depth of the contact", Dimension(1, -2, 1), low=0.0, null=0.0, typical=3.0),
     )
     needs = ("x0",)
-    resembles = ("contact_damping",)
 
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:

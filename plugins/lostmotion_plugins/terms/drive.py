@@ -27,7 +27,6 @@ class ExcitationHarmonic(DriveTerm):
 
     at: str = "drive"
     name: ClassVar[str] = "excitation_harmonic"
-    unlikely: ClassVar[float] = 3.0
     physics: ClassVar[str] = (
         "The drive has a component of {ratio} times its frequency that was not recorded: {cosine} of its amplitude as a"
         " cosine and {sine} as a sine"
@@ -58,12 +57,10 @@ class ExcitationGain(DriveTerm):
 
     at: str = "drive"
     name: ClassVar[str] = "excitation_gain"
-    usual: ClassVar[bool] = True
     physics: ClassVar[str] = "The drive that acts is larger than the recorded one by the fraction {error}"
     formula: ClassVar[str] = "(1 + error) * u"
     paper: ClassVar[str] = "Pintelon, Schoukens, System Identification: a Frequency Domain Approach (2012), section 1.6"
     params = (Param("error", "relative error of the gain", NUMBER, low=-0.9, null=0.0, typical=0.1),)
-    resembles = ("sensor_gain",)
 
     @staticmethod
     def true(u: Input, t: Array, p: Values, order: int) -> Array:
@@ -76,13 +73,10 @@ class ExcitationDelay(DriveTerm):
 
     at: str = "drive"
     name: ClassVar[str] = "excitation_delay"
-    usual: ClassVar[bool] = True
-    unlikely: ClassVar[float] = 1.5
     physics: ClassVar[str] = "The drive acts {delay} after it was recorded"
     formula: ClassVar[str] = "u(t - delay)"
     paper: ClassVar[str] = "Ljung, System Identification: Theory for the User (1999), section 4.2"
     params = (Param("delay", "delay of the drive", TIME, null=0.0, far=FAR_DELAYS),)
-    resembles = ("sensor_delay",)
     equals = ("sensor_delay",)
 
     @staticmethod
@@ -108,7 +102,6 @@ class DriveSaturation(DriveTerm):
         Param("share", "share of the excess that is lost", NUMBER, low=0.0, high=1.0, null=0.0),
         Param("limit", "largest drive", FORCE, low=0.0, scale="log", typical=0.7, scan=(0.15, 4.0)),
     )
-    resembles = ("excitation_gain",)
 
     @staticmethod
     def true(u: Input, t: Array, p: Values, order: int) -> Array:
@@ -136,7 +129,6 @@ class DriveDeadZone(DriveTerm):
         Param("share", "share of the drive in the zone that is lost", NUMBER, low=0.0, high=1.0, null=0.0),
         Param("width", "half width of the zone", FORCE, low=0.0, scale="log", typical=0.2, scan=(0.1, 10.0)),
     )
-    resembles = ("excitation_gain",)
 
     @staticmethod
     def true(u: Input, t: Array, p: Values, order: int) -> Array:

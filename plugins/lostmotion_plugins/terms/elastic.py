@@ -52,7 +52,6 @@ class QuadraticStiffness(Term):
     formula: ClassVar[str] = "-coefficient * x^2"
     paper: ClassVar[str] = "Nayfeh, Mook, Nonlinear Oscillations (1979), section 4.4"
     params = (Param("coefficient", "quadratic stiffness", Dimension(1, -2, 0), null=0.0),)
-    resembles = ("bilinear_stiffness",)
 
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
@@ -69,7 +68,6 @@ class BilinearStiffness(Term):
     formula: ClassVar[str] = "-difference/2 * |x|"
     paper: ClassVar[str] = "Shaw, Holmes, J. Sound and Vibration 90 (1983) 129-155, section 2"
     params = (Param("difference", "stiffness for x > 0 less that for x < 0", STIFFNESS, null=0.0),)
-    resembles = ("quadratic_stiffness",)
 
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
@@ -86,7 +84,6 @@ class OffsetForce(Term):
     formula: ClassVar[str] = "force"
     paper: ClassVar[str] = "Janot, Gautier, Brunot, Nonlinear System Identification Benchmarks workshop (2019)"
     params = (Param("force", "constant force in positive direction", FORCE, null=0.0),)
-    anywhere = True
 
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
@@ -104,7 +101,6 @@ class GravityPendulum(Term):
     paper: ClassVar[str] = "Spong, Hutchinson, Vidyasagar, Robot Modeling and Control (2006), section 7.3"
     params = (Param("torque", "gravity torque of the horizontal link", FORCE, null=0.0),)
     motions = ("rotation",)
-    resembles = ("linear_stiffness",)
 
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:

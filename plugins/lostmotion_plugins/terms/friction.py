@@ -29,7 +29,6 @@ class CoulombFriction(Term):
     paper: ClassVar[str] = "Coulomb (1785); Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30 (1994) 1083-1138"
     params = (Param("force", "friction force", FORCE, low=0.0, null=0.0),)
     needs = ("mobility",)
-    resembles = ("stribeck_friction", "lugre_friction", "dahl_friction")
 
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
@@ -54,7 +53,6 @@ class StribeckFriction(Term):
         Param("velocity", "Stribeck velocity", SPEED, low=0.0, scale="log", typical=0.1),
     )
     needs = ("mobility",)
-    resembles = ("coulomb_friction", "lugre_friction", "dahl_friction")
 
     def commoner(self, values: Mapping[str, float]) -> Mapping[str, Mapping[str, float]]:
         """Return Coulomb friction of the sliding level where the excess is negligible."""

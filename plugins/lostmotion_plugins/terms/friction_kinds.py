@@ -24,7 +24,6 @@ class DirectionalFriction(Term):
 
     at: str = "ground"
     name: ClassVar[str] = "directional_friction"
-    unlikely: ClassVar[float] = 3.0
     extends: ClassVar[tuple[str, ...]] = ("coulomb_friction",)
     physics: ClassVar[str] = (
         "Dry friction opposes the motion: {forward} in positive direction, {backward} in negative direction"
@@ -36,7 +35,6 @@ class DirectionalFriction(Term):
         Param("backward", "friction in negative direction", FORCE, low=0.0, null=0.0),
     )
     needs = ("mobility",)
-    resembles = ("coulomb_friction", "stribeck_friction")
 
     def commoner(self, values: Mapping[str, float]) -> Mapping[str, Mapping[str, float]]:
         """Return Coulomb friction and a constant force, which act in the same way, where the levels differ little."""
@@ -68,7 +66,6 @@ class LoadDependentFriction(Term):
     paper: ClassVar[str] = "Hamon, Gautier, Garrec, IEEE/RSJ Int. Conf. Intelligent Robots and Systems (2010) 1609-1614"
     params = (Param("coefficient", "friction over the load", NUMBER, low=0.0, null=0.0, typical=0.1),)
     needs = ("contact", "play", "force_input", "mobility")
-    resembles = ("coulomb_friction",)
 
     def fits(self, model: Model) -> bool:
         """Return whether the term can act in `model`: the place has a contact with play, or the model a force input."""
@@ -105,7 +102,6 @@ class FrictionDrift(Term):
         ),
     )  # fmt: skip
     needs = ("mobility",)
-    resembles = ("coulomb_friction", "friction_drift_travel")
 
     def commoner(self, values: Mapping[str, float]) -> Mapping[str, Mapping[str, float]]:
         """Return Coulomb friction of the level at the start where the change is negligible."""
@@ -144,7 +140,6 @@ class FrictionDriftTravel(Term):
     )  # fmt: skip
     states = ("travelled",)
     needs = ("mobility",)
-    resembles = ("friction_drift", "coulomb_friction")
     commoner = FrictionDrift.commoner
 
     @staticmethod
@@ -164,7 +159,6 @@ class FrictionDriftTwice(Term):
     at: str = "ground"
     name: ClassVar[str] = "friction_drift_twice"
     extends: ClassVar[tuple[str, ...]] = ("friction_drift", "coulomb_friction")
-    unlikely: ClassVar[float] = 1.0
     physics: ClassVar[str] = (
         "Dry friction opposes the motion: {force} at the start, {change} more with a time constant of {time}, and"
         " {later} more with {slower}"
@@ -179,7 +173,6 @@ class FrictionDriftTwice(Term):
         Param("slower", "longer time constant", TIME, low=0.0, scale="log", typical=0.6, lasting=True),
     )
     needs = ("mobility",)
-    resembles = ("friction_drift", "coulomb_friction")
 
     def commoner(self, values: Mapping[str, float]) -> Mapping[str, Mapping[str, float]]:
         """Return a change over one time where the other is negligible, or Coulomb friction where both are."""

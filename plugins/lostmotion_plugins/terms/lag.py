@@ -23,13 +23,10 @@ class ActuatorLag(DriveTerm):
 
     at: str = "drive"
     name: ClassVar[str] = "actuator_lag"
-    usual: ClassVar[bool] = True
-    unlikely: ClassVar[float] = 1.5
     physics: ClassVar[str] = "The drive follows the recorded one with a time constant of {time}"
     formula: ClassVar[str] = "w,  time * w' = u - w"
     paper: ClassVar[str] = "Ogata, Modern Control Engineering (2010), section 5.2"
     params = (Param("time", "time constant of the actuator", TIME, low=0.0, null=0.0, scan=(0.02, 6.0)),)
-    resembles = ("sensor_lag", "excitation_delay", "sensor_delay")
 
     @staticmethod
     def true(u: Input, t: Array, p: Values, order: int) -> Array:
@@ -87,15 +84,12 @@ class SensorLag(SensorTerm):
     at: str = "sensor"
     channel: str = "position"
     name: ClassVar[str] = "sensor_lag"
-    usual: ClassVar[bool] = True
-    unlikely: ClassVar[float] = 1.5
     physics: ClassVar[str] = "The sensor follows the true value with a time constant of {time}"
     formula: ClassVar[str] = "w,  time * w' = z - w"
     paper: ClassVar[str] = "Ogata, Modern Control Engineering (2010), section 5.2"
     params = (Param("time", "time constant of the sensor", TIME, low=0.0, null=0.0, scan=(0.02, 6.0)),)
     states = ("shown",)
     needs = ("finest",)
-    resembles = ("actuator_lag", "excitation_delay", "sensor_delay")
 
     @staticmethod
     def rate(t: float, x: float, v: float, u: Array, p: Values, s: Values, dsdt: Array) -> None:

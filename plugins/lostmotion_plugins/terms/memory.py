@@ -39,7 +39,6 @@ class DahlFriction(Term):
     states = ("bristle_force",)
     begins = ("force",)
     needs = ("step",)
-    resembles = _list_others("dahl_friction")
 
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
@@ -79,7 +78,6 @@ class LuGreFriction(Term):
     states = ("bristle_force",)
     begins = ("force",)
     needs = ("step",)
-    resembles = _list_others("lugre_friction")
 
     force = staticmethod(DahlFriction.force)
 
@@ -111,7 +109,6 @@ class BoucWenHysteresis(Term):
     states = ("hysteretic_force",)
     begins = ("force",)
     needs = ("step",)
-    resembles = _list_others("bouc_wen_hysteresis")
 
     force = staticmethod(DahlFriction.force)
 

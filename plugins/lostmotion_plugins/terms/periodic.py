@@ -80,7 +80,6 @@ class PositionDependentFriction(Term):
     )
     further = (Param("wave", "amplitude of the variation", FORCE), Param("phase", "phase in rad", NUMBER))
     needs = ("mobility",)
-    resembles = ("coulomb_friction", "stribeck_friction")
 
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:

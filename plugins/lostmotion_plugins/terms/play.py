@@ -25,7 +25,6 @@ class Backlash(Term):
     paper: ClassVar[str] = "Nordin, Gutman, Automatica 38 (2002) 1633-1649, section 2.1"
     params = (Param("gap", "half of the play", LENGTH, low=0.0, null=0.0, typical=0.5, scan=(0.02, 4.0)),)
     needs = ("stiffness",)
-    resembles = ("cubic_stiffness",)
 
     def fits(self, model: Model) -> bool:
         """Return whether the term can act in `model`: its place has a spring without play."""
@@ -43,7 +42,6 @@ class EndStop(Term):
 
     at: str = "ground"
     name: ClassVar[str] = "end_stop"
-    unlikely: ClassVar[float] = 1.0
     physics: ClassVar[str] = "Beyond {travel} an end stop of {stiffness} is hit {side}"
     formula: ClassVar[str] = "-stiffness * (|x| - travel) * sign(x) where |x| > travel, on one side or both"
     paper: ClassVar[str] = "Shaw, Holmes, J. Sound and Vibration 90 (1983) 129-155, eq. (1)"
@@ -52,7 +50,6 @@ class EndStop(Term):
         Param("travel", "travel to the stop", LENGTH, low=0.0, scale="log", typical=1.0, scan=(0.3, 3.0)),
         Param("side", "0 for both ends, 1 or -1 for one of them", NUMBER, choices=(0.0, 1.0, -1.0), words=_SIDES),
     )
-    resembles = ("cubic_stiffness",)
 
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:

@@ -32,12 +32,10 @@ class SensorGain(SensorTerm):
 
     at: str = "sensor"
     name: ClassVar[str] = "sensor_gain"
-    usual: ClassVar[bool] = True
     physics: ClassVar[str] = "The sensor of the response reads too high by the fraction {error}"
     formula: ClassVar[str] = "(1 + error) * x"
     paper: ClassVar[str] = "Pintelon, Schoukens, System Identification: a Frequency Domain Approach (2012), section 1.6"
     params = (Param("error", "relative error of the gain", NUMBER, low=-0.9, null=0.0, typical=0.1),)
-    resembles = ("excitation_gain",)
 
     @staticmethod
     def gain(p: Values) -> float:
@@ -54,12 +52,10 @@ class SensorOffset(SensorTerm):
 
     at: str = "sensor"
     name: ClassVar[str] = "sensor_offset"
-    usual: ClassVar[bool] = True
     physics: ClassVar[str] = "The sensor reads {offset} where the machine is at zero"
     formula: ClassVar[str] = "x + offset"
     paper: ClassVar[str] = "Pintelon, Schoukens, System Identification: a Frequency Domain Approach (2012), section 1.6"
     params = (Param("offset", "reading of the sensor at zero", LENGTH, null=0.0, typical=0.3, far=_FAR_OFFSETS),)
-    resembles = ("offset_force",)
     relative: ClassVar[bool] = True
 
     @staticmethod
@@ -73,13 +69,10 @@ class SensorDelay(SensorTerm):
 
     at: str = "sensor"
     name: ClassVar[str] = "sensor_delay"
-    usual: ClassVar[bool] = True
-    unlikely: ClassVar[float] = 1.5
     physics: ClassVar[str] = "The sensor of the response is delayed by {delay}"
     formula: ClassVar[str] = "x(t - delay)"
     paper: ClassVar[str] = "Ljung, System Identification: Theory for the User (1999), section 4.2"
     params = (Param("delay", "delay of the sensor", TIME, low=0.0, null=0.0, far=FAR_DELAYS),)
-    resembles = ("excitation_delay",)
     equals = ("excitation_delay",)
 
     @staticmethod
@@ -111,7 +104,6 @@ class PositionRipple(SensorTerm):
     )  # fmt: skip
     further = (Param("size", "amplitude of the error", LENGTH), Param("phase", "phase in rad", NUMBER))
     derived = staticmethod(ParametricStiffness.derived)
-    resembles = ("cogging",)
 
     @staticmethod
     def bent(x: Array, p: Values) -> Array:

@@ -31,7 +31,6 @@ class MaxwellElement(Term):
     )
     states = ("element_force",)
     needs = ("step",)
-    resembles = ("viscous_damping", "linear_stiffness")
 
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
