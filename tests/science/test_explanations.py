@@ -9,7 +9,7 @@ from explained import VALUES, bend, explain_machine
 
 from lostmotion.evidence.corrections import find_corrections
 from lostmotion.evidence.explanations import Explanations
-from lostmotion.evidence.hypothesis import UNKNOWN
+from lostmotion.evidence.hypothesis import UNKNOWN, list_vague
 from lostmotion.inference.candidates import compute_slopes, run_score_test
 
 FRICTIONS = {"coulomb_friction", "stribeck_friction", "dahl_friction", "lugre_friction", "directional_friction"}
@@ -72,6 +72,20 @@ def test_the_gain_of_a_term_is_its_evidence_beside_a_discrepancy(rubbing):
     assert rubbing.gain_beside("coulomb_friction") == pytest.approx(alone.score() - bare.score())
     unfitted = next(key for key in rubbing.promised if frozenset({key}) not in rubbing.found)
     assert rubbing.gain(unfitted) == rubbing.promised[unfitted]
+
+
+def test_the_discrepancy_adds_what_the_terms_alone_lack(rubbing):
+    more = rubbing.best.log_evidence - rubbing.chosen.log_evidence
+    assert rubbing.leftover == max(more, 0.0)
+
+
+@pytest.mark.parametrize(("deviations", "vague"), [(1.0, ["force"]), (4.0, [])])
+def test_an_amplitude_whose_region_reaches_zero_is_vague(rubbing, deviations, vague):
+    best = rubbing.best
+    at, place = best.at.copy(), best.frame.names.index("coulomb_friction.force")
+    at[place] = deviations * np.sqrt(best.scatter * best.covariance[place, place])
+    moved = replace(best, expansion=replace(best.expansion, at=at))
+    assert list_vague(moved, "coulomb_friction") == vague
 
 
 def test_a_refuted_set_has_no_probability_and_the_next_one_is_the_best(rubbing):

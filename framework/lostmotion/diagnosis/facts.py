@@ -115,13 +115,15 @@ class PriorBound:
 class Facts:
     """All that the words of a diagnosis are made of; sentences state angles in the unit `angle`, rad or deg.
 
+    `level` is the amplitude of the first input, in `input_unit`. `sets` has the posterior probability of each set of
+    terms by their keys. `unnamed` is the entry of a force without a name, `quantised` those of quantisation.
     `augmented` states whether anything was added to the nominal model, `structured` whether the force that is left has
-    a structure, `remains` the share of the missing force that is left. `sets` has the posterior probability of each set
-    of terms by their keys. `unnamed` is the entry of a force without a name, `quantised` those of quantisation.
-    `unknown` is the probability of a force that the library lacks, with its log evidence `unknown_gain`. `leftover` is
-    the log evidence of the discrepancy, `explanations` the number of fitted sets. `withdrawn` are the
-    keys of terms that held-out data refuted, `corrected` clauses on corrected errors, `contacts` notes on contacts.
-    `position` is the smoothed position where no sensor shows it. `said` are the notes on the case and its recordings.
+    a structure, `remains` the share of the missing force that is left. `unknown` is the probability of a force that the
+    library lacks, with its log evidence `unknown_gain`; `smooth_fitted` states whether one was fitted. `leftover` is
+    the log evidence of the discrepancy, `explanations` the number of fitted sets, `skipped` names those that were not
+    extended. `withdrawn` are the keys of terms that held-out data refuted, `corrected` clauses on corrected errors,
+    `contacts` notes on short contacts. `position` is the smoothed position where no sensor shows it. `recordings` are
+    whole, `fitted` and `held` their parts. `said` are the notes on the case and its recordings.
     """
 
     settings: Settings
