@@ -29,7 +29,8 @@ class Simulator(ABC):
     that it can be estimated: "elbow.damping", "elbow.frictionloss", "elbow.armature", "elbow.stiffness" and
     "elbow.rest" (the position at which that spring is relaxed), in SI units; what is not listed is zero. `linear` are
     values on which `inverse` depends linearly, such as "fore.mass"; `changed` returns the simulator with others.
-    `points` names places at which a mass may be added: "tip.payload" is then a name that `changed` knows as well.
+    `points` names places at which a mass may be added: "tip.payload" is then a name that `changed` knows as well, as
+    are the names of `inertial`.
     """
 
     name: ClassVar[str]
@@ -56,6 +57,15 @@ class Simulator(ABC):
         return {}
 
     @property
+    def inertial(self) -> Mapping[str, float]:
+        """The usual sizes of first moments and moments of inertia, which a model knows within its tolerance times them.
+
+        `changed` adds an amount to one of them, on which `inverse` depends linearly: "fore.moment_x" (kg m) moves the
+        centre of mass, "fore.inertia_yy" (kg m^2) changes the inertia about it.
+        """
+        return {}
+
+    @property
     def points(self) -> tuple[str, ...]:
         """The places at which a payload may be carried."""
         return ()
@@ -73,7 +83,9 @@ class Simulator(ABC):
         """
 
     def changed(self, values: Mapping[str, float]) -> Simulator:
-        """Return the simulator with other values of some of `linear`, or with a payload (kg) at some of `points`."""
+        """Return the simulator with other values of some of `linear`, with amounts (SI) more of some of `inertial`, or
+        with a payload (kg) at some of `points`.
+        """
         raise NotImplementedError(f"{self.name} has no values that can be changed")
 
     def write_found(

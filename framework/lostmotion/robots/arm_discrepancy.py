@@ -4,7 +4,8 @@ All of it is a force on the chain, linear in its coefficients:
 
 - smooth forces at each joint over its position, its velocity and time: Gaussian processes of reduced rank (Solin,
   Sarkka, Statistics and Computing 30 (2020) 419-446), each of one of `SIZES` and `LENGTHS`, or absent;
-- values of the model that are known within its tolerance: damping, dry friction, armature, springs, masses;
+- values of the model that are known within its tolerance: damping, dry friction, armature, springs, and of each body
+  its mass, its first moments and its moments of inertia in all directions;
 - the torque of each joint: its scale, its zero and its delay; and the zero of each encoder.
 
 Smooth forces over position and velocity have no linear part: an unknown stiffness or damping has a name.
@@ -13,6 +14,7 @@ Smooth forces over position and velocity have no linear part: an unknown stiffne
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -23,7 +25,6 @@ from lostmotion.evidence.expansion import compute_log_evidence
 from lostmotion.parts import Array
 from lostmotion.robots.arm import Column, TapedArm
 from lostmotion.robots.arm_effects import JointScales, weigh_part
-from lostmotion.robots.tape import Path
 
 SIZES, LENGTHS = (0.003, 0.01, 0.03), (0.3, 0.6, 1.2)
 """Standard deviations of a smooth force in units of the drive, and its correlation lengths in half widths."""
@@ -33,6 +34,8 @@ WAVES = 10
 """The number of waves of a smooth force."""
 SCALE, ZERO, LATE, ANGLE = 0.01, 0.005, 0.25, 1e-3
 """Errors of a torque: its scale, its zero (in units of the drive), its delay (samples); zero of an encoder (rad)."""
+NOTHING = 1e-5
+"""A force that is a smaller share of the drive at each joint is left out."""
 SWEEPS = 2
 
 
@@ -124,13 +127,17 @@ class Discrepancy:
 
 
 def make_discrepancy(
-    arm: TapedArm, path: Path, accelerations: Array, scales: tuple[JointScales, ...], tolerance: float,
-    estimated: set[str], sizes: tuple[float, ...] = SIZES,
+    arm: TapedArm, scales: tuple[JointScales, ...], tolerance: float, estimated: set[str],
+    inertial: Mapping[str, Array], sizes: tuple[float, ...] = SIZES,
 ) -> Discrepancy:  # fmt: skip
-    """Return the discrepancy of an arm along a path; values that are `estimated` are not in it."""
-    fixed = _list_known(arm, path, accelerations, scales, tolerance, estimated)
+    """Return the discrepancy of an arm along the path of its tape; values that are `estimated` are not in it.
+
+    `inertial` are torques (samples, n) of the usual sizes of first moments and moments of inertia.
+    """
+    path = arm.tape.path
+    fixed = [*_list_known(arm, scales, tolerance, estimated), *_list_inertial(scales, tolerance, inertial)]
     columns, widths, forces = [c for c, _ in fixed], [w for _, w in fixed], []
-    known = [c.name in arm.values for c in columns]
+    known = [c.name in arm.values or c.name in inertial for c in columns]
     time = np.asarray(np.arange(len(path.q)) * arm.log.dt, dtype=float)
     for j, scale in enumerate(scales):
         for over, x in (("position", path.q[:, j]), ("velocity", path.v[:, j]), ("time", time)):
@@ -163,16 +170,23 @@ def _weigh_waves(length: float) -> Array:
     return np.asarray(np.sqrt(power / power.sum()))
 
 
+def _list_inertial(
+    scales: tuple[JointScales, ...], tolerance: float, inertial: Mapping[str, Array]
+) -> list[tuple[Column, float]]:
+    """Return the columns of first moments and moments of inertia that act at any joint, with their prior widths."""
+    least = NOTHING * np.array([scale.force for scale in scales])
+    return [
+        (Column(name, -1, -torque), tolerance)
+        for name, torque in inertial.items()
+        if np.any(tolerance * np.std(torque, axis=0) > least)
+    ]
+
+
 def _list_known(
-    arm: TapedArm,
-    path: Path,
-    accelerations: Array,
-    scales: tuple[JointScales, ...],
-    tolerance: float,
-    estimated: set[str],
+    arm: TapedArm, scales: tuple[JointScales, ...], tolerance: float, estimated: set[str]
 ) -> list[tuple[Column, float]]:
     """Return the columns of known values and of the torque, with their prior standard deviations."""
-    found, log = [], arm.log
+    found, log, path = [], arm.log, arm.tape.path
     drive = log.drive([], {})
     # Backward differences: a controller feeds the reading of the next sample, with its noise, into the next torque.
     slope = np.diff(drive, axis=0, prepend=drive[:1]) / log.dt
@@ -186,7 +200,7 @@ def _list_known(
         stiffness, rest = arm.values.get(f"{joint}.stiffness", 0.0), arm.values.get(f"{joint}.rest", 0.0)
         add(f"{joint}.damping", j, -path.v[:, j], tolerance * own["damping"])
         add(f"{joint}.frictionloss", j, -np.sign(path.v[:, j]), tolerance * own["frictionloss"])
-        add(f"{joint}.armature", j, -accelerations[:, j], tolerance * own["armature"])
+        add(f"{joint}.armature", j, -path.a[:, j], tolerance * own["armature"])
         add(f"{joint}.stiffness", j, rest - path.q[:, j], tolerance * abs(stiffness))
         add(f"{joint}.scale", j, drive[:, j], SCALE)
         add(f"{joint}.zero", j, np.ones(log.samples), ZERO * scale.force)
@@ -194,5 +208,5 @@ def _list_known(
         add(f"{joint}.encoder", -1, -arm.tape.stiffness[:, :, j], ANGLE)
     for name in arm.parts:
         if name in arm.values:
-            add(name, -1, -weigh_part(arm, name, accelerations), tolerance * abs(arm.values[name]))
+            add(name, -1, -weigh_part(arm, name, path.a), tolerance * abs(arm.values[name]))
     return found

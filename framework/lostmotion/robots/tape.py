@@ -87,6 +87,15 @@ def make_part(simulator: Simulator, name: str, tape: Tape) -> Part:
     return Part((mass - tape.mass) / change, (bias - tape.bias) / change)
 
 
+def weigh_inertial(simulator: Simulator, path: Path) -> dict[str, Array]:
+    """Return the torque (samples, n) along a path of the usual size of each first moment and moment of inertia."""
+    plain = _ask(simulator, path.q, path.v, path.a)
+    return {
+        name: (_ask(simulator.changed({name: CHANGE * size}), path.q, path.v, path.a) - plain) / CHANGE
+        for name, size in simulator.inertial.items()
+    }
+
+
 def _find_mass(simulator: Simulator, path: Path) -> tuple[Array, Array]:
     """Return the mass matrix (samples, n, n) and the torque without acceleration (samples, n) along a path."""
     samples, n = path.q.shape

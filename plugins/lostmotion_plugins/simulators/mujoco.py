@@ -14,6 +14,7 @@ import numpy as np
 from lostmotion.errors import CaseError, nearest
 from lostmotion.parts import Array
 from lostmotion.simulators import FoundMechanism, Simulator
+from lostmotion_plugins.simulators.inertial import add_amount, add_payload, measure_sizes
 from lostmotion_plugins.simulators.mjcf import write_findings
 
 EXAMPLE = """
@@ -84,9 +85,13 @@ class MujocoSimulator(Simulator):
             model.opt.disableflags |= int(getattr(off, f"mjDSBL_{name}", 0))
         for name, value in self.values:
             if name.endswith(_PAYLOAD):
-                _add_mass(model, *self._find_point(name.removesuffix(_PAYLOAD)), value)
+                add_payload(mujoco, model, *self._find_point(name.removesuffix(_PAYLOAD)), value)
+                continue
+            owner, _, kind = name.rpartition(".")
+            body = self._bodies[owner]
+            if kind != "mass":
+                add_amount(mujoco, model, body, kind, value)
             else:
-                body = self._bodies[name.removesuffix(".mass")]
                 model.body_inertia[body] *= value / model.body_mass[body]
                 model.body_mass[body] = value
         return model
@@ -161,6 +166,15 @@ class MujocoSimulator(Simulator):
         return {key: value for key, value in found.items() if key.endswith(".mass")}
 
     @property
+    def inertial(self) -> Mapping[str, float]:
+        mujoco, bodies = _import_mujoco(), [name.removesuffix(".mass") for name in self.linear]
+        return {
+            f"{name}.{kind}": size
+            for name in bodies
+            for kind, size in measure_sizes(mujoco, self._source, self._bodies[name]).items()
+        }
+
+    @property
     def points(self) -> tuple[str, ...]:
         sites = tuple(self._source.site(i).name for i in range(self._source.nsite) if self._source.site(i).name)
         return sites or (list(self._bodies)[-1],)
@@ -199,8 +213,8 @@ class MujocoSimulator(Simulator):
         return write_findings(mujoco, spec, found, known)
 
     def changed(self, values: Mapping[str, float]) -> MujocoSimulator:
-        """Return the machine with other masses (kg) of bodies, `fore.mass`, or a payload (kg) at a site or a body."""
-        known = {*self.linear, *(f"{point}{_PAYLOAD}" for point in self.points)}
+        """Return the machine with other masses (kg) of bodies, `fore.mass`, more of `inertial`, or a payload (kg)."""
+        known = {*self.linear, *self.inertial, *(f"{point}{_PAYLOAD}" for point in self.points)}
         for name in values:
             if name not in known:
                 raise CaseError(f"the model has no value {name!r}{nearest(name, known)}: it has {', '.join(known)}")
@@ -212,23 +226,3 @@ class UrdfSimulator(MujocoSimulator):
     """A machine in a URDF `file`, read by MuJoCo's loader; without a file it is the example arm."""
 
     name: ClassVar[str] = "urdf"
-
-
-def _add_mass(model: Any, body: int, point: Array, mass: float) -> None:
-    """Add a point mass (kg) to a body, at a point (m) in the frame of the body."""
-    own, centre = float(model.body_mass[body]), np.array(model.body_ipos[body])
-    total = own + mass
-    middle = (own * centre + mass * point) / total
-    turn = np.zeros(9)
-    mujoco = _import_mujoco()
-    mujoco.mju_quat2Mat(turn, model.body_iquat[body])
-    frame = turn.reshape(3, 3)
-    inertia = frame @ np.diag(model.body_inertia[body]) @ frame.T
-    for weight, arm in ((own, centre - middle), (mass, point - middle)):
-        inertia += weight * (arm @ arm * np.eye(3) - np.outer(arm, arm))
-    values, axes = np.linalg.eigh(inertia)
-    axes[:, 2] *= np.sign(np.linalg.det(axes))
-    turned = np.zeros(4)
-    mujoco.mju_mat2Quat(turned, axes.reshape(-1))
-    model.body_mass[body], model.body_ipos[body] = total, middle
-    model.body_inertia[body], model.body_iquat[body] = values, turned
