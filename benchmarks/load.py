@@ -21,7 +21,8 @@ from pathlib import Path
 
 import numpy as np
 
-from lostmotion_trials.blind.commitment import Blind, conceal_case, format_case_name
+from lostmotion_trials.blind.commitment import Blind, conceal_case
+from lostmotion_trials.sealing import format_case_name
 
 EVERY, SEED = 20, 5
 BREAKS = ("truncated", "unit", "nan", "column")

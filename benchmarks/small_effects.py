@@ -22,9 +22,9 @@ from lostmotion.errors import LostMotionError
 from lostmotion_trials.blind.hiding import convert_effects
 from lostmotion_trials.blind.mechanisms import TABLE
 from lostmotion_trials.blind.pilot import Effect, Pilot
-from lostmotion_trials.blind.score import estimate_rate
 from lostmotion_trials.blind.simulator import BlindMachine, Disturbances, draw_rig, simulate_machine
 from lostmotion_trials.integrators.hidden import Hidden
+from lostmotion_trials.rates import estimate_rate
 
 AMPLITUDES: Mapping[str, str] = {
     "coulomb_friction": "force", "offset_force": "force", "linear_stiffness": "coefficient",

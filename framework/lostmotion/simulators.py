@@ -83,9 +83,7 @@ class Simulator(ABC):
         """
 
     def changed(self, values: Mapping[str, float]) -> Simulator:
-        """Return the simulator with other values of some of `linear`, with amounts (SI) more of some of `inertial`, or
-        with a payload (kg) at some of `points`.
-        """
+        """Return the simulator with other values of `linear`, amounts more of `inertial`, or payloads at `points`."""
         raise NotImplementedError(f"{self.name} has no values that can be changed")
 
     def write_found(

@@ -15,7 +15,7 @@ from lostmotion.contracts import Array
 from lostmotion.errors import DataError
 from lostmotion_trials.blind import judging
 from lostmotion_trials.blind import score as proof
-from lostmotion_trials.blind.commitment import Blind, conceal_case, format_case_name
+from lostmotion_trials.blind.commitment import Blind, conceal_case
 from lostmotion_trials.blind.imperfect import (
     CYCLE,
     EFFECT_SIZES,
@@ -39,6 +39,8 @@ from lostmotion_trials.blind.sealed import SealedMachine, SealedTruth
 from lostmotion_trials.blind.simulator import BlindDrive, Disturbances, simulate_machine
 from lostmotion_trials.integrators.hidden import Hidden
 from lostmotion_trials.integrators.imperfect import CELLS, REACH
+from lostmotion_trials.rates import estimate_rate
+from lostmotion_trials.sealing import format_case_name
 
 SHORT = 600
 ROUGH = Blind(most=SHORT, world="imperfect")
@@ -311,7 +313,7 @@ def test_summary_rates_sure_names_by_kind():
     assert (sweep.machines, sweep.rate.hits, sweep.rate.of) == (4, 2, 3)
     assert (every.named.hits, every.named.of) == (2, 4)
     assert (every.worse.hits, every.worse.of) == (1, 6)
-    assert every.rate.low == proof.estimate_rate(3, 5).low
+    assert every.rate.low == estimate_rate(3, 5).low
     assert {(row.truth, row.answer) for row in found.confusion} == {
         ("coulomb_friction", "dahl_friction"), ("cubic_stiffness", "gap_drift"), ("nothing", "unknown"),
         ("cubic_stiffness", "cubic_stiffness"), ("coulomb_friction", "unknown"), ("nothing", "offset_force"),

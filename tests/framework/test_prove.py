@@ -18,7 +18,7 @@ from lostmotion.errors import DataError
 from lostmotion_trials.blind import judging
 from lostmotion_trials.blind import score as proof
 from lostmotion_trials.blind.bound import complete_parameters
-from lostmotion_trials.blind.commitment import VARIANTS, Blind, conceal_case, format_case_name, open_sealed, publish
+from lostmotion_trials.blind.commitment import VARIANTS, Blind, conceal_case, open_sealed
 from lostmotion_trials.blind.hiding import convert_effects
 from lostmotion_trials.blind.mechanisms import NAMES, UNKNOWN, Pilot
 from lostmotion_trials.blind.page import render
@@ -36,6 +36,8 @@ from lostmotion_trials.blind.results import (
 from lostmotion_trials.blind.run import Diagnoser
 from lostmotion_trials.blind.sealed import SealedTruth
 from lostmotion_trials.blind.simulator import BlindDrive, BlindMachine, Disturbances, draw_rig, simulate_machine
+from lostmotion_trials.rates import estimate_rate
+from lostmotion_trials.sealing import format_case_name, publish
 
 SHORT = 600
 AGREED = {
@@ -285,9 +287,9 @@ def test_summary_counts():
 
 
 def test_bands_are_exact():
-    assert proof.estimate_rate(0, 10).high == pytest.approx(1.0 - 0.025**0.1)
-    assert proof.estimate_rate(10, 10).low == pytest.approx(0.025**0.1)
-    assert math.isnan(proof.estimate_rate(0, 0).share)
+    assert estimate_rate(0, 10).high == pytest.approx(1.0 - 0.025**0.1)
+    assert estimate_rate(10, 10).low == pytest.approx(0.025**0.1)
+    assert math.isnan(estimate_rate(0, 0).share)
 
 
 def test_no_test_does_better_than_its_false_alarms_without_an_effect():
@@ -300,9 +302,9 @@ def test_no_test_does_better_than_its_false_alarms_without_an_effect():
 
 
 def test_target_is_missed_only_beyond_chance():
-    few = proof._judge_target("a", proof.estimate_rate(2, 3), 0.95, 1.0)
-    many = proof._judge_target("a", proof.estimate_rate(10, 30), 0.95, 1.0)
-    good = proof._judge_target("a", proof.estimate_rate(30, 30), 0.95, 1.0)
+    few = proof._judge_target("a", estimate_rate(2, 3), 0.95, 1.0)
+    many = proof._judge_target("a", estimate_rate(10, 30), 0.95, 1.0)
+    good = proof._judge_target("a", estimate_rate(30, 30), 0.95, 1.0)
     assert [one.state for one in (few, many, good)] == ["open", "missed", "met"]
 
 

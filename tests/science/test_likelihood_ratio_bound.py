@@ -5,9 +5,10 @@ import pytest
 from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import default
 from lostmotion_trials.blind.bound import compute_bound
-from lostmotion_trials.blind.commitment import Blind, conceal_case, open_sealed, publish
+from lostmotion_trials.blind.commitment import Blind, conceal_case, open_sealed
 from lostmotion_trials.blind.judging import score_case
 from lostmotion_trials.blind.pilot import Effect
+from lostmotion_trials.sealing import publish
 
 pytestmark = pytest.mark.slow
 

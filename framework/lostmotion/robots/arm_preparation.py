@@ -98,7 +98,9 @@ def prepare_search(
     path, at = _filter_path(arm, base, last)
     arm = renew_tape(arm, simulator, path)
     usual, large = _list_discrepancies(arm, simulator, scales, options.tolerance, set(estimated))
-    found = fit_hypothesis(ArmFrame(arm, (), base, usual, last), np.concatenate([at, np.zeros(len(usual.columns))]), 0.0)
+    found = fit_hypothesis(
+        ArmFrame(arm, (), base, usual, last), np.concatenate([at, np.zeros(len(usual.columns))]), 0.0
+    )
     if found is not None:  # wrong inertias give wrong accelerations, by which their own columns are multiplied
         path = relinearise(found.frame.run(found.at, last=arm.log.samples, keep=True), len(arm.joints))
         arm = renew_tape(arm, simulator, path)

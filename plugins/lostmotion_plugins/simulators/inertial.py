@@ -1,7 +1,7 @@
 """Masses, first moments and moments of inertia of the bodies of a MuJoCo model: changed by amounts, and their sizes.
 
-The torque of a chain is linear in mass, first moment and inertia about the origin of each body (Atkeson, An, Hollerbach,
-Int. J. Robotics Research 5 (1986) 101-119).
+The torque of a chain is linear in mass, first moment and inertia about the origin of each body (Atkeson, An,
+Hollerbach, Int. J. Robotics Research 5 (1986) 101-119).
 """
 
 from __future__ import annotations
@@ -70,7 +70,9 @@ def _add(mujoco: Any, model: Any, body: int, mass: float, moment: Array, inertia
     own, centre = float(model.body_mass[body]), np.array(model.body_ipos[body])
     total = own + mass
     middle = (own * centre + moment) / total
-    about = _find_inertia(mujoco, model, body) + own * _spread(centre, centre) + inertia - total * _spread(middle, middle)
+    about = (
+        _find_inertia(mujoco, model, body) + own * _spread(centre, centre) + inertia - total * _spread(middle, middle)
+    )
     values, axes = np.linalg.eigh(0.5 * (about + about.T))
     axes[:, 2] *= np.sign(np.linalg.det(axes))
     turned = np.zeros(4)

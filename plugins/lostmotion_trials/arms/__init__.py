@@ -1,1 +1,1 @@
-"""A trial of arms with two joints: what each lacks is hidden, and the diagnosis has to name joint and physics."""
+"""A trial on robot arms: what each lacks is hidden, and the diagnosis has to name joint and physics."""

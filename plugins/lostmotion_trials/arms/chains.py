@@ -79,7 +79,7 @@ CHAIN_EFFECTS: Mapping[str, Callable[[Chain, int, float, np.random.Generator], T
 
 
 def draw_hidden_chain(
-    number: int, seed: int, effects: Sequence[str], joints: int, wrong: float = 0.0
+    number: int, seed: int, effects: Sequence[str], joints: int, *, wrong: float = 0.0, samples: int = 5000
 ) -> tuple[Chain, tuple[Truth, ...], Log]:
     """Return a random model, what is hidden at different joints of its machine, and the log of that machine."""
     rng = np.random.default_rng([seed, number, joints])
@@ -92,7 +92,7 @@ def draw_hidden_chain(
     forces = np.std(model.torque(*plan_chain(probe, 500, 0.02, joints)), axis=0)
     places = rng.permutation(joints)
     truths = [CHAIN_EFFECTS[e](machine, j, float(forces[j]), rng) for e, j in zip(effects, places, strict=False)]
-    return model, tuple(truths), record_chain(machine, model, rng)
+    return model, tuple(truths), record_chain(machine, model, rng, samples=samples)
 
 
 def write_chain_case(folder: Path, title: str, model: Chain, log: Log, tolerance: float = 0.02) -> Path:

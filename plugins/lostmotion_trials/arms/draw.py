@@ -45,6 +45,7 @@ sensors = [
 mujoco = "arm.xml"
 joints = ["shoulder", "elbow"]
 torque = "motor"
+tolerance = {known}
 """
 
 
@@ -138,7 +139,7 @@ EFFECTS: Mapping[str, Callable[[Arm, int, np.random.Generator], Truth]] = {
 """What may be hidden."""
 
 
-def draw_arm(number: int, seed: int, effect: str, wrong: float = 0.0) -> tuple[Arm, Truth, Log]:
+def draw_arm(number: int, seed: int, effect: str, wrong: float = 0.0, samples: int = 5000) -> tuple[Arm, Truth, Log]:
     """Return a random model, what is hidden in its machine, and the log of that machine.
 
     The masses, centres, inertias, armatures and damping of the machine differ from those of the model by the share
@@ -153,10 +154,10 @@ def draw_arm(number: int, seed: int, effect: str, wrong: float = 0.0) -> tuple[A
         setattr(machine, name, getattr(machine, name) * (1.0 + wrong * rng.standard_normal(2)))
     joint = int(rng.integers(2))
     truth = EFFECTS[effect](machine, joint, rng) if effect != "none" else Truth("none", "", {})
-    return model, truth, record_motion(machine, model, rng)
+    return model, truth, record_motion(machine, model, rng, samples=samples)
 
 
-def write_case(folder: Path, number: int, model: Arm, log: Log) -> Path:
+def write_case(folder: Path, number: int, model: Arm, log: Log, tolerance: float = 0.02) -> Path:
     """Return the path of the case file, after writing it with its log and model."""
     folder.mkdir(parents=True, exist_ok=True)
     names = ("armature", "damping", "centre", "mass")
@@ -168,5 +169,5 @@ def write_case(folder: Path, number: int, model: Arm, log: Log) -> Path:
     columns = np.column_stack([log.time, log.torque, log.encoder])
     head = "t,tau_shoulder,tau_elbow,q_shoulder,q_elbow"
     np.savetxt(folder / "log.csv", columns, delimiter=",", header=head, comments="", fmt="%.9g")
-    (folder / "case.toml").write_text(_CASE.format(number=number), encoding="utf-8")
+    (folder / "case.toml").write_text(_CASE.format(number=number, known=tolerance), encoding="utf-8")
     return folder / "case.toml"

@@ -1,9 +1,4 @@
-"""The commitment of a blind trial: truths are sealed before the first diagnosis, and opened and checked afterwards.
-
-Each case has a folder `cases/NNN`, which the diagnosis reads, and a file `sealed/NNN.json` with the truth and a random
-salt, so that a truth cannot be guessed from its digest. `seal.json` has the digests of both, and is written before the
-first diagnosis.
-"""
+"""The commitment of a blind trial: truths are sealed before the first diagnosis, and opened and checked afterwards."""
 
 from __future__ import annotations
 
@@ -18,8 +13,7 @@ import numpy as np
 from lostmotion.codec import from_plain, to_plain
 from lostmotion.contracts import Array
 from lostmotion.errors import DataError
-from lostmotion.provenance import digest
-from lostmotion.storage import folder_for, load_json, save_json
+from lostmotion.storage import folder_for, save_json
 from lostmotion_trials.blind.hiding import convert_effects
 from lostmotion_trials.blind.imperfect import (
     CYCLE,
@@ -33,10 +27,11 @@ from lostmotion_trials.blind.imperfect import (
     simulate_imperfect,
 )
 from lostmotion_trials.blind.mechanisms import NAMES, SPRUNG, TABLE, Effect, Pilot, draw_sized_effect
-from lostmotion_trials.blind.sealed import ConcealedCase, Seal, SealedMachine, SealedTruth
+from lostmotion_trials.blind.sealed import SealedMachine, SealedTruth
 from lostmotion_trials.blind.simulator import EXCITATION_NOISE, BlindMachine, Disturbances, draw_rig, simulate_machine
 from lostmotion_trials.blind.writing import write_case
 from lostmotion_trials.integrators.hidden import Hidden
+from lostmotion_trials.sealing import ConcealedCase, format_case_name, open_seal, seal_case
 
 CLEAN, SEVERAL = 0.25, 0.15
 """Shares of the cases that hide nothing, and that hide two or three effects."""
@@ -53,7 +48,6 @@ RUNAWAY = 4.0
 may do. Chosen by experience; no measurement recorded."""
 TRIES = 2000
 """Machines that are drawn until one fits."""
-AGAIN = "conceal into another folder, or begin with --fresh"
 PERFECT, IMPERFECT = "perfect", "imperfect"
 WORLDS = (PERFECT, IMPERFECT)
 
@@ -81,11 +75,6 @@ class Blind:
             raise DataError(f"no world is called {self.world!r}: there are {', '.join(WORLDS)}")
         if self.only and self.clean:
             raise DataError("clean cases hide nothing: give either --clean or --only")
-
-
-def format_case_name(number: int) -> str:
-    """Return the name of a case."""
-    return f"{number:03d}"
 
 
 def conceal_case(blind: Blind, out: Path, number: int) -> ConcealedCase:
@@ -119,40 +108,12 @@ def conceal_case(blind: Blind, out: Path, number: int) -> ConcealedCase:
         world=world,
     )
     save_json(folder_for(out / "sealed") / f"{format_case_name(number)}.json", to_plain(truth))
-    return ConcealedCase(format_case_name(number), _compute_digests(out, format_case_name(number)))
-
-
-def publish(out: Path, cases: Sequence[ConcealedCase]) -> Seal:
-    """Return the content of `seal.json` after writing it; an earlier one must say the same of the same cases."""
-    path, new = out / "seal.json", {one.case: one.digests for one in cases}
-    old = _load_seal(out).digests if path.exists() else {}
-    for case in sorted(set(old) & set(new)):
-        if old[case] != new[case]:
-            raise DataError(f"case {case} is not the one of {path}: {AGAIN}")
-    seal = Seal("lostmotion.seal/1", "SHA-256", {**old, **new})
-    save_json(path, to_plain(seal))
-    return seal
+    return seal_case(out, number, ("case.toml", "recording.csv"))
 
 
 def open_sealed(out: Path, number: int) -> SealedTruth:
     """Return the truth of a case, after checking that neither it nor the case has changed since it was sealed."""
-    case = format_case_name(number)
-    sealed = _load_seal(out).digests[case]
-    for name, value in _compute_digests(out, case).items():
-        if sealed[name] != value:
-            raise DataError(f"{name} of case {case} does not match its digest in seal.json: nothing is scored")
-    path = out / "sealed" / f"{case}.json"
-    return from_plain(SealedTruth, load_json(path, AGAIN), str(path))
-
-
-def _load_seal(out: Path) -> Seal:
-    return from_plain(Seal, load_json(out / "seal.json", AGAIN), str(out / "seal.json"))
-
-
-def _compute_digests(out: Path, case: str) -> dict[str, str]:
-    place = out / "cases" / case
-    files = {"truth": out / "sealed" / f"{case}.json", **{n: place / n for n in ("case.toml", "recording.csv")}}
-    return {name: digest(path) for name, path in files.items()}
+    return from_plain(SealedTruth, open_seal(out, number), str(out / "sealed" / f"{format_case_name(number)}.json"))
 
 
 def _choose_effects(blind: Blind, rng: np.random.Generator, kind: str = "") -> tuple[tuple[str, ...], str]:

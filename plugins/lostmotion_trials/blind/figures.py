@@ -11,7 +11,8 @@ from matplotlib.ticker import MaxNLocator
 
 from lostmotion.contracts import Array
 from lostmotion.report import style
-from lostmotion_trials.blind.results import ProofSummary, Rate, SizeBin
+from lostmotion_trials.blind.results import ProofSummary, SizeBin
+from lostmotion_trials.rates import Rate
 
 EDGE = "#555555"
 SMALLEST, LARGEST, WIDE = 0.5, 2000.0, 1.5

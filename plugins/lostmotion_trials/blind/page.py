@@ -22,11 +22,11 @@ from lostmotion_trials.blind.results import (
     Outcomes,
     Proof,
     ProofSummary,
-    Rate,
     SizeBin,
     SureCount,
     Target,
 )
+from lostmotion_trials.rates import Rate
 
 AGAIN = "run `lostmotion prove` again"
 IMPERFECT = (

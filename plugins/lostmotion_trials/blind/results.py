@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from lostmotion.codec import described
 from lostmotion_trials.blind.pilot import Effect
+from lostmotion_trials.rates import Rate
 
 NAN = float("nan")
 
@@ -87,17 +88,6 @@ class JudgedCase:
     )
     worse: float | None = described("in an imperfect world: rise of the held-out error by what was found", default=None)
     heldout: HeldOutJudged | None = described("held-out errors; null where one could not be measured")
-
-
-@dataclass(frozen=True)
-class Rate:
-    """A share with its exact 95 % band (Clopper, Pearson 1934)."""
-
-    hits: int = described("how many there are")
-    of: int = described("of how many")
-    share: float = described("the share; null of nothing")
-    low: float = described("lower end of the 95 % band")
-    high: float = described("upper end of the 95 % band")
 
 
 @dataclass(frozen=True)

@@ -16,12 +16,12 @@ from lostmotion.errors import LostMotionError, PlaceError
 from lostmotion.provenance import digest, provenance
 from lostmotion.registry import Registry
 from lostmotion.storage import folder_for, save_json
-from lostmotion_trials.blind.commitment import Blind, conceal_case, format_case_name, publish
+from lostmotion_trials.blind.commitment import Blind, conceal_case
 from lostmotion_trials.blind.judging import score_case
 from lostmotion_trials.blind.page import write_proof
 from lostmotion_trials.blind.results import DiagnosedCase, JudgedCase, Proof
 from lostmotion_trials.blind.score import summarise
-from lostmotion_trials.blind.sealed import ConcealedCase
+from lostmotion_trials.sealing import ConcealedCase, format_case_name, publish
 
 T = TypeVar("T")
 Say = Callable[[str, int, int], None]

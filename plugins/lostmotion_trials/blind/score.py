@@ -10,7 +10,7 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-from scipy.stats import beta, chi2, ncx2
+from scipy.stats import chi2, ncx2
 
 from lostmotion_trials.blind.bound import are_equivalent
 from lostmotion_trials.blind.commitment import PLAIN
@@ -32,13 +32,13 @@ from lostmotion_trials.blind.results import (
     Miss,
     Outcomes,
     ProofSummary,
-    Rate,
     ReliabilityBin,
     SizeBin,
     SureCount,
     Target,
 )
 from lostmotion_trials.blind.sentences import write_sentences
+from lostmotion_trials.rates import LEVEL, Rate, estimate_rate
 
 GAIN_EDGES = (0.0, 5.0, 15.0, 50.0, 150.0, 500.0, math.inf)
 """Edges of the bins of effect size: gain in log-likelihood of the true terms."""
@@ -52,8 +52,6 @@ recorded."""
 CLOSE_RATIO, LEAST_CLOSE = 1.05, 0.9
 """Target: the held-out error of the found model is at most 1.05 times that of the true one in 90 % of the cases. Set by
 choice; no measurement recorded."""
-SURE_LEVEL = 0.95
-"""Level of the confidence intervals of rates, and the target share of sure names that are present."""
 EQUAL_MARGIN = 3.0
 """A wrong model cannot be distinguished from the true one whose log-likelihood is higher by less than this: a
 likelihood ratio of exp(3) = 20. Chosen by experience; no measurement recorded."""
@@ -94,16 +92,6 @@ def summarise(rows: Sequence[JudgedCase], failed: Sequence[DiagnosedCase]) -> Pr
     )
     aimed = replace(found, targets=tuple(_judge_targets(found, effects)))
     return replace(aimed, says=tuple(write_sentences(aimed)))
-
-
-def estimate_rate(hits: int, of: int) -> Rate:
-    """Return a rate with its exact 95 % interval (Clopper, Pearson 1934); NaN without tries."""
-    if not of:
-        return Rate(0, 0, math.nan, math.nan, math.nan)
-    tail = 0.5 * (1.0 - SURE_LEVEL)
-    low = float(beta.ppf(tail, hits, of - hits + 1)) if hits else 0.0
-    high = float(beta.ppf(1.0 - tail, hits + 1, of - hits)) if hits < of else 1.0
-    return Rate(hits, of, hits / of, low, high)
 
 
 def _count_bin(effects: Sequence[HiddenEffect], low: float, high: float) -> SizeBin:
@@ -252,9 +240,7 @@ def _judge_targets(found: ProofSummary, effects: Sequence[HiddenEffect]) -> list
     In an imperfect world no model is true and no effect has a gain: the targets concern the sure names only.
     """
     if found.sure:
-        return [
-            _judge_target(f"sure names that are there, {row.kind}", row.rate, SURE_LEVEL, 1.0) for row in found.sure
-        ]
+        return [_judge_target(f"sure names that are there, {row.kind}", row.rate, LEVEL, 1.0) for row in found.sure]
     plain = next((row.rate for row in found.alarms if row.noise == PLAIN), estimate_rate(0, 0))
     near = "cases with a held-out error within 5 % of the true model's"
     return [

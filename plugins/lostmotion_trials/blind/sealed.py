@@ -1,8 +1,7 @@
-"""The sealed data of a blind trial: the truth of each case, and the digests that prove it unchanged."""
+"""The sealed data of a blind trial: the truth of each case."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 from lostmotion.codec import described
@@ -29,20 +28,3 @@ class SealedTruth:
     effects: tuple[Effect, ...] = described("what is hidden in the machine")
     machine: SealedMachine = described("the machine and how it is recorded")
     world: World | None = described("the imperfections of a machine of an imperfect world", default=None)
-
-
-@dataclass(frozen=True)
-class ConcealedCase:
-    """A case that was written, with its truth."""
-
-    case: str = described("name of the case")
-    digests: Mapping[str, str] = described("SHA-256 of its files, and of the truth")
-
-
-@dataclass(frozen=True)
-class Seal:
-    """The digests that are published before the first diagnosis: `seal.json`."""
-
-    schema: str = described("`lostmotion.seal/1`")
-    digest: str = described("name of the digest")
-    digests: Mapping[str, Mapping[str, str]] = described("for each case the digests of its files, and of the truth")

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from lostmotion.results import percent
-from lostmotion_trials.blind.results import ProofSummary, Rate
+from lostmotion_trials.blind.results import ProofSummary
+from lostmotion_trials.rates import Rate
 
 FEW_CASES = 40
 """With fewer cases the 95 % bands are wider than any target."""
