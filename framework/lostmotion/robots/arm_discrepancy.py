@@ -15,8 +15,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
-from functools import cached_property
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +23,8 @@ from numpy.typing import NDArray
 from lostmotion.evidence.expansion import compute_log_evidence
 from lostmotion.parts import Array
 from lostmotion.robots.arm import Column, TapedArm
-from lostmotion.robots.arm_effects import JointScales, weigh_part
+from lostmotion.robots.arm_effects import JointScales
+from lostmotion.robots.tape import Part
 
 SIZES, LENGTHS = (0.003, 0.01, 0.03), (0.3, 0.6, 1.2)
 """Standard deviations of a smooth force in units of the drive, and its correlation lengths in half widths."""
@@ -65,7 +65,8 @@ class Discrepancy:
     """The columns of forces, and the prior standard deviation of each coefficient.
 
     `fixed` (columns,) are the widths of those that are no smooth force, zero elsewhere; `known` (columns,) marks the
-    values of the model among them. `shape` is that of a force, (samples, n).
+    values of the model among them. `shape` is that of a force, (samples, n). `inertias` are the parts of the columns,
+    by their numbers, whose torque depends on the accelerations.
     """
 
     columns: tuple[Column, ...]
@@ -73,6 +74,7 @@ class Discrepancy:
     known: NDArray[np.bool_]
     forces: tuple[SmoothTorque, ...]
     shape: tuple[int, int]
+    inertias: Mapping[int, Part] = field(default_factory=dict)
 
     @property
     def none(self) -> Choice:
@@ -91,21 +93,21 @@ class Discrepancy:
         """Return the log penalty of a choice: each force that is present has one of its options."""
         return sum(math.log(len(f.options)) for f, option in zip(self.forces, choice[:-1], strict=True) if option >= 0)
 
-    @cached_property
-    def matrix(self) -> Array:
-        """The forces of unit coefficients, (columns, samples, n)."""
-        found = np.zeros((len(self.columns), *self.shape))
-        for c, column in enumerate(self.columns):
-            if column.joint < 0:
-                found[c] = column.force
-            else:
-                found[c, :, column.joint] = column.force
-        return found
-
     def force(self, coefficients: Array) -> Array:
         """Return the force (samples, n) of coefficients."""
-        flat = self.matrix.reshape(len(self.columns), self.shape[0] * self.shape[1])
-        return np.asarray(coefficients @ flat).reshape(self.shape)
+        found = np.zeros(self.shape)
+        for c in np.flatnonzero(coefficients):
+            column = self.columns[c]
+            part = found if column.joint < 0 else found[:, column.joint]
+            part += coefficients[c] * column.force
+        return found
+
+    def follow(self, accelerations: Array) -> Discrepancy:
+        """Return the discrepancy with the torques of inertias under other accelerations (samples, n)."""
+        columns = list(self.columns)
+        for i, part in self.inertias.items():
+            columns[i] = replace(columns[i], force=-part.weigh(accelerations))
+        return replace(self, columns=tuple(columns))
 
     def choose(self, gradient: Array, information: Array, choice: Choice) -> Choice:
         """Return the choice of the largest evidence, from gradient and information of the coefficients at zero."""
@@ -128,16 +130,18 @@ class Discrepancy:
 
 def make_discrepancy(
     arm: TapedArm, scales: tuple[JointScales, ...], tolerance: float, estimated: set[str],
-    inertial: Mapping[str, Array], sizes: tuple[float, ...] = SIZES,
+    inertial: Mapping[str, tuple[Part, float]], sizes: tuple[float, ...] = SIZES,
 ) -> Discrepancy:  # fmt: skip
     """Return the discrepancy of an arm along the path of its tape; values that are `estimated` are not in it.
 
-    `inertial` are torques (samples, n) of the usual sizes of first moments and moments of inertia.
+    `inertial` are first moments and moments of inertia, each with its part of the tape and its usual size.
     """
     path = arm.tape.path
-    fixed = [*_list_known(arm, scales, tolerance, estimated), *_list_inertial(scales, tolerance, inertial)]
-    columns, widths, forces = [c for c, _ in fixed], [w for _, w in fixed], []
-    known = [c.name in arm.values or c.name in inertial for c in columns]
+    parts = _list_inertias(arm, scales, tolerance, estimated, inertial)
+    fixed = _list_known(arm, scales, tolerance, estimated)
+    columns = [*(Column(name, -1, -part.weigh(path.a)) for name, part, _ in parts), *(c for c, _ in fixed)]
+    widths, forces = [*(width for *_, width in parts), *(w for _, w in fixed)], []
+    known = [True] * len(parts) + [c.name in arm.values for c, _ in fixed]
     time = np.asarray(np.arange(len(path.q)) * arm.log.dt, dtype=float)
     for j, scale in enumerate(scales):
         for over, x in (("position", path.q[:, j]), ("velocity", path.v[:, j]), ("time", time)):
@@ -148,7 +152,8 @@ def make_discrepancy(
             options = [size * scale.force * weights for size in sizes for weights in map(_weigh_waves, LENGTHS)]
             forces.append(SmoothTorque(j, over, place, np.array(options)))
     known += [False] * (len(columns) - len(known))
-    return Discrepancy(tuple(columns), np.array(widths), np.array(known), tuple(forces), path.q.shape)
+    inertias = {i: part for i, (_, part, _) in enumerate(parts)}
+    return Discrepancy(tuple(columns), np.array(widths), np.array(known), tuple(forces), path.q.shape, inertias)
 
 
 def make_none(arm: TapedArm) -> Discrepancy:
@@ -170,22 +175,28 @@ def _weigh_waves(length: float) -> Array:
     return np.asarray(np.sqrt(power / power.sum()))
 
 
-def _list_inertial(
-    scales: tuple[JointScales, ...], tolerance: float, inertial: Mapping[str, Array]
-) -> list[tuple[Column, float]]:
-    """Return the columns of first moments and moments of inertia that act at any joint, with their prior widths."""
+def _list_inertias(
+    arm: TapedArm, scales: tuple[JointScales, ...], tolerance: float, estimated: set[str],
+    inertial: Mapping[str, tuple[Part, float]],
+) -> list[tuple[str, Part, float]]:  # fmt: skip
+    """Return the names, parts and prior standard deviations of armatures, masses and inertial values that act."""
     least = NOTHING * np.array([scale.force for scale in scales])
+    known = {name: (part, abs(arm.values[name])) for name, part in arm.parts.items() if name in arm.values}
+    for j, joint in enumerate(arm.joints):
+        own = np.zeros_like(arm.tape.mass)
+        own[:, j, j] = 1.0
+        known[f"{joint}.armature"] = Part(own, np.zeros_like(arm.tape.bias)), arm.get({}, "armature")[j]
     return [
-        (Column(name, -1, -torque), tolerance)
-        for name, torque in inertial.items()
-        if np.any(tolerance * np.std(torque, axis=0) > least)
+        (name, part, tolerance * size)
+        for name, (part, size) in {**known, **inertial}.items()
+        if name not in estimated and np.any(tolerance * size * np.std(part.weigh(arm.tape.path.a), axis=0) > least)
     ]
 
 
 def _list_known(
     arm: TapedArm, scales: tuple[JointScales, ...], tolerance: float, estimated: set[str]
 ) -> list[tuple[Column, float]]:
-    """Return the columns of known values and of the torque, with their prior standard deviations."""
+    """Return the columns of damping, friction, springs and of the torque, with their prior standard deviations."""
     found, log, path = [], arm.log, arm.tape.path
     drive = log.drive([], {})
     # Backward differences: a controller feeds the reading of the next sample, with its noise, into the next torque.
@@ -196,17 +207,13 @@ def _list_known(
             found.append((Column(name, joint, np.ascontiguousarray(force)), width))
 
     for j, (joint, scale) in enumerate(zip(arm.joints, scales, strict=True)):
-        own = {kind: abs(arm.values.get(f"{joint}.{kind}", 0.0)) for kind in ("damping", "frictionloss", "armature")}
+        own = {kind: abs(arm.values.get(f"{joint}.{kind}", 0.0)) for kind in ("damping", "frictionloss")}
         stiffness, rest = arm.values.get(f"{joint}.stiffness", 0.0), arm.values.get(f"{joint}.rest", 0.0)
         add(f"{joint}.damping", j, -path.v[:, j], tolerance * own["damping"])
         add(f"{joint}.frictionloss", j, -np.sign(path.v[:, j]), tolerance * own["frictionloss"])
-        add(f"{joint}.armature", j, -path.a[:, j], tolerance * own["armature"])
         add(f"{joint}.stiffness", j, rest - path.q[:, j], tolerance * abs(stiffness))
         add(f"{joint}.scale", j, drive[:, j], SCALE)
         add(f"{joint}.zero", j, np.ones(log.samples), ZERO * scale.force)
         add(f"{joint}.late", j, -slope[:, j], LATE * log.dt)
         add(f"{joint}.encoder", -1, -arm.tape.stiffness[:, :, j], ANGLE)
-    for name in arm.parts:
-        if name in arm.values:
-            add(name, -1, -weigh_part(arm, name, path.a), tolerance * abs(arm.values[name]))
     return found

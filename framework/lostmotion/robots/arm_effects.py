@@ -326,11 +326,5 @@ class MassEffect:
             j = self.arm.joints.index(self.at)
             column = Column(self.key, j, -self.unit * accelerations[:, j])
         else:
-            column = Column(self.key, -1, -self.unit * weigh_part(self.arm, self.value, accelerations))
+            column = Column(self.key, -1, -self.unit * self.arm.parts[self.value].weigh(accelerations))
         return (Shape({}, (column,), (key,)),)
-
-
-def weigh_part(arm: TapedArm, name: str, accelerations: Array) -> Array:
-    """Return the torque (samples, n) that one more unit of a linear value needs along a path."""
-    part = arm.parts[name]
-    return np.asarray(np.einsum("kij,kj->ki", part.mass, accelerations) + part.bias)

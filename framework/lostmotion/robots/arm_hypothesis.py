@@ -116,6 +116,12 @@ class ArmFrame:
         blocks = {"own": slice(0, own), "discrepancy": slice(own, len(at))}
         return Expansion(flat, at, errors, variances, middle, known, blocks), kept
 
+    def follow(self, at: Array) -> ArmFrame:
+        """Return the frame whose inertias in the discrepancy have the accelerations at coordinates."""
+        a = self.run(at, last=self.arm.log.samples, keep=True).accelerations
+        a[-1] = a[-2]
+        return replace(self, discrepancy=self.discrepancy.follow(a))
+
     def weigh(self, choice: Choice) -> Array:
         """Return the prior precision of all coordinates; infinite where a coefficient is absent."""
         widths = np.concatenate([[c.sd for c in self.own], self.discrepancy.widths(choice)])
@@ -189,8 +195,31 @@ class ArmHypothesis:
 
 
 def fit_hypothesis(frame: ArmFrame, start: Array, price: float, choice: Choice | None = None) -> ArmHypothesis | None:
-    """Return the fitted hypothesis from start coordinates; None where the filter diverges."""
+    """Return the fitted hypothesis from start coordinates; None where the filter diverges.
+
+    Torques of unknown inertias depend on accelerations, and these on the hypothesis: it is fitted again with its own.
+    """
     at, chosen = frame.clip(start), choice or frame.discrepancy.none
+    for again in (True, False):
+        climbed = _climb(frame, at, chosen)
+        if climbed is None:
+            return None
+        at, chosen, seen, kept = climbed
+        if not (again and frame.discrepancy.inertias):
+            break
+        frame = frame.follow(at)
+    used, precision = _find_precision(frame, seen, chosen)
+    target = float(seen.here.log_likelihood) + frame.log_prior(at, chosen) - frame.discrepancy.price(chosen)
+    sign, size = np.linalg.slogdet(precision)
+    if sign <= 0 or not math.isfinite(target):
+        return None
+    evidence = target + 0.5 * len(used) * math.log(2.0 * math.pi) - 0.5 * float(size)
+    scatter = seen.measure_scatter_of(used[used >= len(frame.own)])
+    return ArmHypothesis(frame, at, chosen, evidence, 0.0, price, scatter, seen, kept, used, precision)
+
+
+def _climb(frame: ArmFrame, at: Array, chosen: Choice) -> tuple[Array, Choice, Expansion, FilteredLog] | None:
+    """Return the coordinates of the maximum, the choice of smooth forces, and the expansion and filter there."""
     if not math.isfinite(frame.target(at, chosen)[0]):
         return None
     own = len(frame.own)
@@ -208,14 +237,7 @@ def fit_hypothesis(frame: ArmFrame, start: Array, price: float, choice: Choice |
         at = there
     if not np.array_equal(at, seen.at):
         seen, kept = frame.expand(at)
-        used, precision = _find_precision(frame, seen, chosen)
-    target = float(seen.here.log_likelihood) + frame.log_prior(at, chosen) - frame.discrepancy.price(chosen)
-    sign, size = np.linalg.slogdet(precision)
-    if sign <= 0 or not math.isfinite(target):
-        return None
-    evidence = target + 0.5 * len(used) * math.log(2.0 * math.pi) - 0.5 * float(size)
-    scatter = seen.measure_scatter_of(used[used >= own])
-    return ArmHypothesis(frame, at, chosen, evidence, 0.0, price, scatter, seen, kept, used, precision)
+    return at, chosen, seen, kept
 
 
 def _step(

@@ -13,13 +13,13 @@ from lostmotion.evidence.bare import Budget
 from lostmotion.likelihood.sensors import measure_white_noise
 from lostmotion.parts import Array
 from lostmotion.robots.arm import TapedArm
-from lostmotion.robots.arm_discrepancy import LARGE, SIZES, Discrepancy, make_discrepancy, make_none
-from lostmotion.robots.arm_effects import ArmCoordinate, ArmEffect, JointScales, measure_scales
+from lostmotion.robots.arm_discrepancy import LARGE, SIZES, make_discrepancy, make_none
+from lostmotion.robots.arm_effects import ArmCoordinate, ArmEffect, measure_scales
 from lostmotion.robots.arm_hypothesis import ArmFrame, fit_hypothesis, list_base
 from lostmotion.robots.arm_search import ArmSearch, Say
 from lostmotion.robots.log import RobotLog
 from lostmotion.robots.promises import list_effects, make_screen, relinearise
-from lostmotion.robots.tape import Path, make_part, make_tape, smooth_path, weigh_inertial
+from lostmotion.robots.tape import Path, make_part, make_tape, smooth_path
 from lostmotion.simulators import Simulator
 
 FITTED = 0.7
@@ -97,14 +97,10 @@ def prepare_search(
     say("nominal model")
     path, at = _filter_path(arm, base, last)
     arm = renew_tape(arm, simulator, path)
-    usual, large = _list_discrepancies(arm, simulator, scales, options.tolerance, set(estimated))
-    found = fit_hypothesis(
-        ArmFrame(arm, (), base, usual, last), np.concatenate([at, np.zeros(len(usual.columns))]), 0.0
+    inertial = {name: (make_part(simulator, name, arm.tape), size) for name, size in simulator.inertial.items()}
+    usual, large = (
+        make_discrepancy(arm, scales, options.tolerance, set(estimated), inertial, sizes) for sizes in (SIZES, LARGE)
     )
-    if found is not None:  # wrong inertias give wrong accelerations, by which their own columns are multiplied
-        path = relinearise(found.frame.run(found.at, last=arm.log.samples, keep=True), len(arm.joints))
-        arm = renew_tape(arm, simulator, path)
-        usual, large = _list_discrepancies(arm, simulator, scales, options.tolerance, set(estimated))
     plain = ArmFrame(arm, (), base, make_none(arm), last).run(at, keep=True)
     effects = _choose_effects(list_effects(arm, scales, terms, simulator.points, plain), options.asked)
     screen = make_screen(arm, effects, arm.tape.path.a)
@@ -113,14 +109,6 @@ def prepare_search(
     most = max(options.most, len(arm.joints) + 1) if len(arm.joints) > 2 else options.most
     search = ArmSearch(frame, screen, large, arm.log.samples, most, budget, options.jobs, say)
     return search, np.concatenate([at, np.zeros(len(usual.columns))])
-
-
-def _list_discrepancies(
-    arm: TapedArm, simulator: Simulator, scales: tuple[JointScales, ...], tolerance: float, estimated: set[str]
-) -> list[Discrepancy]:
-    """Return the usual discrepancy, and the one with larger smooth forces."""
-    inertial = weigh_inertial(simulator, arm.tape.path)
-    return [make_discrepancy(arm, scales, tolerance, estimated, inertial, sizes) for sizes in (SIZES, LARGE)]
 
 
 def _choose_effects(effects: Sequence[ArmEffect], asked: Sequence[str]) -> list[ArmEffect]:

@@ -182,6 +182,8 @@ class ArmSearch:
     ) -> ArmHypothesis | None:
         """Return the best fit of a set of effects from several starts, with its density of held-out data."""
         frame = replace(self.frame, effects=effects)
+        if beside is not None and not beside.unknown:
+            frame = replace(frame, discrepancy=beside.frame.discrepancy)
         price = sum(self.price + effect.price for effect in effects)
         choice = beside.choice if beside is not None else None
         made = [fit_hypothesis(frame, start, price, choice) for start in starts]

@@ -137,7 +137,8 @@ def measure_forces(found: ArmHypothesis) -> dict[tuple[str, str], float]:
     rest, told = found.at[len(frame.own) :], {}
     for force, option in zip(frame.discrepancy.forces, found.choice[:-1], strict=True):
         if option >= 0:
-            made = rest[force.columns] @ frame.discrepancy.matrix[force.columns, :, force.joint]
+            made = frame.discrepancy.force(np.where(np.isin(np.arange(len(rest)), np.r_[force.columns]), rest, 0.0))
+            made = made[:, force.joint]
             told[frame.arm.joints[force.joint], force.over] = float(np.sqrt(np.mean(made**2)))
     return told
 

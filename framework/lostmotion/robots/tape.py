@@ -56,6 +56,10 @@ class Part:
     mass: Array
     bias: Array
 
+    def weigh(self, a: Array) -> Array:
+        """Return the torque (samples, n) that one more unit needs under accelerations (samples, n)."""
+        return np.asarray(np.einsum("kij,kj->ki", self.mass, a) + self.bias)
+
 
 def smooth_path(q: Array, dt: float) -> Path:
     """Return the path of recorded positions (samples, n), smoothed by polynomials over a short window."""
@@ -80,20 +84,11 @@ def make_tape(simulator: Simulator, path: Path) -> Tape:
 
 
 def make_part(simulator: Simulator, name: str, tape: Tape) -> Part:
-    """Return the part of a linear value or a payload in the tape, by a difference of two simulators."""
+    """Return the part in the tape of a linear or inertial value or a payload, by a difference of two simulators."""
     known = simulator.linear.get(name, 0.0)
-    change = CHANGE * (abs(known) or 1.0)
+    change = CHANGE * (abs(known) or simulator.inertial.get(name, 1.0))
     mass, bias = _find_mass(simulator.changed({name: known + change}), tape.path)
     return Part((mass - tape.mass) / change, (bias - tape.bias) / change)
-
-
-def weigh_inertial(simulator: Simulator, path: Path) -> dict[str, Array]:
-    """Return the torque (samples, n) along a path of the usual size of each first moment and moment of inertia."""
-    plain = _ask(simulator, path.q, path.v, path.a)
-    return {
-        name: (_ask(simulator.changed({name: CHANGE * size}), path.q, path.v, path.a) - plain) / CHANGE
-        for name, size in simulator.inertial.items()
-    }
 
 
 def _find_mass(simulator: Simulator, path: Path) -> tuple[Array, Array]:
