@@ -86,6 +86,26 @@ class Simulator(ABC):
         """Return the simulator with other values of `linear`, amounts more of `inertial`, or payloads at `points`."""
         raise NotImplementedError(f"{self.name} has no values that can be changed")
 
+    def roll(self, q: Array, v: Array, torque: Array, dt: float, *, step: float | None = None) -> tuple[Array, Array]:
+        """Return positions and velocities (runs, samples, n) from states (runs, n) under torques (runs, samples, n).
+
+        A torque is held for `dt` s, after which the state is returned. The simulator takes its usual steps, but of
+        `step` s; without it the motion is exact. Dry friction, contacts and limits are left out. Only a simulator with
+        a `step` of its own is asked.
+        """
+        raise NotImplementedError(f"{self.name} has no motion in time")
+
+    def describe_friction(self, q: Array, forces: Mapping[str, float]) -> tuple[str, ...]:
+        """Return sentences on how dry friction (N m or N) of joints at positions q (n,) differs from the exact one."""
+        return ()
+
+    def with_found(self, found: Sequence[FoundMechanism], known: Mapping[str, float]) -> Simulator | None:
+        """Return the simulator of the file that `write_found` writes, whose `roll` keeps friction; None without one.
+
+        Where a gear was found it has one more joint, whose position is that of the link relative to the motor.
+        """
+        return None
+
     def write_found(
         self, found: Sequence[FoundMechanism], known: Mapping[str, float]
     ) -> tuple[str, tuple[str, ...]] | None:

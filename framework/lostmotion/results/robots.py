@@ -52,6 +52,22 @@ class JointRow:
     found: tuple[str, ...] = described("the mechanisms found there")
 
 
+@dataclass(frozen=True)
+class StepCost:
+    """What a time step of the simulation costs."""
+
+    step: float = described("the step (s)")
+    nats: float = described("loss of log-likelihood against the exact motion of the same model")
+
+
+@dataclass(frozen=True)
+class WrittenModel:
+    """The model with what was found in it, as `arm_found.xml` has it, stepped by its simulator."""
+
+    nrmse: float = described("error of its free runs over held-out data")
+    share: float = described("the share of the improvement of these errors that stays")
+
+
 @dataclass(frozen=True, kw_only=True)
 class RobotDiagnosis:
     """The result of a diagnosis of a robot: the content of `diagnosis.json`."""
@@ -71,6 +87,8 @@ class RobotDiagnosis:
     model: Labels = described("the models in words")
     joints: tuple[JointRow, ...] = described("each joint, before and after")
     noise: Mapping[str, Interval] = described("noise of each encoder, after")
+    steps: tuple[StepCost, ...] = described("costs of time steps of the simulation: its own, and a finer one")
+    written: WrittenModel | None = described("the changed model on held-out data; null where it was not stepped")
     recordings: tuple[RecordingFacts, ...] = described("the log")
     notes: tuple[str, ...] = described("limitations and remarks, in sentences")
     provenance: Origin = described("versions, settings and digests of the inputs")

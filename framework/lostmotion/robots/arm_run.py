@@ -21,7 +21,7 @@ from lostmotion.results import Interval
 from lostmotion.results.background import Origin, RecordingFacts
 from lostmotion.results.diagnosis import HeldOutScore, HeldOutScores, Labels, Mechanism, ParameterSets
 from lostmotion.results.mismatch import UnexplainedForce
-from lostmotion.results.robots import Check, RobotDiagnosis
+from lostmotion.results.robots import Check, RobotDiagnosis, StepCost, WrittenModel
 from lostmotion.robots.arm import TapedArm, can_act
 from lostmotion.robots.arm_case import RobotCase, load_robot_case
 from lostmotion.robots.arm_hypothesis import ArmHypothesis
@@ -38,7 +38,9 @@ from lostmotion.robots.arm_words import (
 )
 from lostmotion.robots.free_runs import HORIZON, HeldOutRuns, predict_heldout
 from lostmotion.robots.log_checks import average, check_log, predict_torque
+from lostmotion.robots.step_costs import TOLD, describe_steps, measure_steps
 from lostmotion.robots.tape import Path as RobotPath
+from lostmotion.robots.write_back import measure_written
 from lostmotion.simulators import FoundMechanism
 from lostmotion.storage import StoredArray, dataset_of, folder_for, save_datasets, save_json, save_text
 
@@ -49,6 +51,8 @@ Say = Callable[[str], None]
 USUAL = 0.03
 """A random force above this share of the torque is more than the usual noise of a drive."""
 FOUND_MODEL = "arm_found.xml"
+WRITTEN_FRICTION = ("coulomb_friction", "stribeck_friction")
+"""Mechanisms that are written as dry friction of a simulator."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,10 +140,16 @@ def _make_output(
     rows = list_joints(search, (nominal, before), (best, after), found, motions)
     worst = max(rows, key=lambda row: row.random_after / row.torque)
     left = worst.random_after
+    changes = _list_changes(found)
+    stepped = measure_written(best, (before, after), simulator, changes, case.known)
+    steps = measure_steps(nominal, simulator)
     result = RobotDiagnosis(
         title=case.title,
         verdict="mismatch" if found else "adequate",
-        says=_summarise(found, before, after, case.log.joints),
+        says=(
+            *_summarise(found, before, after, case.log.joints),
+            *_list_remarks(case, steps, stepped, _list_friction(case, plain, found)),
+        ),
         checks=tuple(checks),
         found=found,
         ranking=rank_sets(search),
@@ -153,15 +163,17 @@ def _make_output(
         model=Labels(case.model.label, " + ".join([case.model.label, *sorted(best.terms)])),
         joints=rows,
         noise=_list_noise(best, motions),
+        steps=steps,
+        written=stepped,
         recordings=(
             RecordingFacts(
                 case.log.name, case.log.samples, 1.0 / case.log.dt, None, tuple(f"{j}.torque" for j in case.log.joints)
             ),
         ),
-        notes=_write_notes(case, search, registry),
+        notes=_write_notes(case, search, registry, steps),
         provenance=make_robot_origin(case, registry, search.budget.seconds),
     )
-    written = simulator.write_found(_list_changes(found), case.known)
+    written = simulator.write_found(changes, case.known)
     arrays, coords = _list_arrays(case, seen, missing, (before, after))
     return RobotOutput(
         result, search, dataset_of(arrays, coords, {"title": case.title}), None if written is None else written[0]
@@ -191,6 +203,31 @@ def _summarise(
         f" {100.0 * before.nrmse[best]:.3g} % to {100.0 * after.nrmse[best]:.3g} % of its motion."
     )
     return tuple(told)
+
+
+def _list_friction(case: RobotCase, plain: TapedArm, found: Sequence[Mechanism]) -> tuple[str, ...]:
+    """Return what the simulator says about dry friction of the model, and about that which was found."""
+    joints = case.log.joints
+    forces = {joint: float(x) for joint, x in zip(joints, plain.get({}, "frictionloss"), strict=True) if x > 0.0}
+    for one in found:
+        if one.mechanism in WRITTEN_FRICTION and one.at in joints:
+            forces[one.at] = forces.get(one.at, 0.0) + one.parameters["force"].median
+    return case.model.simulator.describe_friction(np.median(plain.tape.path.q, axis=0), forces) if forces else ()
+
+
+def _list_remarks(
+    case: RobotCase, steps: tuple[StepCost, ...], stepped: WrittenModel | None, friction: tuple[str, ...]
+) -> list[str]:
+    """Return sentences on the simulation itself: its steps, its friction, and the model with what was found."""
+    told = []
+    if stepped is not None:
+        told.append(
+            f"{case.model.label} with what was found, stepped by its simulator, keeps {100.0 * stepped.share:.0f} % of"
+            f" this gain ({FOUND_MODEL})."
+        )
+    if any(one.nats > TOLD for one in steps):
+        told.append(describe_steps(steps))
+    return [*told, *friction]
 
 
 def _score(told: HeldOutRuns, joints: Sequence[str]) -> HeldOutScore:
@@ -229,15 +266,13 @@ def _list_noise(one: ArmHypothesis, motions: dict[str, str]) -> dict[str, Interv
     return found
 
 
-def _write_notes(case: RobotCase, search: ArmSearch, registry: Registry) -> tuple[str, ...]:
+def _write_notes(
+    case: RobotCase, search: ArmSearch, registry: Registry, steps: tuple[StepCost, ...]
+) -> tuple[str, ...]:
     """Return limitations and remarks."""
     notes = list(case.log.notes)
-    step = case.model.simulator.step
-    if step is not None and step > 5e-4:
-        notes.append(
-            f"The model integrates with steps of {1e3 * step:g} ms. The diagnosis does not depend on"
-            " them, because it uses the exact equations of motion; a simulation with these steps has errors of its own."
-        )
+    if steps and not any(one.nats > TOLD for one in steps):
+        notes.append(describe_steps(steps))
     if search.skipped:
         notes.append("The processor time was used up before the search had ended: give --budget SECONDS for more.")
     terms = _make_library(registry)

@@ -27,6 +27,8 @@ REACH = 3.0
 """Sets within this distance of the best score are extended."""
 SMALL = 0.1
 """The random force of a second start, as a share of the fitted one: a gap is else taken for noise."""
+SAME_LAW = 3.0
+"""A law that contains a simpler one must gain so much log evidence over it (odds of 20) to count as another one."""
 UNKNOWN_PRICE = 1.0
 """The log odds of an unknown force against those of one effect of the library."""
 
@@ -248,9 +250,26 @@ def name_set(terms: Terms) -> str:
 
 
 def find_probabilities(search: ArmSearch) -> dict[str, float]:
-    """Return the posterior probability of each effect: the sum over the sets that contain it."""
+    """Return the posterior probability of each effect: the sum over the sets that contain it.
+
+    A set with a law that contains a simpler one, and explains hardly more than it, is counted as that with the simpler
+    law: friction that drifts within its first hundredth of a second is dry friction.
+    """
     shares: dict[str, float] = {}
     for terms, share in compute_probabilities(search.found.values(), search.temper).items():
-        for key in terms or {"nothing_missing"}:
+        for key in _simplify(search, terms) or {"nothing_missing"}:
             shares[key] = shares.get(key, 0.0) + share
     return dict(sorted(shares.items(), key=lambda pair: -pair[1]))
+
+
+def _simplify(search: ArmSearch, terms: Terms) -> Terms:
+    """Return the terms of a set with each law in its simplest form that explains as much."""
+    one = search.found[terms]
+    for effect in one.frame.effects:
+        for simpler in effect.extends:
+            plain = search.found.get((terms - {effect.key}) | {simpler})
+            if plain is not None:
+                gain = one.log_evidence + one.heldout - plain.log_evidence - plain.heldout
+                if gain < SAME_LAW * search.temper:
+                    return _simplify(search, plain.terms)
+    return terms

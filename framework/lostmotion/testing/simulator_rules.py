@@ -106,10 +106,11 @@ def closed_path_needs_no_work(simulator: Simulator) -> str:
 
 @rule("simulator")
 def linear_values_are_linear(simulator: Simulator) -> str:
-    """Let `inverse` depend linearly on each value of `linear`, and `changed` know each of them and each payload."""
+    """Let `inverse` depend linearly on values of `linear` and `inertial`, and `changed` know them and each payload."""
     q, v, a = _make_path(simulator)
     plain = simulator.inverse(q, v, a)
     steps = {name: 0.1 * (abs(value) or 1.0) for name, value in simulator.linear.items()}
+    steps |= {name: 0.1 * size for name, size in simulator.inertial.items()}
     steps |= {f"{point}.payload": 0.1 for point in simulator.points}
     for name, step in steps.items():
         base = simulator.linear.get(name, 0.0)

@@ -13,9 +13,11 @@ from lostmotion.simulators import FoundMechanism
 
 FINE = 5e-4
 """The longest step (s) at which stiff friction and limits hold."""
-STIFF = (0.002, 1.0)
-"""Time constant (s) and damping ratio of friction and limits in the constraint solver."""
+STIFF = (2.0 * FINE, 1.0)
+"""Time constant (s) and damping ratio of friction and limits: MuJoCo takes two steps for the shortest time constant."""
 MARK = "found by lostmotion"
+GEAR = "_gear"
+"""The end of the name of a joint between motor and link."""
 
 
 def write_findings(
@@ -135,7 +137,7 @@ class _Writer:
         motor = self.spec.joint(one.at.removesuffix(".gear"))
         self._refine()
         return motor.parent.add_joint(
-            name=f"{motor.name}_gear", type=motor.type, axis=motor.axis, pos=motor.pos, armature=0.0
+            name=f"{motor.name}{GEAR}", type=motor.type, axis=motor.axis, pos=motor.pos, armature=0.0
         )
 
     def _add_joint_elasticity(self, one: FoundMechanism) -> None:

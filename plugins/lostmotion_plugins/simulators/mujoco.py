@@ -15,7 +15,8 @@ from lostmotion.errors import CaseError, nearest
 from lostmotion.parts import Array
 from lostmotion.simulators import FoundMechanism, Simulator
 from lostmotion_plugins.simulators.inertial import add_amount, add_payload, measure_sizes
-from lostmotion_plugins.simulators.mjcf import write_findings
+from lostmotion_plugins.simulators.mjcf import GEAR, write_findings
+from lostmotion_plugins.simulators.stepping import Stepper, tell_softness
 
 EXAMPLE = """
 <mujoco model="arm">
@@ -206,11 +207,52 @@ class MujocoSimulator(Simulator):
             found[k] = data.qfrc_inverse[dof]
         return found
 
+    def roll(self, q: Array, v: Array, torque: Array, dt: float, *, step: float | None = None) -> tuple[Array, Array]:
+        model = self._copy_stepped()
+        model.dof_frictionloss[:] = 0.0
+        model.opt.disableflags |= int(_import_mujoco().mjtDisableBit.mjDSBL_LIMIT)
+        return self._roll(model, (q, v), torque, dt, step)
+
+    def _copy_stepped(self) -> Any:
+        """Return a copy of the model of the file without contacts, actuators and equality constraints."""
+        mujoco, model = _import_mujoco(), copy.copy(self._source)
+        self._refuse(model)
+        for name in ("CONTACT", "ACTUATION", "EQUALITY"):
+            model.opt.disableflags |= int(getattr(mujoco.mjtDisableBit, f"mjDSBL_{name}", 0))
+        return model
+
+    def _roll(
+        self, model: Any, state: tuple[Array, Array], torque: Array, dt: float, step: float | None
+    ) -> tuple[Array, Array]:
+        places = [int(model.jnt_qposadr[i]) for i in self._moved]
+        dofs = [int(model.jnt_dofadr[i]) for i in self._moved]
+        stepper = Stepper(_import_mujoco(), model, places, dofs)
+        stepper.hold()
+        count = stepper.set_clock(dt, step)
+        return stepper.roll(*state, torque, count)
+
+    def describe_friction(self, q: Array, forces: Mapping[str, float]) -> tuple[str, ...]:
+        model = self._copy_stepped()
+        places = [int(model.jnt_qposadr[i]) for i in self._moved]
+        dofs = dict(zip(self.joints, (int(model.jnt_dofadr[i]) for i in self._moved), strict=True))
+        model.qpos0[places], model.opt.gravity[:] = q, 0.0
+        return tell_softness(_import_mujoco(), model, dofs, forces)
+
     def write_found(self, found: Sequence[FoundMechanism], known: Mapping[str, float]) -> tuple[str, tuple[str, ...]]:
         """Return the MJCF with what was found, and notes; a URDF becomes an MJCF."""
         mujoco = _import_mujoco()
         spec = mujoco.MjSpec.from_file(self.file) if self.file else mujoco.MjSpec.from_string(EXAMPLE)
         return write_findings(mujoco, spec, found, known)
+
+    def with_found(self, found: Sequence[FoundMechanism], known: Mapping[str, float]) -> FoundSimulator:
+        """Return the changed machine; a gear is one more joint, `elbow_gear`."""
+        mujoco = _import_mujoco()
+        text, _ = self.write_found(found, known)
+        spec = mujoco.MjSpec.from_string(text)
+        if self.file:
+            spec.modelfiledir = str(Path(self.file).parent)
+        gears = tuple(f"{joint}{GEAR}" for joint in self.joints if f"{joint}.gear" in {one.at for one in found})
+        return FoundSimulator(self.file, (*self.joints, *gears), model=spec.compile())
 
     def changed(self, values: Mapping[str, float]) -> MujocoSimulator:
         """Return the machine with other masses (kg) of bodies, `fore.mass`, more of `inertial`, or a payload (kg)."""
@@ -219,6 +261,20 @@ class MujocoSimulator(Simulator):
             if name not in known:
                 raise CaseError(f"the model has no value {name!r}{nearest(name, known)}: it has {', '.join(known)}")
         return replace(self, values=tuple((dict(self.values) | dict(values)).items()))
+
+
+@dataclass(frozen=True)
+class FoundSimulator(MujocoSimulator):
+    """A machine with what was found in it, which is stepped with its own dry friction and limits."""
+
+    model: Any = None
+
+    @cached_property
+    def _source(self) -> Any:
+        return self.model
+
+    def roll(self, q: Array, v: Array, torque: Array, dt: float, *, step: float | None = None) -> tuple[Array, Array]:
+        return self._roll(self._copy_stepped(), (q, v), torque, dt, step)
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,66 @@
+"""The model with what was found in it, stepped by its own simulator: how much of the gain on held-out data stays."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from lostmotion.results.robots import WrittenModel
+from lostmotion.robots.arm_hypothesis import ArmHypothesis
+from lostmotion.robots.free_runs import HORIZON, HeldOutRuns
+from lostmotion.simulators import FoundMechanism, Simulator
+
+DRIVE = ".torque"
+"""The end of the place of a mechanism of the drive: the torques of a run are given, so that it cannot be tried."""
+
+
+def measure_written(
+    best: ArmHypothesis,
+    runs: tuple[HeldOutRuns, HeldOutRuns],
+    simulator: Simulator,
+    found: Sequence[FoundMechanism],
+    known: Mapping[str, float],
+) -> WrittenModel | None:
+    """Return how the written model predicts held-out data; None where it cannot be stepped, or nothing is written.
+
+    Runs begin at the same filtered states and last as long as those of `runs`, before and after.
+    """
+    log = best.frame.arm.log
+    if not found or simulator.step is None or best.frame.arm.side != "motor":
+        return None
+    if any(one.at.endswith(DRIVE) for one in found):
+        return None
+    written = simulator.with_found(found, known)
+    if written is None or written.step is None:
+        return None
+    first, length = runs[0].first, max(2, round(HORIZON / log.dt))
+    begins = np.arange(first, log.samples - length, length)
+    states = best.frame.run(best.at, last=log.samples, keep=True).states[begins]
+    q, v = _place_states(best, states)
+    tau = np.zeros((len(begins), length, q.shape[1]))
+    tau[:, :, : len(log.joints)] = log.drive([], {})[np.add.outer(begins, np.arange(length))]
+    rolled, _ = written.roll(q, v, tau, log.dt, step=written.step)
+    places = [i for i, (_, order) in enumerate(log.picks) if order == 0]
+    joints = [j for j, order in log.picks if order == 0]
+    shown = np.full((log.samples - first, len(places)), np.nan)
+    for begin, run in zip(begins - first, rolled, strict=True):
+        shown[begin + 1 : begin + length] = run[:-1, joints]
+    readings = log.readings[first:, places]
+    nrmse = np.sqrt(np.nanmean((readings - shown) ** 2, axis=0)) / np.nanstd(readings, axis=0)
+    before, after = (float(np.mean(run.nrmse)) for run in runs)
+    error = float(np.mean(nrmse))
+    return WrittenModel(error, (before - error) / max(before - after, 1e-300))
+
+
+def _place_states(best: ArmHypothesis, states: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return positions and velocities (runs, joints) of motors, and then of links relative to their motors."""
+    n, gears = len(best.frame.arm.joints), sorted(gear.joint for gear in best.frame.gears)
+    found = []
+    for order in (0, 1):
+        links = states[:, order * n : (order + 1) * n]
+        motors = links.copy()
+        for place, j in enumerate(gears):
+            motors[:, j] = states[:, 2 * n + 2 * place + order]
+        found.append(np.concatenate([motors, (links - motors)[:, gears]], axis=1))
+    return found[0], found[1]
