@@ -60,6 +60,40 @@ def test_two_ways_to_the_same_arm_agree():
     assert np.allclose(heavy, TwoLink(payload=0.3).inverse(q, v, a), atol=1e-9)
 
 
+def test_a_payload_turns_the_axes_of_the_inertia(tmp_path):
+    file = tmp_path / "arm.xml"
+    file.write_text(EXAMPLE.replace('"0.03 0.03 0.03"', '"0.045 0.03 0.02"'), encoding="utf-8")
+    q, v, a = np.random.default_rng(0).standard_normal((3, 20, 2))
+    heavy = MujocoSimulator(file=str(file)).changed({"tip.payload": 0.3}).inverse(q, v, a)
+    assert np.allclose(heavy, TwoLink(payload=0.3).inverse(q, v, a), atol=1e-9)
+
+
+def test_a_first_moment_moves_the_centre_of_mass(tmp_path):
+    file, more = tmp_path / "arm.xml", 1e-5
+    file.write_text(EXAMPLE.replace('pos="0.15 0 0"', f'pos="0.15 0 {more / 2.0}"'), encoding="utf-8")
+    q, v, a = np.random.default_rng(0).standard_normal((3, 20, 2))
+    plain, other = MujocoSimulator().inverse(q, v, a), MujocoSimulator(file=str(file)).inverse(q, v, a)
+    moved = MujocoSimulator().changed({"fore.moment_z": more}).inverse(q, v, a)
+    assert np.allclose(moved - plain, other - plain, rtol=1e-3, atol=1e-9)
+    assert set(MujocoSimulator().inertial) >= {"upper.moment_x", "fore.inertia_yy", "fore.inertia_xz"}
+
+
+def test_a_finer_step_is_closer_to_the_exact_motion():
+    rng = np.random.default_rng(0)
+    q, v = rng.standard_normal((2, 50, 2))
+    torque = 3.0 * rng.standard_normal((50, 5, 2))
+    exact = MujocoSimulator().roll(q, v, torque, 0.002)
+    off = [np.std(MujocoSimulator().roll(q, v, torque, 0.002, step=h)[0] - exact[0]) for h in (2e-3, 1e-3, 5e-4)]
+    assert off[1] == pytest.approx(0.5 * off[0], rel=0.1)
+    assert off[2] == pytest.approx(0.25 * off[0], rel=0.1)
+
+
+def test_soft_friction_is_told_with_its_solref():
+    (says,) = MujocoSimulator().describe_friction(np.array([-1.5, 0.0]), {"elbow": 0.3})
+    assert "solref 0.02 1 and steps of 2 ms, as in the file, elbow creeps at" in says
+    assert "a step leaves 81 % of a small speed" in says
+
+
 def test_findings_are_written_into_the_file():
     text, notes = MujocoSimulator().write_found(FOUND, {})
     model = mujoco.MjModel.from_xml_string(text)
