@@ -19,7 +19,7 @@ from lostmotion.robots.arm_hypothesis import ArmFrame, fit_hypothesis, list_base
 from lostmotion.robots.arm_search import ArmSearch, Say
 from lostmotion.robots.log import RobotLog
 from lostmotion.robots.promises import list_effects, make_screen, relinearise
-from lostmotion.robots.tape import Path, make_part, make_tape, smooth_path
+from lostmotion.robots.tape import Path, make_inertial_parts, make_part, make_tape, smooth_path
 from lostmotion.simulators import Simulator
 
 FITTED = 0.7
@@ -97,9 +97,10 @@ def prepare_search(
     say("nominal model")
     path, at = _filter_path(arm, base, last)
     arm = renew_tape(arm, simulator, path)
-    inertial = {name: (make_part(simulator, name, arm.tape), size) for name, size in simulator.inertial.items()}
+    sizes = simulator.inertial
+    inertial = {name: (part, sizes[name]) for name, part in make_inertial_parts(simulator, arm.tape).items()}
     usual, large = (
-        make_discrepancy(arm, scales, options.tolerance, set(estimated), inertial, sizes) for sizes in (SIZES, LARGE)
+        make_discrepancy(arm, scales, options.tolerance, set(estimated), inertial, widths) for widths in (SIZES, LARGE)
     )
     plain = ArmFrame(arm, (), base, make_none(arm), last).run(at, keep=True)
     effects = _choose_effects(list_effects(arm, scales, terms, simulator.points, plain), options.asked)

@@ -20,6 +20,8 @@ ANGLE, SPEED = 1e-4, 1e-3
 """The steps of central differences over positions and velocities (SI)."""
 CHANGE = 0.01
 """The share by which a linear value is changed to find its part of the tape; for a payload the mass in kg."""
+EVERY = 5
+"""The samples between those at which the small torques of inertial values are found: positions are smooth."""
 SMOOTHING, ORDER = 0.03, 4
 """Length (s) and order of the polynomials that smooth a recorded path."""
 
@@ -89,6 +91,24 @@ def make_part(simulator: Simulator, name: str, tape: Tape) -> Part:
     change = CHANGE * (abs(known) or simulator.inertial.get(name, 1.0))
     mass, bias = _find_mass(simulator.changed({name: known + change}), tape.path)
     return Part((mass - tape.mass) / change, (bias - tape.bias) / change)
+
+
+def make_inertial_parts(simulator: Simulator, tape: Tape) -> dict[str, Part]:
+    """Return the parts of first moments and moments of inertia, interpolated between every few samples of the tape."""
+    samples = len(tape.bias)
+    kept = np.unique(np.r_[0:samples:EVERY, samples - 1])
+    path = Path(tape.path.q[kept], tape.path.v[kept], tape.path.a[kept])
+    thin = Tape(path, tape.mass[kept], tape.bias[kept], tape.stiffness[kept], tape.damping[kept])
+    between = np.interp(np.arange(samples), kept, np.arange(len(kept)))
+    low = np.minimum(between.astype(int), len(kept) - 2)
+    share = between - low
+
+    def widen(x: Array) -> Array:
+        part = share.reshape(-1, *[1] * (x.ndim - 1))
+        return np.asarray((1.0 - part) * x[low] + part * x[low + 1])
+
+    made = {name: make_part(simulator, name, thin) for name in simulator.inertial}
+    return {name: Part(widen(part.mass), widen(part.bias)) for name, part in made.items()}
 
 
 def _find_mass(simulator: Simulator, path: Path) -> tuple[Array, Array]:
