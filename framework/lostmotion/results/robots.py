@@ -62,10 +62,15 @@ class StepCost:
 
 @dataclass(frozen=True)
 class WrittenModel:
-    """The model with what was found in it, as `arm_found.xml` has it, stepped by its simulator."""
+    """The model with what was found in it, as `arm_found.xml` has it, stepped by its simulator.
 
-    nrmse: float = described("error of its free runs over held-out data")
-    share: float = described("the share of the improvement of these errors that stays")
+    Errors are those of free runs over held-out data, without the discrepancy.
+    """
+
+    before: float = described("error of the model as it is, with its exact motion")
+    exact: float = described("the same with what was found")
+    nrmse: float = described("error of the changed model, stepped by its simulator")
+    share: float = described("the share of the improvement that stays")
 
 
 @dataclass(frozen=True, kw_only=True)

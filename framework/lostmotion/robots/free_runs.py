@@ -30,9 +30,14 @@ class HeldOutRuns:
     first: int
 
 
-def predict_heldout(found: ArmHypothesis) -> HeldOutRuns:
-    """Return the predictions of a hypothesis for the samples that no fit has seen."""
+def predict_heldout(found: ArmHypothesis, *, alone: bool = False) -> HeldOutRuns:
+    """Return the predictions of a hypothesis for the samples that no fit has seen.
+
+    With `alone` the runs, but not the states that they begin at, are those of its effects without its discrepancy.
+    """
     frame = found.frame
+    of_discrepancy = np.arange(len(found.at)) >= len(frame.own)
+    at = np.where(of_discrepancy, 0.0, found.at) if alone else found.at
     log, first = frame.arm.log, frame.last
     whole = frame.run(found.at, last=log.samples, keep=True)
     length = max(2, round(HORIZON / log.dt))
@@ -42,7 +47,7 @@ def predict_heldout(found: ArmHypothesis) -> HeldOutRuns:
     shown = np.full((log.samples - first, len(log.picks)), np.nan)
     for begin in range(first, log.samples - length, length):
         start = (begin, whole.states[begin].copy(), 1e-12 * np.eye(size))
-        run = frame.run(found.at, last=begin + length, keep=True, readings=blind, start=start)
+        run = frame.run(at, last=begin + length, keep=True, readings=blind, start=start)
         shown[begin - first : begin - first + length] = run.states[:, picks]
     places = [i for i, (_, order) in enumerate(log.picks) if order == 0]
     readings = log.readings[first:]

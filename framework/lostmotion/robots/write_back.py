@@ -8,7 +8,7 @@ import numpy as np
 
 from lostmotion.results.robots import WrittenModel
 from lostmotion.robots.arm_hypothesis import ArmHypothesis
-from lostmotion.robots.free_runs import HORIZON, HeldOutRuns
+from lostmotion.robots.free_runs import HORIZON, predict_heldout
 from lostmotion.simulators import FoundMechanism, Simulator
 
 DRIVE = ".torque"
@@ -16,15 +16,16 @@ DRIVE = ".torque"
 
 
 def measure_written(
+    nominal: ArmHypothesis,
     best: ArmHypothesis,
-    runs: tuple[HeldOutRuns, HeldOutRuns],
     simulator: Simulator,
     found: Sequence[FoundMechanism],
     known: Mapping[str, float],
 ) -> WrittenModel | None:
     """Return how the written model predicts held-out data; None where it cannot be stepped, or nothing is written.
 
-    Runs begin at the same filtered states and last as long as those of `runs`, before and after.
+    The gain is that of the effects alone: neither the file nor the runs that it is compared with have the discrepancy.
+    All runs begin at filtered states.
     """
     log = best.frame.arm.log
     if not found or simulator.step is None or best.frame.arm.side != "motor":
@@ -34,7 +35,7 @@ def measure_written(
     written = simulator.with_found(found, known)
     if written is None or written.step is None:
         return None
-    first, length = runs[0].first, max(2, round(HORIZON / log.dt))
+    first, length = best.frame.last, max(2, round(HORIZON / log.dt))
     begins = np.arange(first, log.samples - length, length)
     states = best.frame.run(best.at, last=log.samples, keep=True).states[begins]
     q, v = _place_states(best, states)
@@ -48,9 +49,9 @@ def measure_written(
         shown[begin + 1 : begin + length] = run[:-1, joints]
     readings = log.readings[first:, places]
     nrmse = np.sqrt(np.nanmean((readings - shown) ** 2, axis=0)) / np.nanstd(readings, axis=0)
-    before, after = (float(np.mean(run.nrmse)) for run in runs)
+    before, after = (float(np.mean(predict_heldout(one, alone=True).nrmse)) for one in (nominal, best))
     error = float(np.mean(nrmse))
-    return WrittenModel(error, (before - error) / max(before - after, 1e-300))
+    return WrittenModel(before, after, error, (before - error) / max(before - after, 1e-300))
 
 
 def _place_states(best: ArmHypothesis, states: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
