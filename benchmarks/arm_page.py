@@ -57,9 +57,9 @@ def main() -> None:
     found = run_robot(case, options.out / "result", Registry.discover())
     values = ", ".join(f"{name} {value:.4g}" for name, value in truth.values.items())
     tables = {
-        "found: benchmarks/arm_page.py": format_found(found, f"{truth.mechanism} at {truth.at}: {values}"),
-        "joints: benchmarks/arm_page.py": format_joints(found),
-        "says: benchmarks/arm_page.py": "\n".join(["| the answer |", "|---|", *(f"| {s} |" for s in found.says)]),
+        "figures of benchmarks/arm_page.py found": format_found(found, f"{truth.mechanism} at {truth.at}: {values}"),
+        "figures of benchmarks/arm_page.py joints": format_joints(found),
+        "figures of benchmarks/arm_page.py says": "\n".join(["| the answer |", "|---|", *(f"| {s} |" for s in found.says)]),
     }
     print("\n\n".join(tables.values()), f"\n{time.perf_counter() - begun:.0f} s")
     if options.write:
