@@ -59,7 +59,9 @@ def main() -> None:
     tables = {
         "figures of benchmarks/arm_page.py found": format_found(found, f"{truth.mechanism} at {truth.at}: {values}"),
         "figures of benchmarks/arm_page.py joints": format_joints(found),
-        "figures of benchmarks/arm_page.py says": "\n".join(["| the answer |", "|---|", *(f"| {s} |" for s in found.says)]),
+        "figures of benchmarks/arm_page.py says": "\n".join(
+            ["| the answer |", "|---|", *(f"| {s} |" for s in found.says)]
+        ),
     }
     print("\n\n".join(tables.values()), f"\n{time.perf_counter() - begun:.0f} s")
     if options.write:

@@ -109,13 +109,29 @@ class Discrepancy:
             columns[i] = replace(columns[i], force=-part.weigh(accelerations))
         return replace(self, columns=tuple(columns))
 
+    def _condition(self, gradient: Array, information: Array, looser: int) -> tuple[float, Array, Array]:
+        """Return the log evidence of all but the smooth forces, and gradient and information of these given them."""
+        smooth, widths = self.fixed == 0.0, self.widths((*self.none[:-1], looser))
+        inner, cross = information[np.ix_(~smooth, ~smooth)], information[np.ix_(~smooth, smooth)]
+        known = compute_log_evidence(gradient[~smooth], inner, widths[~smooth])
+        pulled = np.linalg.solve(
+            inner + np.diag(1.0 / widths[~smooth] ** 2), np.column_stack([cross, gradient[~smooth]])
+        )
+        return (
+            known,
+            gradient[smooth] - cross.T @ pulled[:, -1],
+            information[np.ix_(smooth, smooth)] - cross.T @ pulled[:, :-1],
+        )
+
     def choose(self, gradient: Array, information: Array, choice: Choice) -> Choice:
         """Return the choice of the largest evidence, from gradient and information of the coefficients at zero."""
-        best = list(choice)
+        best, smooth = list(choice), self.fixed == 0.0
+        given = [self._condition(gradient, information, option) for option in range(len(LOOSER))]
 
         def weigh(option: int, at: int) -> float:
             tried = (*best[:at], option, *best[at + 1 :])
-            return compute_log_evidence(gradient, information, self.widths(tried)) - self.price(tried)
+            known, slope, bend = given[tried[-1]]
+            return known + compute_log_evidence(slope, bend, self.widths(tried)[smooth]) - self.price(tried)
 
         for _ in range(SWEEPS):
             before = list(best)

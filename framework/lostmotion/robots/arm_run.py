@@ -11,6 +11,7 @@ import numpy as np
 
 from lostmotion.codec import to_plain
 from lostmotion.contracts import Term
+from lostmotion.defaults import SLIDING
 from lostmotion.errors import CaseError
 from lostmotion.evidence.hypothesis import UNKNOWN
 from lostmotion.kernels.threads import hold_linear_algebra
@@ -51,8 +52,6 @@ Say = Callable[[str], None]
 USUAL = 0.03
 """A random force above this share of the torque is more than the usual noise of a drive."""
 FOUND_MODEL = "arm_found.xml"
-WRITTEN_FRICTION = ("coulomb_friction", "stribeck_friction")
-"""Mechanisms that are written as dry friction of a simulator."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -210,7 +209,7 @@ def _list_friction(case: RobotCase, plain: TapedArm, found: Sequence[Mechanism])
     joints = case.log.joints
     forces = {joint: float(x) for joint, x in zip(joints, plain.get({}, "frictionloss"), strict=True) if x > 0.0}
     for one in found:
-        if one.mechanism in WRITTEN_FRICTION and one.at in joints:
+        if one.mechanism in SLIDING and one.at in joints:
             forces[one.at] = forces.get(one.at, 0.0) + one.parameters["force"].median
     return case.model.simulator.describe_friction(np.median(plain.tape.path.q, axis=0), forces) if forces else ()
 
