@@ -48,8 +48,6 @@ def test_a_simulator_without_steps_costs_nothing(nominal, helpers):
     ("machine", "term", "least"),
     [
         (Arm(friction=np.array([0.0, 0.3])), "coulomb_friction@elbow", 0.8),
-        (Arm(damping=np.array([0.9, 0.3])), "viscous_damping@shoulder", 0.8),
-        (Arm(payload=0.15), "payload@tip", 0.8),
         (
             Arm(play=np.array([1e-3, -1.0]), stiffness=np.array([6e4, 5e4]), loss=np.array([30.0, 10.0])),
             "backlash@shoulder.gear",
