@@ -21,14 +21,14 @@ NAMES: Mapping[str, re.Pattern[str]] = {
         re.IGNORECASE,
     ),
     "position": re.compile(
-        r"pos|disp|angle|enc|travel|gauge|laser|^[xqy]([_ \d.,\[(/]|$)|theta|phi|stroke|^weg|winkel|d[ée]plac|desplaz"
+        r"pos|disp|dist(?!urb)|deflec|elong|exten[st]|lvdt|abstand|^hub|angle|enc|travel|gauge|laser|^[xqy]([_ \d.,\[(/]|$)|theta|phi|stroke|^weg|winkel|d[ée]plac|desplaz"
         r"|変位|位置|角度|位移|변위|위치"
         r"|перемещение|положение|угол",
         re.IGNORECASE,
     ),
 }
 TIME = re.compile(
-    r"(^|[_ .])(t|time|date ?time|date|datum|zeit|uhrzeit|zeitstempel|seconds?|timestamp|stamp|clock|elapsed|x_value|"
+    r"(^|[_ .])(t|ts|time|file ?time|date ?time|date|datum|zeit|uhrzeit|zeitstempel|seconds?|timestamp|stamp|clock|elapsed|x_value|"
     r"temps|tiempo|tempo|horodatage|heure|hora|fecha|tijd)([_ \[(.,/]|$)|時間|時刻|日時|日付|时间|시간|日期|время|дата",
     re.IGNORECASE,
 )
