@@ -32,9 +32,7 @@ _PLAIN = {
     "gf", "g_0", "g_n", "gn", "g0", "count", "counts", "digit", "digits", "LSB", "dB", "ppm", "arcmin", "arcsec", "gon",
     "pound", "pounds", "pound_force", "force_pound", "thou", "micron", "angstrom", "grad", "klbf", "dyne", "d", "day",
     "days", "U", "Umdr", "r", "rps", "dps", "gee", "Nmm", "Ncm", "mils",
-    "Grad", "Newton", "Newtons", "Millimeter", "Millimeters", "Millimetre", "Millimetres", "Meter", "Meters", "Sekunde",
-    "Sekunden", "Second", "Seconds", "Volt", "Volts", "Amp", "Amps", "Ampere", "Degrees", "Degree", "Radians", "RPM",
-    "Sec", "SEC", "Secs",
+    "Grad", "Sekunde", "Sekunden", "RPM", "Sec", "SEC", "Secs",
 }  # fmt: skip
 _ATOMS = (
     _PLAIN
@@ -64,8 +62,8 @@ _SHORT_RATES = re.compile(r"(m|mm|rad|deg)_?s(_?2)?")
 _DOUBTFUL = {"in", "rev", "turn", "turns", "count", "counts", "mil", "foot", "digit", "digits", "cm", "pm", "nm", "dm",
              "cd", "dN", "mg", "kg", "ft", "gon", "kp"}  # fmt: skip
 """Words that may be a unit, or a part of a name."""
-_ENDING = {"in", "rev", "turn", "turns", "count", "counts", "mil", "foot", "digit", "digits", "pm", "cd", "dN", "r", "U",
-           "grad", "gon", "kp", "min", "h", "d"}  # fmt: skip
+_ENDING = {"in", "rev", "turn", "turns", "count", "counts", "mil", "foot", "digit", "digits", "pm", "cd", "dN", "r",
+           "U", "grad", "gon", "kp", "min", "h", "d"}  # fmt: skip
 """Units that are read at the end of a name only: elsewhere they are other words."""
 _ANGLES = re.compile(r"angle|theta|phi|winkel|^d*q", re.IGNORECASE)
 _OTHER = {"mV", "uV", "kV", "mA", "uA", "kA", "Hz", "kHz", "degC", "bar", "kPa", "MPa", "Pa", "psi", "counts"}
@@ -83,13 +81,14 @@ LONGEST = 40
 EMPTY = {"", "-", "--", "1"}
 """Cells of a line of units that mean: no unit."""
 
-PER_SECOND = {"s": 1.0, "ms": 1e3, "us": 1e6, "ns": 1e9}
+PER_SECOND = {"s": 1.0, "ms": 1e3, "us": 1e6, "100ns": 1e7, "ns": 1e9}
 SECONDS = {"min": 60.0, "h": 3600.0, "d": 86400.0}
 _ALIASES = {
     "s": ("s", "sec", "secs", "second", "seconds", "Second", "Seconds", "Sec", "SEC", "Secs"),
     "ms": ("ms", "msec", "millisecond", "milliseconds", "millis"),
     "us": ("us", "µs", "μs", "usec", "microsecond", "microseconds", "micros"),
     "ns": ("ns", "nsec", "nanosecond", "nanoseconds"),
+    "100ns": ("100ns", "100 ns"),
     "min": ("min", "minute", "minutes"),
     "h": ("h", "hr", "hrs", "hour", "hours"),
     "d": ("d", "day", "days"),
@@ -207,7 +206,7 @@ def _unit_at_end(head: str, tail: Sequence[str]) -> str:
 
 
 def _fits(rest: str, unit: str, place: int) -> bool:
-    """Return whether a word of a name is the unit of what the rest says; its place is first, within or last (0 to 2)."""
+    """Return whether a word of a name is the unit of what the rest says; its place: first, within or last (0 to 2)."""
     if place < 2 and (unit in _ENDING or (place == 0 and unit == "rad")):
         return False
     if unit in TIME_UNITS:
@@ -275,6 +274,8 @@ def seconds(values: Array, unit: str, source: str) -> Array:
         raise DataError(f"{source}: time in {unit[:LONGEST]!r} is not understood: expected s, ms, us, ns, min, h or d")
     if known == "s":
         return values
+    if known == "100ns":  # dates as large as these are resolved to some us only
+        return (values - values[:1]) / PER_SECOND[known]
     return values / PER_SECOND[known] if known in PER_SECOND else values * SECONDS[known]
 
 
