@@ -19,15 +19,25 @@ TIMES = "mMc"
 """Kinds that are converted, or refused with a reason where they are asked for: durations, dates, complex numbers."""
 
 
-def table_of_nested(content: Mapping[str, object], units: Mapping[str, str] | None = None) -> Table:
-    """Return the table of some arrays; the unit of a two-dimensional array is that of its columns."""
+def table_of_nested(
+    content: Mapping[str, object],
+    units: Mapping[str, str] | None = None,
+    attributes: Mapping[str, object] | None = None,
+) -> Table:
+    """Return the table of some arrays; the unit of a two-dimensional array is that of its columns.
+
+    A sampling rate may be a single number in the content, or one of the attributes.
+    """
     flat = dict(_flatten_all(content))
     columns = {name: array for name, array in flat.items() if array.dtype.kind in KINDS}
     other = table_of_arrays({name: array for name, array in flat.items() if name not in columns}, {})
     columns = {name: array.astype(np.float64) for name, array in columns.items()} | dict(other.columns)
+    told = rates_in(
+        {key: item for name, value in (attributes or {}).items() for key, item in _list_single(name, value)}
+    )
     single = {name: item for name, value in content.items() for name, item in _list_single(name, value)}
     known = {name: (units or {}).get(name) or (units or {}).get(name.rpartition("[")[0], "") for name in columns}
-    return replace(make_table(columns, known, other.starts, other.refused), rates=rates_in(single, "number"))
+    return replace(make_table(columns, known, other.starts, other.refused), rates=rates_in(single, "number") | told)
 
 
 def _list_single(name: str, value: Any) -> Iterator[tuple[str, object]]:
