@@ -32,10 +32,8 @@ def table_of_nested(
     columns = {name: array for name, array in flat.items() if array.dtype.kind in KINDS}
     other = table_of_arrays({name: array for name, array in flat.items() if name not in columns}, {})
     columns = {name: array.astype(np.float64) for name, array in columns.items()} | dict(other.columns)
-    told = rates_in(
-        {key: item for name, value in (attributes or {}).items() for key, item in _list_single(name, value)}
-    )
-    single = {name: item for name, value in content.items() for name, item in _list_single(name, value)}
+    told = rates_in(dict(_list_single("", attributes or {})))
+    single = dict(_list_single("", content))
     known = {name: (units or {}).get(name) or (units or {}).get(name.rpartition("[")[0], "") for name in columns}
     return replace(make_table(columns, known, other.starts, other.refused), rates=rates_in(single, "number") | told)
 
