@@ -22,20 +22,26 @@ FOOTER = re.compile(
 
 
 def drop_footer(rows: Iterator[Line], separator: str | None) -> Iterator[Line]:
-    """Yield the rows of a table without its footer, which begins below a row that starts with a number or a stamp."""
-    after_value = False
+    """Yield the rows of a table without its footer, which begins below a row that starts with a number or a stamp.
+
+    Rows of separators only are left out at the end of the table.
+    """
+    after_value, blank = False, list[Line]()
     for row in rows:
-        cells = [cell.strip() for cell in cells_of(row[1], separator) if cell.strip()] or [""]
+        cells = [cell.strip() for cell in cells_of(row[1], separator) if cell.strip()]
+        if not cells:
+            blank.append(row)
+            continue
         alone = len(cells) == 1 and separator is not None and re.match(r"[^\d.+-]", cells[0])
         if after_value and (FOOTER.fullmatch(cells[0]) or alone):
             rest = [row, *islice(rows, LONGEST)]
             if len(rest) <= LONGEST and not any(_is_row(line, separator) for _, line in rest[1:]):
                 return
-            yield from rest
-            yield from rows
+            yield from (*blank, *rest, *rows)
             return
         after_value = is_value(cells[0])
-        yield row
+        yield from (*blank, row)
+        blank = []
 
 
 def _is_row(line: str, separator: str | None) -> bool:

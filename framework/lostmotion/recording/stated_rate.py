@@ -13,8 +13,11 @@ from lostmotion.recording.units import PER_SECOND, SECONDS, TIME_UNITS, is_unit
 
 SLOWEST, FASTEST = 0.1, 1e7
 """The rates (Hz) between which a number without a unit is believed."""
+LONGEST = 1.0
+"""The interval below which a number without a unit is in s; a larger one may be in ms."""
 _RATE = (
     r"(?:sampl\w*|scan|acquisition|data|log(?:ging)?|recording)[ _-]?(?:rate|freq(?:uency)?)|f_?s(?:ample)?|sr|rate"
+    r"|sampling(?=\W+[\d.,]+ ?[kM]?Hz)"
     r"|abtast(?:rate|frequenz)|messrate|(?:taux|fréquence) d.échantillonnage|frecuencia de muestreo"
     r"|サンプリング(?:周波数|レート)|частота дискретизации|采样(?:率|频率)"
 )
@@ -81,5 +84,4 @@ def _to_rate(number: float, unit: str, *, step: bool, sure: bool) -> float | Non
         return number * _TIMES[hertz[1].lower()]
     if known or hertz or is_unit(unit) or sure:
         return None
-    rate = 1.0 / number if step else number
-    return rate if SLOWEST <= rate <= FASTEST else None
+    return number if not step and SLOWEST <= number <= FASTEST else 1.0 / number if step and number < LONGEST else None
