@@ -32,7 +32,7 @@ from lostmotion.diagnosis.moving import note_rest
 from lostmotion.diagnosis.notes import write_notes
 from lostmotion.diagnosis.report.diagnosis_page import write_report
 from lostmotion.diagnosis.rivals import Proposals, describe_confusions, propose_experiments
-from lostmotion.diagnosis.scales import LEFT
+from lostmotion.diagnosis.scales import LEFT, describe_wrong_sign
 from lostmotion.diagnosis.show import measure_behaviour
 from lostmotion.diagnosis.stages import SearchResult, diagnose, explain_by
 from lostmotion.diagnosis.states import NAMED, limit_confidence, list_open_terms, sort_findings
@@ -249,7 +249,9 @@ def _make_result(prepared: Prepared, outcome: Outcome, seed: int, proposals: Pro
         by_recording=by_recording,
     )
     after, nominal = measure_unexplained(d, after=True), measure_unexplained(d, after=False)
-    scale = () if explains_scale(found, after.rms / (nominal.rms or 1.0)) else d.scale
+    scale = d.scale or describe_wrong_sign(prepared.recordings)
+    if explains_scale(found, after.rms / (nominal.rms or 1.0)):
+        scale = ()
     return Diagnosis(
         title=case.title,
         verdict="mismatch" if found else "adequate",

@@ -268,17 +268,16 @@ def note_stated(table: Table, clock: EvenClock) -> Iterator[str]:
             return
 
 
-def note_other_rate(table: Table, source: str, rate: float) -> tuple[str, ...]:
-    """Return a note on a time in the table that has another rate (Hz) than the one that is given."""
+def note_other_rate(table: Table, source: str, rate: float) -> Iterator[str]:
+    """Yield a note on a time, or on a stated rate, that is not the rate (Hz) that is given."""
+    yield from note_stated(table, EvenClock(1.0 / rate, False, (), 0.0))
     try:
-        found = _choose_time(table, source, {})
+        found = _choose_time(replace(table, rates={}), source, {})
     except DataError:
-        return ()
+        return
     other = 1.0 / found.clock.dt
-    if found.guessed or abs(other / rate - 1.0) <= SAME:
-        return ()
-    where = f"{found.column!r} has" if found.column else f"{found.why},"
-    return (f"the rate that is given is {rate:.6g} Hz, and {where} {other:.6g} Hz: one of them is wrong",)
+    if not found.guessed and abs(other / rate - 1.0) > SAME:
+        yield f"the rate that is given is {rate:.6g} Hz, and {found.column!r} has {other:.6g} Hz: one of them is wrong"
 
 
 def note_repeated_rows(table: Table) -> tuple[str, ...]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -76,6 +77,8 @@ _ELECTRICAL = {
 }
 _WRAPPED = re.compile(r"\[(.*)\]|\((.*)\)|\{(.*)\}|<(.*)>")
 _UNIT_WORD = re.compile(r"(?:units?|einheit(?:en)?)\s*[:=]\s*", re.IGNORECASE)
+LONG = 100
+"""A longer name has its unit in brackets."""
 LONGEST = 40
 """The greatest number of characters of a unit in a header."""
 EMPTY = {"", "-", "--", "1"}
@@ -154,6 +157,7 @@ def _unit_in_name(head: str, word: str) -> str:
     return "g" if word == "G" and kind == "acceleration" else word if is_unit(word) else ""
 
 
+@lru_cache(maxsize=4096)
 def name_and_unit(name: str) -> tuple[str, str]:
     """Return the name of a column without its unit, and that unit, which may be empty.
 
@@ -163,7 +167,7 @@ def name_and_unit(name: str) -> tuple[str, str]:
     and each unit that is not at the end. A name may also be a unit only.
     """
     bare, unit = split_name(name)
-    if unit or scale_in(name):
+    if unit or scale_in(name) or len(name) > LONG:
         return bare, unit
     words = [word for word in _CAMEL.findall(name) if word]
     camel = "_".join(map(_lower_first, words)) if len(words) > 1 and "".join(words) == name else name
@@ -219,6 +223,7 @@ def _fits(rest: str, unit: str, place: int) -> bool:
     return called in kinds if kinds else _ELECTRICAL.get(unit, _NONE).search(rest) is not None
 
 
+@lru_cache(maxsize=4096)
 def kinds_of(unit: str) -> tuple[str, ...]:
     """Return the quantities of `KINDS` that a unit measures; none for volts, or for an empty text."""
     return tuple(kind for kind in KINDS if unit and _measures(unit, kind))
