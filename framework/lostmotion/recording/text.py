@@ -262,7 +262,7 @@ def _collect(text: _Text, columns: list[NumberColumn | _StampColumn], units: dic
             try:
                 found[one.name], starts[one.name] = one.finish(file)
             except DataError as err:
-                refused[one.name] = str(err)
+                refused[one.name], starts[one.name] = str(err), ""
             continue
         own = mark or (next(iter(one.proof)) if len(one.proof) == 1 else None)
         if why := one.refusal(own, units[one.name] or name_and_unit(one.name)[1]):
@@ -285,6 +285,8 @@ def _add_fractions(found: dict[str, Array], starts: dict[str, str]) -> None:
     if len(parts) != 1 or len(starts) != 1:
         return
     ((stamped, first),), ((size, name),) = starts.items(), parts
+    if stamped not in found:  # its dates have two readings
+        return
     whole, rest = found[stamped], found[name]
     if not (np.all((rest >= 0.0) & (rest * size < 1.0)) and np.array_equal(whole, np.rint(whole)) and "." not in first):
         return
