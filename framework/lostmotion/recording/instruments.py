@@ -120,7 +120,8 @@ def _read_yokogawa(rows: list[Line]) -> Header | None:
     starts = [read_number(cell) or 0.0 for cell in stated.get("hoffset", [])] or [0.0] * len(names)
     units = dict(zip(names, stated.get("vunit", []), strict=False))
     most = max((read_number(cell) or 0.0 for cell in stated.get("blocksize", [])), default=0.0)
-    finish = partial(_time_blocks, dict(zip(names, zip(starts, steps, strict=False), strict=False)), most)
+    clocks = {name: (start, step or 0.0) for name, start, step in zip(names, starts, steps, strict=False)}
+    finish = partial(_time_blocks, clocks, most)
     width = len(split[first])
     ahead = int(width > len(names) and not split[first][0])
     kept = [""] * ahead + names + [""] * (width - ahead - len(names))

@@ -214,7 +214,7 @@ class Recording:
         stated = {
             str(key): str(value.attrs["units"]) for key, value in decoded.variables.items() if "units" in value.attrs
         }
-        held = {**dataset.attrs, **{str(k): v.item() for k, v in decoded.variables.items() if not v.ndim}}
+        held = {**dataset.attrs, **{str(k): v.values.item() for k, v in decoded.variables.items() if not v.ndim}}
         which = (inputs or {}, sensors)
         layout = RecordingLayout(which, units or {}, time, None, noise or {}, hold, name, stated, held)
         return make_recording(collect_columns(columns, layout), settings)
