@@ -1,0 +1,91 @@
+"""What one page works on: a recording of the folder, and the case that is made of it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from lostmotion.case import dump_case
+from lostmotion.case.reading import parse_case
+from lostmotion.preparation.beginning import Draft, write_first_case
+from lostmotion.recording.outline import GivenRoles
+from lostmotion.registry import Registry
+from lostmotion.settings import DEFAULT
+from lostmotion.storage import folder_for
+from lostmotion_app.folder import WorkFolder
+
+CASE = "case.toml"
+Changed = Callable[[], None]
+
+
+@dataclass
+class Desk:
+    """A recording by its name in the folder, and the place of its case; `hold` is the share that is held out.
+
+    `plugins` are files that the user named on the command line; `agreed` are those of cases that may be run.
+    """
+
+    folder: WorkFolder
+    registry: Registry
+    plugins: tuple[str, ...] = ()
+    recording: str = ""
+    hold: float = DEFAULT.heldout.share
+    agreed: set[str] = field(default_factory=set)
+    changed: Changed | None = None
+
+    @property
+    def place(self) -> Path:
+        """The folder of the case of this recording."""
+        return self.folder.work / (re.sub(r"[^\w.-]+", "_", self.recording).strip("._") or "recording")
+
+    @property
+    def case(self) -> Path:
+        """The path of the case of this recording, whether it exists or not."""
+        return self.place / CASE
+
+    @property
+    def content(self) -> dict[str, Any]:
+        """The content of the case file; empty where there is none."""
+        return parse_case(self.case) if self.recording and self.case.is_file() else {}
+
+    @property
+    def settings(self) -> Mapping[str, float]:
+        """The settings that differ from the defaults."""
+        return {} if self.hold == DEFAULT.heldout.share else {"heldout.share": self.hold}
+
+    def save(self, content: Mapping[str, Any]) -> None:
+        """Write the case file."""
+        folder_for(self.place)
+        dump_case(content, self.case)
+
+    def draft(self, roles: GivenRoles, factors: Mapping[str, float], model: str = "") -> Draft:
+        """Return a first case of the recording after writing it, as `lostmotion init` does.
+
+        What a user has entered for the model before stays, where the parameters have the same names.
+        """
+        before = self.content
+        folder_for(self.place)
+        made = write_first_case(self.folder.find(self.recording), self.case, roles, self.registry, model, factors)
+        self.save(keep_entries(before, self.content))
+        return made
+
+    def tell(self) -> None:
+        """Tell the page that the case has changed."""
+        if self.changed is not None:
+            self.changed()
+
+
+def keep_entries(before: Mapping[str, Any], after: dict[str, Any]) -> dict[str, Any]:
+    """Return a new case with the stretch, and the values and priors, of the case before it."""
+    if not before:
+        return after
+    for key in ("t_start", "t_end"):
+        if key in before["recordings"][0]:
+            after["recordings"][0][key] = before["recordings"][0][key]
+    old, new = before["model"], after["model"]
+    if old.get("name") == new.get("name") and old.get("equations") == new.get("equations"):
+        after["model"] = dict(old)
+    return after
