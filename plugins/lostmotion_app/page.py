@@ -65,10 +65,8 @@ class Page:
 
     def _write_head(self) -> None:
         desk, address = self.desk, pn.state.location
-        told = f" &middot; {html.escape(desk.recording)}" if desk.recording else ""
-        self.head.object = (
-            f'<div class="lm-head"><b>lostmotion</b><span>{html.escape(str(desk.folder.root))}{told}</span></div>'
-        )
+        where = " · ".join(filter(None, (str(desk.folder.root), desk.recording)))
+        self.head.object = f'<div class="lm-head"><b>lostmotion</b><span>{html.escape(where)}</span></div>'
         if address is not None:
             address.update_query(screen=self.screens[self.tabs.active].title, recording=desk.recording)
 
@@ -88,4 +86,4 @@ def make_page(folder: WorkFolder, registry: Registry, plugins: tuple[str, ...]) 
 
 def _asked(key: str) -> str:
     values = pn.state.session_args.get(key) or [b""]
-    return values[0].decode("utf-8", "replace")
+    return str(values[0].decode("utf-8", "replace"))

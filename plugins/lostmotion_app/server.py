@@ -25,7 +25,7 @@ _REFUSED = (
 )
 
 
-class RefusedRequest(RequestHandler):
+class RefusedRequest(RequestHandler):  # type: ignore[misc]  # Tornado is not typed here
     """The answer to a request outside of the random part of the address: status 403."""
 
     def prepare(self) -> None:

@@ -82,9 +82,7 @@ class DataScreen(Screen):
         if self.desk.recording not in names:
             self.desk.recording = ""
         if not names:
-            self.found.object = write_note(
-                "The folder has no recording yet: copy one into it, for instance a CSV file."
-            )
+            self.found.object = write_note("The folder has no recording yet: copy one into it, such as a CSV file.")
         if self.file.value != self.desk.recording:
             self.file.value = self.desk.recording  # which shows it
         elif self.desk.recording:
