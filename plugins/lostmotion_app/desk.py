@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from lostmotion.case import dump_case
@@ -61,21 +63,51 @@ class Desk:
         folder_for(self.place)
         dump_case(content, self.case)
 
-    def draft(self, roles: GivenRoles, factors: Mapping[str, float], model: str = "") -> Draft:
-        """Return a first case of the recording after writing it, as `lostmotion init` does.
+    def copy_case(self, folder: Path) -> None:
+        """Write a copy of the case into another folder, with the paths of its files as they are seen from there."""
+        content = self.content
+        for entry in content["recordings"]:
+            entry["file"] = Path(os.path.relpath(self.place / entry["file"], folder)).as_posix()
+        if plugins := content.get("plugins"):
+            content["plugins"] = [Path(os.path.relpath(self.place / one, folder)).as_posix() for one in plugins]
+        dump_case(content, folder / CASE)
 
-        What a user has entered for the model before stays, where the parameters have the same names.
+    def draft(self, roles: GivenRoles, factors: Mapping[str, float], model: str = "", *, keep: bool = False) -> Draft:
+        """Return a first case of the recording after writing it, as `lostmotion init` does; a present one may be kept.
+
+        The stretch stays, and so do the values and priors of a model that stays.
         """
-        before = self.content
-        folder_for(self.place)
-        made = write_first_case(self.folder.find(self.recording), self.case, roles, self.registry, model, factors)
-        self.save(keep_entries(before, self.content))
+        before, path = self.content, self.folder.find(self.recording)
+        with TemporaryDirectory() as spare:
+            made = write_first_case(path, Path(spare) / CASE, roles, self.registry, model, factors)
+            content = parse_case(Path(spare) / CASE)
+        if not (keep and before):
+            content["recordings"][0]["file"] = Path(os.path.relpath(path, self.place)).as_posix()
+            self.save(keep_entries(before, content))
         return made
+
+    def redraft(self, model: str) -> None:
+        """Write the case anew with another model; columns, units and stretch stay."""
+        roles, gains = read_roles(self.content)
+        self.draft(roles, gains, model)
 
     def tell(self) -> None:
         """Tell the page that the case has changed."""
         if self.changed is not None:
             self.changed()
+
+
+def read_roles(content: Mapping[str, Any]) -> tuple[GivenRoles, dict[str, float]]:
+    """Return the roles of the columns in a case, and the factors on them, as options of `lostmotion init`."""
+    first = content["recordings"][0]
+    time = first.get("time")
+    named = time["column"] if isinstance(time, Mapping) else time
+    drives, response = first.get("inputs", []), first["sensors"][0]
+    channels = [*drives[:1], response]
+    units = {one["column"]: one["unit"] for one in channels}
+    gains = {one["column"]: float(one["factor"]) for one in channels if "factor" in one}
+    drive = drives[0]["column"] if drives else "none"
+    return GivenRoles(named, first.get("rate"), drive, response["column"], units), gains
 
 
 def keep_entries(before: Mapping[str, Any], after: dict[str, Any]) -> dict[str, Any]:

@@ -9,7 +9,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -19,6 +19,8 @@ from lostmotion.storage import folder_for, held, save_json
 from lostmotion_app.worker import JOB, PROGRESS, STATUS
 
 OUTPUT, LOG = "output.txt", "log.txt"
+OUT = "{out}"
+"""The folder of a job in the words of its command."""
 STARTING = 60.0
 """Seconds within which a process has taken its job."""
 LINES = 400
@@ -117,11 +119,12 @@ class Job:
         return content if isinstance(content, dict) else {}
 
 
-def begin_job(place: Path, command: str, words: Sequence[str]) -> Job:
-    """Return a job that begins in a new folder of `place`; "{out}" in the words stands for this folder."""
+def begin_job(place: Path, command: str, words: Sequence[str], prepare: Callable[[Path], None]) -> Job:
+    """Return a job that begins in a new folder of `place`, which `OUT` in the words stands for; `prepare` fills it."""
     numbers = [int(end) for path in place.glob(f"{command}-*") if (end := path.name.rpartition("-")[2]).isdecimal()]
     folder = folder_for(place / f"{command}-{max(numbers, default=0) + 1}")
-    filled = [word.replace("{out}", str(folder)) for word in words]
+    filled = [word.replace(OUT, str(folder)) for word in words]
+    prepare(folder)
     save_json(folder / JOB, {"command": command, "words": filled, "begin": time.time()})
     with (folder / OUTPUT).open("wb") as output, (folder / LOG).open("wb") as log:
         process = subprocess.Popen(

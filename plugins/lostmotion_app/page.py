@@ -9,15 +9,24 @@ from typing import Any
 import panel as pn
 
 from lostmotion.registry import Registry
-from lostmotion.settings import DEFAULT
 from lostmotion_app.desk import Desk
 from lostmotion_app.folder import WorkFolder
-from lostmotion_app.parts import STYLE, make_html
+from lostmotion_app.parts import STYLE, make_html, run_next
 from lostmotion_app.policy import POLICY
 from lostmotion_app.screens import Screen
+from lostmotion_app.screens.analyse import AnalyseScreen
+from lostmotion_app.screens.check import CheckScreen
 from lostmotion_app.screens.data import DataScreen
+from lostmotion_app.screens.model import ModelScreen
+from lostmotion_app.screens.results import ResultsScreen
+from lostmotion_app.screens.run import RunScreen
+from lostmotion_app.screens.take_away import TakeAwayScreen
 
-SCREENS: tuple[type[Screen], ...] = (DataScreen,)
+SCREENS: tuple[type[Screen], ...] = (
+    DataScreen, ModelScreen, CheckScreen, RunScreen, ResultsScreen, TakeAwayScreen, AnalyseScreen,
+)  # fmt: skip
+BEGINNING = 50
+"""Milliseconds after which the first screen is filled: the browser is connected then."""
 _TEMPLATE = (Path(__file__).parent / "page.html.j2").read_text(encoding="utf-8")
 
 
@@ -30,10 +39,12 @@ class Page:
         self.tabs = pn.Tabs(
             *((one.title, pn.Column(sizing_mode="stretch_width")) for one in self.screens),
             sizing_mode="stretch_width",
-            dynamic=True,
         )
+        titles, wanted = [one.title for one in self.screens], read_query("screen")
+        self.tabs.active = titles.index(wanted) if wanted in titles else 0
+        self._fill()
         desk.changed = self.tell
-        self.tabs.param.watch(self._open, "active")
+        self.tabs.param.watch(lambda _: self._open(), "active")
 
     @property
     def view(self) -> Any:
@@ -41,27 +52,23 @@ class Page:
         return pn.Column(self.head, self.tabs, sizing_mode="stretch_width")
 
     def begin(self) -> None:
-        """Open the screen and the recording that the address of the page names."""
-        asked = {key: values[0].decode("utf-8", "replace") for key, values in pn.state.session_args.items() if values}
-        self.desk.recording = asked.get("recording", "")
-        titles = [one.title for one in self.screens]
-        active = titles.index(asked["screen"]) if asked.get("screen") in titles else 0
-        if self.tabs.active != active:
-            self.tabs.active = active  # which opens it
-        else:
-            self._open(None)
+        """Show the state of the first screen, as soon as the page is there."""
+        self.screens[self.tabs.active].show()
+        self._write_head()
 
     def tell(self) -> None:
         """Show what has changed."""
         self._write_head()
 
-    def _open(self, _: Any) -> None:
-        """Show the screen that was chosen."""
+    def _open(self) -> None:
+        """Show the screen that was chosen; Bokeh knows its models before they change."""
+        self._fill()
+        run_next(self.begin)
+
+    def _fill(self) -> None:
         screen, place = self.screens[self.tabs.active], self.tabs[self.tabs.active]
         if not len(place):
             place[:] = [screen.make_view()]
-        screen.show()
-        self._write_head()
 
     def _write_head(self) -> None:
         desk, address = self.desk, pn.state.location
@@ -73,17 +80,18 @@ class Page:
 
 def make_page(folder: WorkFolder, registry: Registry, plugins: tuple[str, ...]) -> Any:
     """Return the page of a folder for one browser."""
-    pn.config.theme = "dark" if _asked("theme") == "dark" else "default"
-    page = Page(Desk(folder, registry, plugins, hold=DEFAULT.heldout.share))
+    pn.config.theme = "dark" if read_query("theme") == "dark" else "default"
+    page = Page(Desk(folder, registry, plugins, read_query("recording")))
     made = pn.Template(_TEMPLATE)
     made.add_variable("policy", POLICY)
     made.add_variable("app_favicon", "data:,")
     made.add_variable("style", STYLE.replace(":host, :root", ":root"))
     made.add_panel("page", page.view)
-    pn.state.onload(page.begin)
+    pn.state.onload(lambda: pn.state.add_periodic_callback(page.begin, period=BEGINNING, count=1))
     return made
 
 
-def _asked(key: str) -> str:
+def read_query(key: str) -> str:
+    """Return a value in the address of this page, empty where it has none."""
     values = pn.state.session_args.get(key) or [b""]
     return str(values[0].decode("utf-8", "replace"))

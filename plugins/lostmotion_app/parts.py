@@ -57,7 +57,7 @@ def write_answer(sentences: Sequence[str]) -> str:
 
 def write_table(head: Sequence[str], rows: Sequence[Sequence[str]], bars: Sequence[float] = ()) -> str:
     """Return a table as HTML; `bars` are shares (0 to 1) of a bar in a further column of each row."""
-    top = "".join(f"<th>{html.escape(cell)}</th>" for cell in head)
+    top = "".join(f"<th>{html.escape(cell)}</th>" for cell in [*head, *([""] if bars else [])])
     body = []
     for number, row in enumerate(rows):
         cells = "".join(f"<td>{html.escape(cell)}</td>" for cell in row)

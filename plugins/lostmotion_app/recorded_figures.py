@@ -64,14 +64,14 @@ class RecordedFigures:
         self.curves.fit_range(*self.span)
         outer = self.curves.shade(*self.span), self.curves.shade(*self.span), self.curves.shade(*self.span)
         self.boxes = list(zip(*outer, strict=True))
+        names = list(self.columns)
+        self.column.options, self.column.value = names, names[-1] if names else None
+        self._show_column()
         self.view[:] = [
             *(pn.pane.Bokeh(panel, sizing_mode="stretch_width", margin=(0, 2)) for panel in self.curves.panels),
             self.column,
             abreast(self.spectrum, self.phase),
         ]  # fmt: skip
-        names = list(self.columns)
-        self.column.options, self.column.value = names, names[-1] if names else None
-        self._show_column()
 
     def mark(self, start: float, end: float, hold: float) -> None:
         """Shade what is not used, and what is held out."""

@@ -41,15 +41,16 @@ class TriedPrediction:
 
 @dataclass(frozen=True, eq=False)
 class TriedModel:
-    """The model of a case with all terms that can act in it, on the beginning of one of its recordings."""
+    """The model of a case with all terms that can act in it, on one of its recordings."""
 
     problem: Problem
 
     @classmethod
-    def of(cls, prepared: Prepared, *, index: int = 0, settings: Settings = DEFAULT) -> TriedModel:
-        """Return the model of a prepared case on its recording `index`, at most `MOST` samples of it."""
-        observation = prepared.observations[index]
-        part = observation.part(0, min(observation.samples, MOST))
+    def of(cls, prepared: Prepared, *, end: bool = False, settings: Settings = DEFAULT) -> TriedModel:
+        """Return the model of a prepared case on its first recording: on `MOST` samples, the first or the last ones."""
+        observation = prepared.observations[0]
+        first = max(observation.samples - MOST, 0) if end else 0
+        part = observation.part(first, min(first + MOST, observation.samples))
         system = System(prepared.model, prepared.terms)
         problem = make_problem(system, prepared.case, (part,), jobs=1, settings=settings)
         levels = tuple(free for free in problem.free if not free.physical)

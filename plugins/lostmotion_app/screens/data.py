@@ -123,7 +123,7 @@ class DataScreen(Screen):
             if self.desk.content:
                 self._restore()
             self.found.object = write_note("Looking for the roles of the columns ...")
-            run_next(self._draft)
+            run_next(lambda: self._draft(keep=True))
 
     def _offer_columns(self, table: Table) -> None:
         names = list(table.full_names)
@@ -150,8 +150,8 @@ class DataScreen(Screen):
         time = None if self.time.value == AUTOMATIC else self.time.value
         return GivenRoles(time, self.rate.value, self.drive.column, self.response.column, units)
 
-    def _draft(self) -> None:
-        """Write a first case of the chosen columns, and show what was found."""
+    def _draft(self, *, keep: bool = False) -> None:
+        """Write a first case of the chosen columns, or keep a present one, and show what was found."""
         with self.problem.watch():
             self.found.object = ""
             roles = self._read_roles()
@@ -159,7 +159,7 @@ class DataScreen(Screen):
                      if one.column and one.factor.value not in (None, 1.0)}  # fmt: skip
             model = self.desk.content.get("model", {})
             named = model.get("name", "") or ";".join(model.get("equations", ()))
-            draft = self.desk.draft(roles, gains, named)
+            draft = self.desk.draft(roles, gains, named, keep=keep)
             self._restore()
             notes = [write_heading("Please check"), write_list(draft.notes)] if draft.notes else []
             self.found.object = "".join([write_heading("What was read"), write_lines(draft.found), *notes])
