@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 PIXELS = 900
 """The number of columns of pixels of which the lowest and highest values are drawn."""
 HEIGHT = 150
-TOOLS = "xpan,xwheel_zoom,xbox_zoom,reset,save"
+TOOLS = "xbox_zoom,xpan,xwheel_zoom,reset,save"
 _DARK = {style.RECORDED: "#e8e8e8", style.AFTER: "#56b4e9", style.LAW: "#00b37a"}
 
 
@@ -80,7 +80,8 @@ class Curves:
 
     def add_panel(self, label: str, *, height: int = HEIGHT) -> Any:
         """Return a further panel below the others, with the label of its values."""
-        made = make_figure(self.label, label, height=height, x_range=self.range)
+        name = f"panel {len(self.panels)}"
+        made = make_figure(self.label, label, height=height, x_range=self.range, active_drag="xbox_zoom", name=name)
         if self.panels:
             self.panels[-1].xaxis.axis_label = None
         made.on_event(RangesUpdate, lambda event: self._redraw(event.x0, event.x1))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -20,6 +20,8 @@ from lostmotion.storage import folder_for
 from lostmotion_app.folder import WorkFolder
 
 CASE = "case.toml"
+_MODEL_GUESSED = "the model is "
+"""The beginning of what a first case says where no model was given."""
 Changed = Callable[[], None]
 
 
@@ -27,7 +29,7 @@ Changed = Callable[[], None]
 class Desk:
     """A recording by its name in the folder, and the place of its case; `hold` is the share that is held out.
 
-    `plugins` are files that the user named on the command line; `agreed` are those of cases that may be run.
+    `plugins` are files that the user named on the command line.
     """
 
     folder: WorkFolder
@@ -35,7 +37,6 @@ class Desk:
     plugins: tuple[str, ...] = ()
     recording: str = ""
     hold: float = DEFAULT.heldout.share
-    agreed: set[str] = field(default_factory=set)
     changed: Changed | None = None
 
     @property
@@ -87,9 +88,14 @@ class Desk:
         return made
 
     def redraft(self, model: str) -> None:
-        """Write the case anew with another model; columns, units and stretch stay."""
-        roles, gains = read_roles(self.content)
+        """Write the case anew with another model; columns, units and stretch stay, and so does what was supposed."""
+        before = self.content
+        roles, gains = read_roles(before)
         self.draft(roles, gains, model)
+        content = self.content
+        supposed = [says for says in before.get("guessed", ()) if not says.startswith(_MODEL_GUESSED)]
+        if supposed := list(dict.fromkeys([*supposed, *content.get("guessed", ())])):
+            self.save({"title": content.pop("title"), "guessed": supposed, **content})
 
     def tell(self) -> None:
         """Tell the page that the case has changed."""

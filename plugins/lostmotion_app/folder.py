@@ -49,10 +49,6 @@ class WorkFolder:
         """Return the names of the files that can be recordings, in alphabetical order."""
         return [self.name_of(path) for path in self._walk(self.root, DEEPEST) if is_recording(path)][:MOST_FILES]
 
-    def list_cases(self) -> list[str]:
-        """Return the names of the files that can be cases, in alphabetical order."""
-        return [self.name_of(path) for path in self._walk(self.root, DEEPEST) if path.suffix == ".toml"][:MOST_FILES]
-
     def list_results(self, file: str) -> list[Path]:
         """Return the folders that contain a result in this file, newest first; those of the page included."""
         found = [path.parent for path in self._walk(self.root, DEEPEST + 2, also=WORK) if path.name == file]

@@ -36,6 +36,10 @@ const named = (label) => {
 const pressed = (text) => all(document).filter((e) => seen(e) && said(e) === text
   && (e.tagName === 'BUTTON' || e.tagName === 'A' || e.tagName === 'LABEL' || e.tagName === 'SUMMARY'
       || e.classList.contains('bk-tab'))).pop();
+const focused = (root) => {
+  const e = root.activeElement;
+  return e && e.shadowRoot && e.shadowRoot.activeElement ? focused(e.shadowRoot) : e;
+};
 const words = () => all(document).filter((e) => e.shadowRoot === null && seen(e) && e.tagName !== 'STYLE'
   && e.tagName !== 'SCRIPT').flatMap((e) => [...e.childNodes].filter((n) => n.nodeType === 3)
   .map((n) => n.textContent.trim())).filter(Boolean).join(' ');

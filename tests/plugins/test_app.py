@@ -31,6 +31,13 @@ from lostmotion_app.screens.take_away import make_notebook
 
 SERVE = "from lostmotion_app.command import command; command()"
 PATIENCE = 120.0
+UPGRADE = {
+    "Upgrade": "websocket",
+    "Connection": "Upgrade",
+    "Sec-WebSocket-Key": "AAAAAAAAAAAAAAAAAAAAAA==",
+    "Sec-WebSocket-Version": "13",
+    "Sec-WebSocket-Protocol": "bokeh, token",
+}
 
 
 @pytest.fixture
@@ -164,13 +171,14 @@ def address(tmp_path_factory):
         [sys.executable, "-c", SERVE, str(place), "--no-open"], stdout=subprocess.PIPE, text=True
     )
     yield process.stdout.readline().strip()
-    process.send_signal(signal.SIGINT)
+    process.kill()
     process.wait(PATIENCE)
 
 
 def ask(url, **headers):
     try:
-        with urllib.request.urlopen(urllib.request.Request(url, headers=headers), timeout=PATIENCE) as answer:
+        request = urllib.request.Request(url, headers=headers)  # noqa: S310 - the address of the server below
+        with urllib.request.urlopen(request, timeout=PATIENCE) as answer:  # noqa: S310
             return answer.status, answer.read().decode()
     except urllib.error.HTTPError as err:
         return err.code, err.read().decode()
