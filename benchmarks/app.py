@@ -170,9 +170,7 @@ def take(browser: Chromium, path: Path) -> None:
 def main() -> None:
     """Measure, or draw the pictures."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument(
-        "--pictures", type=Path, metavar="DIR", help="write pictures, and measure nothing"
-    )
+    parser.add_argument("--pictures", type=Path, metavar="DIR", help="write pictures, and measure nothing")
     given = parser.parse_args()
     with tempfile.TemporaryDirectory() as spare:
         folder = Path(spare) / "measurements"

@@ -70,8 +70,8 @@ def thin(x: Array, y: Array, low: float, high: float, pixels: int = PIXELS) -> t
     return np.stack([at, at + width], axis=1).ravel(), both.ravel()
 
 
-class Curves:
-    """Curves over one axis, such as the columns of a recording over time; all panels have the same range."""
+class CurvePanels:
+    """CurvePanels over one axis, such as the columns of a recording over time; all panels have the same range."""
 
     def __init__(self, label: str) -> None:
         self.label, self.range = label, Range1d(0.0, 1.0)

@@ -15,8 +15,8 @@ from lostmotion.notebook.diagnosis_result import DiagnosisResult
 from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import Registry
 from lostmotion.report import style
-from lostmotion_app.curves import Array, Curves, colour_of, format_legend, make_figure
-from lostmotion_app.parts import Problem, make_html, write_heading, write_note
+from lostmotion_app.curves import Array, CurvePanels, colour_of, format_legend, make_figure
+from lostmotion_app.parts import ProblemBox, make_html, write_heading, write_note
 from lostmotion_app.recorded_figures import POINTS, label_of
 
 CASE = "case.toml"
@@ -28,7 +28,7 @@ class SwitchedPrediction:
 
     def __init__(self) -> None:
         self.terms = pn.widgets.CheckBoxGroup(name="Terms", inline=True)
-        self.head, self.error, self.problem = make_html(), make_html(), Problem()
+        self.head, self.error, self.problem = make_html(), make_html(), ProblemBox()
         self.figure = pn.Column(sizing_mode="stretch_width", margin=0)
         self.view = pn.Column(
             self.head,
@@ -42,7 +42,7 @@ class SwitchedPrediction:
         self.tried: TriedModel | None = None
         self.found: DiagnosisResult | None = None
         self.line: Any = None
-        self.curves = Curves("time (s)")
+        self.curves = CurvePanels("time (s)")
         self.terms.param.watch(lambda _: self._predict(), "value")
 
     def show(self, found: DiagnosisResult | None, folder: Path, registry: Registry) -> None:
@@ -69,7 +69,7 @@ class SwitchedPrediction:
         """Draw the recording and the stored prediction of the nominal model."""
         arrays, evidence = found.evidence.arrays, found.evidence
         time, held = arrays["time"], arrays.get("heldout", np.ones_like(arrays["time"])) > 0.0
-        self.curves = Curves("time (s)")
+        self.curves = CurvePanels("time (s)")
         panel = self.curves.add_panel(label_of(evidence.result.response.quantity, evidence.response_unit), height=250)
         self.curves.add_curve(panel, time, arrays["response"], colour=style.RECORDED, name="recording", width=2.6)
         if "forecast_before" in arrays:

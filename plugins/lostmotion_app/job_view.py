@@ -9,7 +9,7 @@ import panel as pn
 
 from lostmotion_app.desk import CASE, Desk
 from lostmotion_app.jobs import OUT, Job, begin_job, list_jobs
-from lostmotion_app.parts import Problem, make_html, run_next, write_command, write_lines, write_note
+from lostmotion_app.parts import ProblemBox, make_html, run_next, write_command, write_lines, write_note
 
 PERIOD = 1000
 """Milliseconds between two looks at a job: an answer costs less than a thousandth of a core."""
@@ -41,7 +41,7 @@ class JobView:
         case: bool = True,
     ) -> None:
         self.desk, self.command, self.words, self.done, self.case = desk, command, words, done, case
-        self.problem = Problem()
+        self.problem = ProblemBox()
         self.start = pn.widgets.Button(name=label, button_type="primary")
         self.cancel = pn.widgets.Button(name="Cancel", visible=False)
         self.told, self.same = make_html(), make_html()

@@ -13,7 +13,7 @@ from lostmotion_app.desk import Desk
 from lostmotion_app.folder import WorkFolder
 from lostmotion_app.parts import STYLE, make_html, run_next
 from lostmotion_app.policy import POLICY
-from lostmotion_app.screens import Screen
+from lostmotion_app.screens import PageScreen
 from lostmotion_app.screens.analyse import AnalyseScreen
 from lostmotion_app.screens.check import CheckScreen
 from lostmotion_app.screens.data import DataScreen
@@ -22,7 +22,7 @@ from lostmotion_app.screens.results import ResultsScreen
 from lostmotion_app.screens.run import RunScreen
 from lostmotion_app.screens.take_away import TakeAwayScreen
 
-SCREENS: tuple[type[Screen], ...] = (
+SCREENS: tuple[type[PageScreen], ...] = (
     DataScreen, ModelScreen, CheckScreen, RunScreen, ResultsScreen, TakeAwayScreen, AnalyseScreen,
 )  # fmt: skip
 BEGINNING = 50

@@ -95,7 +95,7 @@ class NumberField:
         self.widget.value = "" if number is None else f"{number:.10g}"
 
 
-class Problem:
+class ProblemBox:
     """The place of a screen where a message stands if something cannot be used."""
 
     def __init__(self) -> None:

@@ -15,7 +15,7 @@ from lostmotion.recording.table import Table
 from lostmotion.recording.value_checks import fill_lost
 from lostmotion.report import style
 from lostmotion.signals import spectrum
-from lostmotion_app.curves import Array, Curves, abreast, colour_of, make_figure, thin
+from lostmotion_app.curves import Array, CurvePanels, abreast, colour_of, make_figure, thin
 
 UNITS = (
     "N", "kN", "mN", "N m", "mN m", "N cm", "lbf", "kgf", "m", "mm", "um", "cm", "inch", "rad", "mrad", "deg", "turn",
@@ -36,7 +36,7 @@ class RecordedFigures:
     def __init__(self) -> None:
         self.view = pn.Column(sizing_mode="stretch_width", margin=0)
         self.time, self.columns, self.span = np.zeros(0), dict[str, Array](), (0.0, 1.0)
-        self.curves = Curves("time (s)")
+        self.curves = CurvePanels("time (s)")
         self.units: dict[str, str] = {}
         self.boxes: list[tuple[Any, Any, Any]] = []
         self.spectrum = make_figure(
@@ -57,7 +57,7 @@ class RecordedFigures:
         whole = {name: one for name, one in columns.items() if one.size == self.time.size and one is not self.time}
         self.columns = dict(list(whole.items())[:MOST_COLUMNS])
         self.units, self.span = dict(table.units), (float(self.time[0]), float(self.time[-1]))
-        self.curves, self.boxes = Curves(label), []
+        self.curves, self.boxes = CurvePanels(label), []
         for name, values in self.columns.items():
             panel = self.curves.add_panel(label_of(name, self.units.get(name, "")))
             self.curves.add_curve(panel, self.time, values, colour=style.RECORDED)

@@ -201,7 +201,7 @@ class Chromium:
 
     def type(self, label, text):
         """Replace the content of a field by its label, and leave it."""
-        self.wait(f"named({json.dumps(label)})")
+        self.wait(f"named({json.dumps(label)}) !== null")
         self.evaluate(f"(() => {{ const e = named({json.dumps(label)}); e.focus(); e.select(); return true; }})()")
         self.send("Input.insertText", text=text)
         self.evaluate(f"(named({json.dumps(label)}).blur(), true)")

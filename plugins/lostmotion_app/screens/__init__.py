@@ -6,16 +6,16 @@ from abc import ABC, abstractmethod
 from typing import Any, ClassVar
 
 from lostmotion_app.desk import Desk
-from lostmotion_app.parts import Problem
+from lostmotion_app.parts import ProblemBox
 
 
-class Screen(ABC):
+class PageScreen(ABC):
     """A screen of the page; `desk` is what the page works on."""
 
     title: ClassVar[str]
 
     def __init__(self, desk: Desk) -> None:
-        self.desk, self.problem = desk, Problem()
+        self.desk, self.problem = desk, ProblemBox()
 
     @abstractmethod
     def make_view(self) -> Any:

@@ -14,13 +14,13 @@ from lostmotion_app.desk import Desk
 from lostmotion_app.job_view import JobView
 from lostmotion_app.jobs import Job
 from lostmotion_app.parts import make_html, write_answer, write_heading, write_list, write_note, write_table
-from lostmotion_app.screens import Screen
+from lostmotion_app.screens import PageScreen
 from lostmotion_app.sections import write_sections
 from lostmotion_chaos.analysis.report.page import SECTIONS
 from lostmotion_chaos.analysis.report.view import make_view
 
 
-class AnalyseScreen(Screen):
+class AnalyseScreen(PageScreen):
     """Delay, dimension, exponents, surrogates, and the verdict with its signs."""
 
     title = "Analyse"

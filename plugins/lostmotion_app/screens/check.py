@@ -12,14 +12,14 @@ from lostmotion_app.desk import Desk
 from lostmotion_app.job_view import JobView
 from lostmotion_app.jobs import Job
 from lostmotion_app.parts import make_html, write_answer, write_heading, write_list, write_note
-from lostmotion_app.screens import Screen
+from lostmotion_app.screens import PageScreen
 from lostmotion_app.sections import write_grid
 
 DECADES = 4.0
 """The shares of the drive from one down to this power of ten are the length of a bar."""
 
 
-class CheckScreen(Screen):
+class CheckScreen(PageScreen):
     """Expected intervals, smallest sizes of terms that would be named, what would help."""
 
     title = "Check"

@@ -24,12 +24,12 @@ from lostmotion_app.parts import (
     write_list,
     write_note,
 )  # fmt: skip
-from lostmotion_app.screens import Screen
+from lostmotion_app.screens import PageScreen
 
 AUTOMATIC, NONE = "(automatic)", "none"
 
 
-class DataScreen(Screen):
+class DataScreen(PageScreen):
     """Choose a recording, see what was read, assign columns, mark the stretch to use."""
 
     title = "Data"

@@ -14,7 +14,7 @@ from lostmotion.preparation.prepare import prepare
 from lostmotion.report import style
 from lostmotion.settings import read
 from lostmotion.written import model_of
-from lostmotion_app.curves import Curves, format_legend
+from lostmotion_app.curves import CurvePanels, format_legend
 from lostmotion_app.desk import Desk
 from lostmotion_app.parameter_rows import ParameterRow
 from lostmotion_app.parts import (
@@ -27,14 +27,14 @@ from lostmotion_app.parts import (
     write_note,
 )  # fmt: skip
 from lostmotion_app.recorded_figures import label_of
-from lostmotion_app.screens import Screen
+from lostmotion_app.screens import PageScreen
 
 LIBRARY, EQUATIONS = "Library", "Equations"
 EXAMPLE = "m*x'' + c*x' + k*x = force"
 CYCLES, NEVER = "after a few cycles", "never"
 
 
-class ModelScreen(Screen):
+class ModelScreen(PageScreen):
     """Choose the model, give known values and priors, and see at once what it predicts."""
 
     title = "Model"
@@ -56,7 +56,7 @@ class ModelScreen(Screen):
         self.error, self.same = make_html(), make_html()
         self.tried: TriedModel | None = None
         self.shown: tuple[Any, ...] = ()
-        self.curves: list[tuple[Curves, Any]] = []
+        self.curves: list[tuple[CurvePanels, Any]] = []
         self.kind.param.watch(lambda _: self._switch(), "value")
         self.name.param.watch(lambda _: self._describe(), "value")
         self.equations.param.watch(lambda event: self._check_equations(event.new), "value_input")
@@ -177,7 +177,7 @@ class ModelScreen(Screen):
         observation = self.tried.problem.observations[0]
         motion = self.tried.problem.system.model.motion
         empty, panels, self.curves = np.zeros(0), [], []
-        curves = Curves("time (s)")
+        curves = CurvePanels("time (s)")
         for number, sensor in enumerate(observation.sensors):
             panel = curves.add_panel(label_of(sensor.label, unit_of_sensor(sensor.channel, motion)), height=230)
             curves.add_curve(panel, observation.time, observation.readings[:, number], colour=style.RECORDED,

@@ -27,7 +27,7 @@ from lostmotion_app.parts import (
     write_note,
     write_table,
 )  # fmt: skip
-from lostmotion_app.screens import Screen
+from lostmotion_app.screens import PageScreen
 from lostmotion_app.sections import write_grid, write_sections
 
 FILE = "diagnosis.json"
@@ -36,7 +36,7 @@ ELSEWHERE = ("prediction", "missing")
 MOST_EARLIER = 30
 
 
-class ResultsScreen(Screen):
+class ResultsScreen(PageScreen):
     """What a diagnosis found."""
 
     title = "Results"

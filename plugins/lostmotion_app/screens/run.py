@@ -11,10 +11,10 @@ from lostmotion_app.desk import Desk
 from lostmotion_app.job_view import JobView
 from lostmotion_app.jobs import Job, list_jobs
 from lostmotion_app.parts import NumberField, make_html, write_heading, write_note, write_table
-from lostmotion_app.screens import Screen
+from lostmotion_app.screens import PageScreen
 
 
-class RunScreen(Screen):
+class RunScreen(PageScreen):
     """Begin a diagnosis, follow it, cancel it; it goes on when the page is closed."""
 
     title = "Run"

@@ -10,13 +10,13 @@ import panel as pn
 
 from lostmotion_app.desk import Desk
 from lostmotion_app.parts import make_html, write_heading, write_lines, write_note
-from lostmotion_app.screens import Screen
+from lostmotion_app.screens import PageScreen
 
 FORMAT = {"nbformat": 4, "nbformat_minor": 5}
 """The version of the format of notebooks: the oldest with identifiers of cells."""
 
 
-class TakeAwayScreen(Screen):
+class TakeAwayScreen(PageScreen):
     """What the page did, as files and as lines for a shell and for Python."""
 
     title = "Take away"
