@@ -11,6 +11,7 @@ import panel as pn
 from lostmotion.cli.sheets import make_sheet
 from lostmotion.diagnosis.tried_model import TriedModel, TriedPrediction
 from lostmotion.preparation.prepare import prepare
+from lostmotion.quantities import unit_of
 from lostmotion.report import style
 from lostmotion.settings import read
 from lostmotion.written import model_of
@@ -18,10 +19,10 @@ from lostmotion_app.curves import CurvePanels, format_legend
 from lostmotion_app.desk import Desk
 from lostmotion_app.parameter_rows import ParameterRow
 from lostmotion_app.parts import (
+    ProblemBox,
     beside,
     make_html,
     run_next,
-    write_command,
     write_heading,
     write_lines,
     write_note,
@@ -43,7 +44,7 @@ class ModelScreen(PageScreen):
         super().__init__(desk)
         self.kind = pn.widgets.RadioButtonGroup(name="Kind", options=[LIBRARY, EQUATIONS], value=LIBRARY)
         self.name = pn.widgets.Select(name="Model", sizing_mode="stretch_width")
-        self.about, self.place = make_html(), make_html()
+        self.about, self.place = make_html(), ProblemBox()
         self.equations = pn.widgets.TextAreaInput(
             name="Equations of motion, one line for each body", placeholder=EXAMPLE, rows=3, auto_grow=True,
             sizing_mode="stretch_width",
@@ -65,7 +66,7 @@ class ModelScreen(PageScreen):
 
     def make_view(self) -> Any:
         """Return model and parameters beside the prediction."""
-        controls = [self.kind, self.name, self.equations, self.place, self.use, self.about]
+        controls = [self.kind, self.name, self.equations, self.place.pane, self.use, self.about]
         shown = [
             self.problem.pane, self.table, make_html(write_heading("Nominal model and recording")), self.restart,
             self.error, self.figures, self.same,
@@ -97,7 +98,8 @@ class ModelScreen(PageScreen):
 
     def _switch(self) -> None:
         library = self.kind.value == LIBRARY
-        self.name.visible, self.equations.visible, self.place.visible = library, not library, not library
+        self.name.visible, self.equations.visible = library, not library
+        self.place.tell("")
         self._describe()
 
     def _describe(self) -> None:
@@ -111,27 +113,21 @@ class ModelScreen(PageScreen):
                 texts = [sheet.about, f"Places for terms: {places}" if places else "", sheet.paper or ""]
                 self.about.object = "".join(f"<p>{html.escape(text)}</p>" for text in texts if text)
 
-    def _check_equations(self, text: str) -> bool:
-        """Return whether equations can be used, and show the place of an error."""
-        from lostmotion.errors import LostMotionError
-
+    def _check_equations(self, text: str) -> list[str]:
+        """Return equations that can be used, one for each body; none, and the place of the error, if they cannot."""
         lines = [line.strip() for line in text.splitlines() if line.strip()]
-        try:
+        with self.place.watch():
             if lines:
                 model_of(lines)
-        except LostMotionError as err:
-            self.place.object = f'<div class="lm-problem" role="alert">{html.escape(str(err))}</div>'
-            return False
-        self.place.object = write_note("These equations can be used.") if lines else ""
-        return bool(lines)
+            return lines
+        return []
 
     def _use(self) -> None:
         """Write the case with the chosen model, with wide priors about the scales of the recording."""
         with self.problem.watch():
             if self.kind.value == LIBRARY:
                 self.desk.redraft(str(self.name.value))
-            elif self._check_equations(self.equations.value):
-                lines = [line.strip() for line in self.equations.value.splitlines() if line.strip()]
+            elif lines := self._check_equations(self.equations.value):
                 self.desk.redraft(";".join(lines))
             self.desk.tell()
             self.show()
@@ -147,7 +143,6 @@ class ModelScreen(PageScreen):
             self.table[:] = [make_html(write_heading("Parameters")), *(row.view for row in self.rows)]
             self._make_figures()
             self._predict()
-            self._show_same()
 
     def _change(self) -> None:
         """Keep changed values and priors in the case, and predict again."""
@@ -169,6 +164,7 @@ class ModelScreen(PageScreen):
             span = 1e9 if self.restart.value == NEVER else None
             found = self.tried.predict({row.name: row.tried for row in self.rows}, every=span)
             self._draw(found)
+            self._show_same()
 
     def _make_figures(self) -> None:
         """Make one figure for each sensor."""
@@ -179,7 +175,7 @@ class ModelScreen(PageScreen):
         empty, panels, self.curves = np.zeros(0), [], []
         curves = CurvePanels("time (s)")
         for number, sensor in enumerate(observation.sensors):
-            panel = curves.add_panel(label_of(sensor.label, unit_of_sensor(sensor.channel, motion)), height=230)
+            panel = curves.add_panel(label_of(sensor.label, unit_of(sensor.channel, motion)), height=230)
             curves.add_curve(panel, observation.time, observation.readings[:, number], colour=style.RECORDED,
                              name="recording", width=2.4)  # fmt: skip
             line = curves.add_curve(panel, empty, empty, colour=style.BEFORE, name="nominal model", width=1.4)
@@ -201,11 +197,4 @@ class ModelScreen(PageScreen):
         case = self.desk.folder.name_of(self.desk.case)
         values = ", ".join(f'"{row.name}": {row.tried:.4g}' for row in self.rows)
         lines = [f'case = lm.Case.read("{case}")', f"case.predict({{{values}}})"]
-        self.same.object = write_command("lostmotion", "plugins", "show", str(self.name.value)) + write_lines(lines)
-
-
-def unit_of_sensor(channel: str, motion: str) -> str:
-    """Return the SI unit of a channel."""
-    from lostmotion.quantities import unit_of
-
-    return unit_of(channel, motion)
+        self.same.object = write_note("The same in Python:") + write_lines(lines)

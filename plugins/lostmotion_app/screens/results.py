@@ -10,9 +10,11 @@ import panel as pn
 
 import lostmotion
 from lostmotion.diagnosis.report import diagnosis_page, opening
+from lostmotion.diagnosis.report.page_data import Evidence
 from lostmotion.diagnosis.report.top_tables import make_mechanism_table, make_number_table
 from lostmotion.notebook.diagnosis_result import DiagnosisResult
 from lostmotion.report import style
+from lostmotion.report.pages import PageSection
 from lostmotion.report.words import percent, typeset
 from lostmotion.storage import load_json
 from lostmotion_app.desk import Desk
@@ -89,7 +91,8 @@ class ResultsScreen(PageScreen):
                 run_next(lambda: self._show_result(folder))
 
     def _show_result(self, folder: Path) -> None:
-        self.found, sections = None, ()
+        self.found = None
+        sections: tuple[PageSection[Evidence], ...] = ()
         with self.problem.watch():
             found = lostmotion.load(folder)
             self.answer.object = write_answer([typeset(one) for one in found.says])

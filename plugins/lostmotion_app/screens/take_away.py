@@ -88,7 +88,7 @@ def list_python_lines(desk: Desk) -> list[str]:
 
 def make_notebook(lines: list[str]) -> str:
     """Return a notebook that repeats the work, as the text of its file."""
-    cells = [
+    cells: list[dict[str, Any]] = [
         {"cell_type": "code", "id": f"cell{number}", "metadata": {}, "outputs": [], "execution_count": None,
          "source": line}
         for number, line in enumerate(line for line in lines if line)
