@@ -87,7 +87,7 @@ def change_tried(browser: Chromium, key: str) -> None:
 
 def measure(folder: Path) -> None:
     """Print the table."""
-    print("| | wanted | wall | processor time of the server |\n|---|---|---|---|")
+    print("| | wanted | wall | processor time of the server |\n|---|---|---|---|", flush=True)
     server = Server(folder)
     with Chromium() as browser:
         begun = time.perf_counter()
