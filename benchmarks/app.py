@@ -98,7 +98,9 @@ def measure(folder: Path) -> None:
               f" {time.perf_counter() - begun:.2f} s | {server.processor:.2f} s |", flush=True)  # fmt: skip
         with timed(f"a file of {ROWS} rows x 4 to the first plot", server, "3 s"):
             browser.choose("Recording", "million.csv")
-            browser.wait_for("Looking for the roles", PATIENCE)
+            browser.wait(
+                "Bokeh.documents[0].get_model_by_name('panel 0')?.renderers[0].data_source.data.x.length > 1000"
+            )
         browser.wait_for("What was read", PATIENCE)
         with timed("zoom into it", server, "0.1 s"):
             zoom(browser)

@@ -8,16 +8,18 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from lostmotion.case import dump_case
 from lostmotion.case.reading import parse_case
-from lostmotion.preparation.beginning import Draft, write_first_case
 from lostmotion.recording.outline import GivenRoles
 from lostmotion.registry import Registry
 from lostmotion.settings import DEFAULT
 from lostmotion.storage import folder_for
 from lostmotion_app.folder import WorkFolder
+
+if TYPE_CHECKING:
+    from lostmotion.preparation.beginning import Draft
 
 CASE = "case.toml"
 _MODEL_GUESSED = "the model is "
@@ -78,6 +80,8 @@ class Desk:
 
         The stretch stays, and so do the values and priors of a model that stays.
         """
+        from lostmotion.preparation.beginning import write_first_case
+
         before, path = self.content, self.folder.find(self.recording)
         with TemporaryDirectory() as spare:
             made = write_first_case(path, Path(spare) / CASE, roles, self.registry, model, factors)

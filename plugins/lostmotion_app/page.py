@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import html
+from collections.abc import Mapping
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -14,17 +16,17 @@ from lostmotion_app.folder import WorkFolder
 from lostmotion_app.parts import STYLE, make_html, run_next
 from lostmotion_app.policy import POLICY
 from lostmotion_app.screens import PageScreen
-from lostmotion_app.screens.analyse import AnalyseScreen
-from lostmotion_app.screens.check import CheckScreen
-from lostmotion_app.screens.data import DataScreen
-from lostmotion_app.screens.model import ModelScreen
-from lostmotion_app.screens.results import ResultsScreen
-from lostmotion_app.screens.run import RunScreen
-from lostmotion_app.screens.take_away import TakeAwayScreen
 
-SCREENS: tuple[type[PageScreen], ...] = (
-    DataScreen, ModelScreen, CheckScreen, RunScreen, ResultsScreen, TakeAwayScreen, AnalyseScreen,
-)  # fmt: skip
+SCREENS: Mapping[str, str] = {
+    "Data": "data:DataScreen",
+    "Model": "model:ModelScreen",
+    "Check": "check:CheckScreen",
+    "Run": "run:RunScreen",
+    "Results": "results:ResultsScreen",
+    "Take away": "take_away:TakeAwayScreen",
+    "Analyse": "analyse:AnalyseScreen",
+}
+"""The screens by their titles; each is imported when it is opened, so that the first one is there soon."""
 BEGINNING = 50
 """Milliseconds after which the first screen is filled: the browser is connected then."""
 _TEMPLATE = (Path(__file__).parent / "page.html.j2").read_text(encoding="utf-8")
@@ -34,17 +36,22 @@ class Page:
     """The screens of one page, of which one is seen."""
 
     def __init__(self, desk: Desk) -> None:
-        self.desk, self.screens = desk, [made(desk) for made in SCREENS]
+        self.desk, self.screens = desk, dict[str, PageScreen]()
         self.head = make_html()
         self.tabs = pn.Tabs(
-            *((one.title, pn.Column(sizing_mode="stretch_width")) for one in self.screens),
+            *((title, pn.Column(sizing_mode="stretch_width")) for title in SCREENS),
             sizing_mode="stretch_width",
         )
-        titles, wanted = [one.title for one in self.screens], read_query("screen")
+        titles, wanted = list(SCREENS), read_query("screen")
         self.tabs.active = titles.index(wanted) if wanted in titles else 0
         self._fill()
         desk.changed = self.tell
         self.tabs.param.watch(lambda _: self._open(), "active")
+
+    @property
+    def title(self) -> str:
+        """The title of the screen that is open."""
+        return list(SCREENS)[int(self.tabs.active)]
 
     @property
     def view(self) -> Any:
@@ -53,7 +60,7 @@ class Page:
 
     def begin(self) -> None:
         """Show the state of the first screen, as soon as the page is there."""
-        self.screens[self.tabs.active].show()
+        self.screens[self.title].show()
         self._write_head()
 
     def tell(self) -> None:
@@ -66,16 +73,19 @@ class Page:
         run_next(self.begin)
 
     def _fill(self) -> None:
-        screen, place = self.screens[self.tabs.active], self.tabs[self.tabs.active]
-        if not len(place):
-            place[:] = [screen.make_view()]
+        """Make the screen that was chosen, if it was not open before."""
+        if self.title not in self.screens:
+            module, _, name = SCREENS[self.title].partition(":")
+            made: PageScreen = getattr(import_module(f"lostmotion_app.screens.{module}"), name)(self.desk)
+            self.screens[self.title] = made
+            self.tabs[self.tabs.active][:] = [made.make_view()]
 
     def _write_head(self) -> None:
         desk, address = self.desk, pn.state.location
         where = " · ".join(filter(None, (str(desk.folder.root), desk.recording)))
         self.head.object = f'<div class="lm-head"><b>lostmotion</b><span>{html.escape(where)}</span></div>'
         if address is not None:
-            address.update_query(screen=self.screens[self.tabs.active].title, recording=desk.recording)
+            address.update_query(screen=self.title, recording=desk.recording)
 
 
 def make_page(folder: WorkFolder, registry: Registry, plugins: tuple[str, ...]) -> Any:
