@@ -33,6 +33,7 @@ SIMULATED = (
     "harmonic:amplitude=100,omega=40", "--rate", "640", "--noise", "0.01",
 )  # fmt: skip
 ERROR = "(words().match(/readings: (?:position: )?([0-9.e-]+)/) || [])[1]"
+PANEL = "Bokeh.documents[0].get_model_by_name('panel 0')"
 PATIENCE = 900.0
 
 
@@ -130,7 +131,7 @@ def zoom(browser: Chromium) -> None:
                         ("mouseReleased", 0.55)):  # fmt: skip
         browser.send("Input.dispatchMouseEvent", type=kind, x=left + share * width, y=top + 0.5 * height,
                      button="left", buttons=0 if kind == "mouseReleased" else 1, clickCount=1)  # fmt: skip
-    browser.wait("Bokeh.documents[0].get_model_by_name('panel 0').renderers[0].data_source.data.x[0] > 100", PATIENCE)
+    browser.wait(f"{PANEL}.renderers[0].data_source.data.x[0] > 100", PATIENCE)
 
 
 def draw_pictures(folder: Path, out: Path) -> None:

@@ -85,7 +85,8 @@ class TriedModel:
         predicted, restarts = forecast_pieces(problem, theta, states, first, length)
         off = predicted - observation.readings
         scale = np.nanstd(observation.readings[first:], axis=0)
-        errors = np.sqrt(np.nanmean(off[first:] ** 2, axis=0)) / np.where(scale > 0.0, scale, 1.0)
+        with np.errstate(over="ignore"):  # a free run may diverge: its error is infinite then
+            errors = np.sqrt(np.nanmean(off[first:] ** 2, axis=0)) / np.where(scale > 0.0, scale, 1.0)
         at = observation.time[restarts > 0.0]
         return TriedPrediction(observation.time, observation.readings, predicted, at, errors, observation.sensors)
 
