@@ -1,7 +1,13 @@
-"""Progress of long work, in a terminal, a notebook or a log: the current step and the elapsed time."""
+"""Progress of long work, in a terminal, a notebook or a log: the current step and the elapsed time.
+
+Each step is also written to the file that the environment variable `LOSTMOTION_PROGRESS` names, as a line of JSON with
+`seconds` since the beginning and the `step`: other programs follow a command in this way.
+"""
 
 from __future__ import annotations
 
+import json
+import os
 import sys
 import time
 from collections.abc import Callable, Iterator
@@ -42,6 +48,29 @@ def show_count(what: str, total: int, unit: str, *, quiet: bool) -> Iterator[Cal
 @contextmanager
 def show_progress(what: str, *, quiet: bool, lines: bool = True) -> Iterator[Callable[[str], None]]:
     """Yield a callback for each step; where no bar is visible, `lines` are written from time to time."""
+    with _show_steps(what, quiet=quiet, lines=lines) as say, _write_steps(say) as write:
+        yield write
+
+
+@contextmanager
+def _write_steps(say: Callable[[str], None]) -> Iterator[Callable[[str], None]]:
+    """Yield a callback that also writes each step to the file for other programs, if there is one."""
+    path, begin = os.environ.get("LOSTMOTION_PROGRESS"), time.monotonic()
+    if not path:
+        yield say
+        return
+    with open(path, "a", encoding="utf-8") as file:
+
+        def write(step: str) -> None:
+            file.write(json.dumps({"seconds": round(time.monotonic() - begin, 2), "step": step}) + "\n")
+            file.flush()
+            say(step)
+
+        yield write
+
+
+@contextmanager
+def _show_steps(what: str, *, quiet: bool, lines: bool) -> Iterator[Callable[[str], None]]:
     with _make_bar(what, quiet, unit=" steps", bar_format="{desc} {elapsed} · {n} steps{postfix}") as bar:
         last = ""
 

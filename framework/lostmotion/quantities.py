@@ -148,7 +148,8 @@ _WORDS = {
     "об/мин": "rpm", "Umdr./min": "rpm", "秒": "s", "ミリ秒": "ms", "マイクロ秒": "us", "分": "min", "度": "deg",
     "сек": "s", "В": "V", "А": "A", "Н*м": "N m", "Нм": "N m", "Н м": "N m", "sec": "s", "msec": "ms", "usec": "us",
     "Volt": "V", "Volts": "V", "Newton": "N", "Newtons": "N", "Amp": "A", "Amps": "A", "Sekunde": "s", "Sekunden": "s",
-    "gee": "g", "in.": "inch", "m/s/s": "m/s^2", "mm/s/s": "mm/s^2", "rad/s/s": "rad/s^2", "gon": "grad",
+    "gee": "g", "milli-g": "mg", "milli g": "mg", "in.": "inch",
+    "m/s/s": "m/s^2", "mm/s/s": "mm/s^2", "rad/s/s": "rad/s^2", "gon": "grad",
     "rps": "rev/s", "dps": "deg/s", "deg/sec": "deg/s", "rad/sec": "rad/s", "m/sec": "m/s", "mm/sec": "mm/s",
     "ips": "inch/s", "mil": "thou", "mils": "thou", "microns": "micron", '"': "inch", "\u2033": "inch", "Å": "angstrom",
     "kp": "kgf", "dyn": "dyne", "kips": "kip", "rev": "turn", "turns": "turn", "rev/s": "turn/s",
@@ -163,6 +164,8 @@ _WORDS = {
 _CYRILLIC = str.maketrans({"м": "m", "к": "k", "с": "s", "Н": "N", "н": "n", "г": "g"})
 _TIMES = re.compile(r"(?<=[A-Za-z])[-.*·](?=[A-Za-z])")
 """The sign between two units that are multiplied, `lb-ft`."""
+_TITLE = re.compile(r"\b[A-Z][a-z]{3,}")
+"""A word with a capital at its beginning, `Millimeter`."""
 _POWERS = re.compile(r"(?<=[a-zA-Zµ])(-?\d)(?!\w)")
 
 
@@ -174,6 +177,7 @@ def spell_unit(unit: str) -> str:
         text = text.replace(sign, plain)
     text = unicodedata.normalize("NFKC", text).replace("μ", "µ")
     text = _WORDS.get(_TIMES.sub(" ", text), _WORDS.get(text, text))
+    text = _TITLE.sub(lambda found: found[0].lower(), text)
     text = text.replace("мк", "µ").translate(_CYRILLIC) if not text.isascii() and _is_cyrillic(text) else text
     text = text if text.startswith("g_0") else _POWERS.sub(r"^\1", text)
     return _WORDS.get(text, _NEWTON_METRE.sub(r"\1 \2", text))

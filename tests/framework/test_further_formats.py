@@ -260,6 +260,16 @@ def test_two_sheets_with_numbers_are_asked_about(tmp_path: Path) -> None:
         read_table(tmp_path / "run.xlsx")
 
 
+@pytest.mark.parametrize("below", [[], [[], ["Mean", 1.0, 2.0]]])
+def test_a_sheet_of_texts_with_decimal_commas_is_read(tmp_path: Path, below: list[list[object]]) -> None:
+    pytest.importorskip("python_calamine", reason="the extra xlsx is not installed")
+    texts = [[f"{value:.4f}".replace(".", ",") for value in row] for row in np.column_stack([TIME, FORCE, PLACE])]
+    pack_sheets(tmp_path / "run.xlsx", {"A": [["Time [s]", "Force [N]", "Pos [mm]"], *texts, *below]})
+    table = read_table(tmp_path / "run.xlsx")
+    np.testing.assert_allclose(table.columns["Force"], FORCE, atol=1e-4)
+    assert table.units["Pos"] == "mm"
+
+
 @pytest.mark.parametrize("ending", [*WRITERS, "mcap", "bag"])
 def test_a_damaged_file_is_told_so(tmp_path: Path, ending: str) -> None:
     writers = {**WRITERS, "mcap": to_mcap, "bag": to_bag}

@@ -251,11 +251,38 @@ def test_a_row_with_more_cells_is_refused_with_its_line(tmp_path: Path) -> None:
         "最大値;40;30\n",
         "*** End of data ***\n",
         ";Summe;12.5\n",
+        "Aborted by user\n",
+        "\x1a",
+        "\n(300 rows affected)\n",
+        ";;\n;;\nMean;0.5;0.1\n",
+        ";;\n;;\n",
     ],
 )
 def test_statistics_below_the_rows_are_no_rows(tmp_path: Path, footer: str) -> None:
     body = join(";", point(T), point(FORCE), point(PLACE)) + footer
     check(write(tmp_path, "time;force;position\n" + body), "force", "position")
+
+
+@pytest.mark.parametrize("row", ["stop", "Stopped;1;2", "Mean;0.5;0.1"])
+def test_no_row_below_a_footer_is_lost(tmp_path: Path, row: str) -> None:
+    """A word near the end of the rows, as of an event: the rows below it are rows of the table."""
+    lines = ("time;force;position\n" + join(";", point(T), point(FORCE), point(PLACE))).splitlines()
+    text = "\n".join([*lines[:280], row, *lines[280:]]) + "\n"
+    (tmp_path / "run.csv").write_text(text)
+    with pytest.raises(DataError, match="line 281"):
+        find_time(read_table(tmp_path / "run.csv"), "run.csv")
+
+
+SPLIT = '"Time\n[s]";"Force\n[N]";"Position\n[mm]"'
+SUMMARY = "Results;;\n;Force max;Position max\n;N;mm\n1;40;30\n\nTime;Force;Position\n[s];[N];[mm]"
+
+
+@pytest.mark.parametrize("head", [SPLIT, SUMMARY, "---\nrig: 3\n---\nTime [s];Force [N];Position [mm]"])
+def test_lines_above_the_table_are_no_part_of_it(tmp_path: Path, head: str) -> None:
+    table = write(tmp_path, f"{head}\n" + join(";", point(T), point(FORCE), point(PLACE)))
+    names = ("Force [N]", "Position [mm]") if head != SUMMARY else ("Force", "Position")
+    check(table, *names)
+    assert (table.units[names[0]], table.units[names[1]]) == ("N", "mm")
 
 
 def test_a_word_in_place_of_a_time_within_the_rows_is_no_footer(tmp_path: Path) -> None:

@@ -53,6 +53,11 @@ def milli(stamp: datetime, form: str) -> str:
         ("time", lambda k, s: milli(s, "%Y%m%d%H%M%S"), "time"),
         ("time", lambda k, s: milli(s, "%Y%m%d%H%M%S."), "time"),
         ("Time", lambda k, s: milli(s, "Tuesday 04 Mar 2025 %H:%M:%S."), "Time"),
+        ("FileTime", lambda k, s: f"{133855559300000000 + 100_000 * k}", "FileTime"),  # Windows
+        ("Time", lambda k, s: f"{638766791300000000 + 100_000 * k}", "Time"),  # .NET
+        ("epoch", lambda k, s: f"{1741082330000000 + 10_000 * k}", "epoch"),  # us since 1970, by their size alone
+        ("Time,Millis", lambda k, s: f"{s:%H:%M:%S},{s.microsecond // 1000}", "Time"),
+        ("Time,usec", lambda k, s: f"{s:%H:%M:%S},{s.microsecond}", "Time"),
         ("stamp.secs,stamp.nsecs", lambda k, s: f"{1741082330 + k // 100},{k % 100 * 10**7}",
          "stamp.secs and stamp.nsecs"),
         ("Hour,Minute,Second", lambda k, s: f"{s.hour},{s.minute},{s.second + s.microsecond / 1e6:.2f}",
@@ -113,3 +118,28 @@ def test_the_names_of_rows_have_no_name_themselves(tmp_path: Path) -> None:
     found = outline_table(tmp_path / "run.txt", GivenRoles())
     assert (found.time, found.dt) == ("time", pytest.approx(0.01))
     assert float(np.nanmax(found.response.values)) == pytest.approx(1.0, abs=1e-3)
+
+
+NIGHTS = [datetime(2025, *day, 23, 59, 58, 500_000) for day in ((3, 4), (11, 12), (3, 12), (3, 31), (12, 31), (1, 1))]
+
+
+@pytest.mark.parametrize("form", ["%d/%m/%Y", "%m/%d/%Y", "%d-%m-%y", "%d.%m.%Y", "%Y/%m/%d"])
+@pytest.mark.parametrize("begun", NIGHTS)
+def test_the_other_dates_tell_whether_the_day_or_the_month_is_first(tmp_path: Path, begun: datetime, form: str) -> None:
+    stamps = [begun + timedelta(milliseconds=10 * k) for k in range(N)]
+    path = write(tmp_path, "When", lambda k, s: milli(stamps[k], f"{form} %H:%M:%S."))
+    assert outline_table(path, GivenRoles()).dt == pytest.approx(0.01)
+
+
+@pytest.mark.parametrize("day", ["01/02/2025", "12/11/2025"])
+def test_one_date_with_two_readings_changes_no_time(tmp_path: Path, day: str) -> None:
+    path = write(tmp_path, "When", lambda k, s: milli(s, f"{day} %H:%M:%S."))
+    assert outline_table(path, GivenRoles()).dt == pytest.approx(0.01)
+
+
+def test_dates_with_two_readings_and_two_times_are_asked_about(tmp_path: Path) -> None:
+    path = write(tmp_path, "When", lambda k, s: milli(s, f"{'01/02/2025' if k < N // 2 else '02/03/2025'} %H:%M:%S."))
+    with pytest.raises(
+        DataError, match=r"'02/03/2025' is 2025-0\d-0\d or .*, and '01/02/2025' allows both: write dates"
+    ):
+        outline_table(path, GivenRoles())

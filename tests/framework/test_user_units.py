@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 from click.testing import CliRunner
 
@@ -68,6 +69,14 @@ def test_units_are_read_as_they_are_written(tmp_path: Path, head: str, force: fl
         ("gyro2 (dps)", "dps"), ("v3 (ips)", "ips"), ("Drehzahl in 1/min", "1/min"), ("TimeUS", "us"), ("timeMs", "ms"),
         ("millis", "ms"), ("sensor_A", ""), ("Position (raw)", ""), ("force_min", ""), ("lap_time_s", "s"),
         ("flag_IN", ""), ("encoderA", ""), ("load_position_mm", "mm"), ("x'", ""), ("Kraft", ""),
+        ("pos_mm_raw", "mm"), ("mm_pos", "mm"), ("angle_deg_filtered", "deg"), ("v(mm/s)", "mm/s"), ("acc in g", "g"),
+        ("Speed[rpm]", "rpm"), ("rpm_motor", "rpm"), ("RPM", "RPM"), ("deg", "deg"), ("acc_g_x", "g"), ("N_force", "N"),
+        ("force_kn", "kN"), ("kN_load", "kN"), ("posMmFilt", "mm"), ("angleDeg1", "deg"), ("position mm (raw)", "mm"),
+        ("pos_mm(filtered)", "mm"), ("Position-mm", "mm"), ("angle°", "°"), ("force_N_ch2", "N"), ("pos_mm.1", "mm"),
+        ("vel_m_s_2", "m/s"), ("torque_Nm_cmd", "Nm"), ("time_ms_rel", "ms"), ("ms_time", "ms"), ("hub_cm", "cm"),
+        ("Position [Millimeter]", "millimeter"), ("Time [sec.]", "sec"), ("theta_m", ""), ("q_m", ""), ("rad_pos", ""),
+        ("in_pos", ""), ("min_time", ""), ("g_force", ""), ("Kp_pos", ""), ("pos_kp", ""), ("m1", ""), ("r_theta", ""),
+        ("pos_x2", ""), ("pos_mm_x10", ""), ("a." * 60 + "mm", ""),
     ],
 )  # fmt: skip
 def test_a_unit_in_a_name(name: str, unit: str) -> None:
@@ -75,8 +84,13 @@ def test_a_unit_in_a_name(name: str, unit: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "word"), [("Pos [mm pk-pk]", "mm pk-pk"), ("Pos [x 0.001 m]", "x 0.001 m"), ("Pos [mm]", ""), ("q[0]", ""),
-                       ("Pos (raw)", ""), ("Pos [-]", "")],
+    ("name", "word"),
+    [
+        ("Pos [mm pk-pk]", "mm pk-pk"), ("Pos [x 0.001 m]", "x 0.001 m"), ("Pos [mm]", ""), ("q[0]", ""),
+        ("Pos (raw)", ""), ("Pos [-]", ""), ("pos_mm_x10", "x10"), ("Pos (mm x 1000)", "mm x 1000"),
+        ("Pos (mm*100)", "mm*100"), ("Pos [1e-3 m]", "1e-3 m"), ("Pos [0.1mm]", "0.1mm"), ("Pos in 0.1 mm", "in 0.1"),
+        ("pos_x2", ""), ("v2 (m/s^2)", ""), ("Pos (ch 1)", ""),
+    ],
 )  # fmt: skip
 def test_a_word_in_brackets_that_is_no_unit(name: str, word: str) -> None:
     assert strange_unit(name) == word
@@ -131,7 +145,8 @@ def test_a_column_of_words_is_named_by_init(tmp_path: Path) -> None:
     assert "not read: run.csv, line 2, column 'State': 'ok' is not a number" in done.output
 
 
-@pytest.mark.parametrize("word", ["OVLD", "#DIV/0!", "<NA>", "*******", "#WERT!", "Overload", "NaT", "欠測"])
+@pytest.mark.parametrize("word", ["OVLD", "#DIV/0!", "<NA>", "*******", "#WERT!", "Overload", "NaT", "欠測", "No Data",
+                                  "BURN OUT", "n.a.", "--.--", "+OVER", "#####", "1.#IND", "Sensor Error"])  # fmt: skip
 def test_words_of_missing_readings(tmp_path: Path, word: str) -> None:
     path = write(tmp_path, "Time [s],Force [N],Pos [mm]", place=["0.1", word, *(f"{x:.4f}" for x in PLACE[2:])])
     column = read_table(path).columns["Pos"]
@@ -176,3 +191,31 @@ def test_a_square_wave_of_whole_numbers_overflows_not(tmp_path: Path) -> None:
         sensors={"position": "Pos"},
     )  # fmt: skip
     assert not any("overflows" in note for note in read.notes)
+
+
+@pytest.mark.parametrize(
+    ("head", "force", "place"),
+    [
+        ("t_s,force_kn,pos_mm_raw", 1e3, 1e-3), ("t_s,torque_Nm,RPM", 1.0, np.pi / 30),
+        ("t_s,torque_Nm,deg", 1.0, np.pi / 180),
+        ("Time (Seconds),Load (Kilonewtons),Position (Millimetres)", 1e3, 1e-3), ("t_s,N_force,acc_g_x", 1.0, 9.80665),
+        ("t_s,force_N,accel (milli-g)", 1.0, 9.80665e-3),
+    ],
+)  # fmt: skip
+def test_every_door_reads_the_unit_of_a_name(tmp_path: Path, head: str, force: float, place: float) -> None:
+    path = write(tmp_path, head)
+    found = outline_table(path, GivenRoles())
+    assert found.drive is not None
+    drive, seen = found.drive, found.response
+    frame = pd.read_csv(path)
+    which = {"inputs": {"torque" if "torque" in head else "force": drive.name}, "sensors": {seen.kind: seen.name}}
+    for read in (Recording.read(path, **which), Recording.from_pandas(frame, **which)):
+        np.testing.assert_allclose(read.inputs[0], FORCE * force, atol=1e-4 * force)
+        np.testing.assert_allclose(read.sensors[0], PLACE * place, atol=1e-4 * place)
+
+
+@pytest.mark.parametrize("encoding", ["cp437", "cp850", "utf-16-be", "utf-32", "cp1252", "mac_roman"])
+def test_a_micro_sign_in_old_encodings(tmp_path: Path, encoding: str) -> None:
+    path = write(tmp_path, "Zeit [s],Kraft [N],Weg [µm]")
+    path.write_bytes(path.read_text(encoding="utf-8").encode(encoding))
+    assert outline_table(path, GivenRoles()).response.unit == "µm"

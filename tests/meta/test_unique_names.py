@@ -10,6 +10,7 @@ PACKAGES = (
     "plugins/lostmotion_plugins",
     "plugins/lostmotion_chaos",
     "plugins/lostmotion_trials",
+    "plugins/lostmotion_app",
 )
 
 

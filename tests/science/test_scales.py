@@ -11,7 +11,7 @@ import pytest
 
 import lostmotion as lm
 from lostmotion.diagnosis.diagnosis_run import run_diagnosis
-from lostmotion.diagnosis.scales import describe_wrong_scale
+from lostmotion.diagnosis.scales import describe_wrong_scale, describe_wrong_sign
 from lostmotion.diagnosis.write_result import explains_scale
 from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
 from lostmotion.likelihood.system import System
@@ -128,3 +128,41 @@ def test_a_law_explains_a_scale_only_where_it_explains_the_recording(states, sha
         for state in states
     ]
     assert explains_scale(found, left) == explains
+
+
+def recorded(model: str, units: dict[str, str], scale: dict[str, float], **more: Any) -> lm.Recording:
+    """Return a simulated recording, whose columns are multiplied by `scale`."""
+    made = lm.simulate(
+        model, values=MACHINES[model]["values"], drives=DRIVES, duration=20.0, rate=200.0, noise=0.02,
+        motion="rotation" if "rad" in "".join(units.values()) else None, **more,
+    )  # fmt: skip
+    drive = next(name for name in units if name in ("force", "torque"))
+    seen = next(name for name in units if name != drive)
+    return lm.Recording.from_arrays(
+        made.columns["time"],
+        inputs={drive: made.columns["force"] * scale.get(drive, 1.0)},
+        sensors={seen: made.columns[seen] * scale.get(seen, 1.0)},
+        units=units,
+    )
+
+
+LACKING: dict[str, tuple[str, dict[str, str], str | None]] = {
+    "position": ("linear_oscillator", N_M, None),
+    "position, friction": ("linear_oscillator", N_M, "coulomb_friction:force=2"),
+    "position, much friction": ("linear_oscillator", N_M, "coulomb_friction:force=5"),
+    "position, drag": ("linear_oscillator", N_M, "quadratic_damping:coefficient=40"),
+    "acceleration, friction": ("linear_oscillator", N_A, "coulomb_friction:force=2"),
+    "speed": ("rigid_drive", T_V, None),
+    "speed, friction": ("rigid_drive", T_V, "coulomb_friction:force=2"),
+}
+
+
+@pytest.mark.parametrize(("model", "units", "term"), LACKING.values(), ids=LACKING)
+def test_a_wrong_sign_is_told_beside_a_missing_law(model: str, units: dict[str, str], term: str | None) -> None:
+    """56 machines: all 112 wrong signs are told, and no right one: the rate of false alarms is below 5.3 % (95 %)."""
+    for seed in range(8):
+        more: dict[str, Any] = {"seed": seed} | ({"terms": term} if term else {})
+        for scale in ({}, *({name: -1.0} for name in units)):
+            said = describe_wrong_sign([recorded(model, units, scale, **more)])
+            assert bool(said) == bool(scale), said
+            assert all(one.startswith("The sign of a column is wrong: on average power flows") for one in said)

@@ -21,9 +21,8 @@ from lostmotion.likelihood.predict import (
     choose_horizon,
     compute_growth_rates,
     filter_recording,
-    observe_states,
+    forecast_pieces,
     predict_freely,
-    simulate_run,
 )
 from lostmotion.likelihood.problem import Problem
 from lostmotion.settings import DEFAULT, HeldOutSettings
@@ -104,7 +103,8 @@ def predict(fit: Fit, pieces: Sequence[HeldOutStretch], horizon: Horizon, rates:
     scales = [compute_deviation(pieces, sensor) for sensor in range(len(joint))]
     nrmse = [_compute_nrmse(one, horizon, scale) for one, scale in zip(joint, scales, strict=True)]
     first, main = tracked[0], joint[0]
-    forecasts, restarts = _forecast(problems[0], fit, first.states, pieces[0], horizon)
+    length = max(int(SEGMENT * horizon.unit_time / pieces[0].observation.dt), horizon.steps, 2)
+    forecasts, restarts = forecast_pieces(problems[0], fit.theta, first.states, pieces[0].begin, length)
     tail = slice(pieces[0].begin, None)
     return Prediction(
         log_score=float(np.average([np.mean(own) for own in scores], weights=lengths)),
@@ -225,22 +225,6 @@ def _run_freely(
     last = observation.samples - steps
     starts = np.unique(np.linspace(piece.begin, last, min(STARTS, max(last - piece.begin, 1))).astype(int))
     return predict_freely(problem, fit.theta, states, starts, steps)
-
-
-def _forecast(
-    problem: Problem, fit: Fit, states: Array, piece: HeldOutStretch, horizon: Horizon
-) -> tuple[Array, Array]:
-    """Return free-running predictions (samples, sensors) over a part, and where they restart (samples,)."""
-    observation = piece.observation
-    length = max(int(SEGMENT * horizon.unit_time / observation.dt), horizon.steps, 2)
-    forecast, restarts = np.full(observation.readings.shape, np.nan), np.zeros(observation.samples)
-    for start in range(piece.begin, observation.samples - 1, length):
-        steps = min(length, observation.samples - start)
-        run = simulate_run(problem, fit.theta, states[start], start, steps)
-        for sensor in range(len(observation.sensors)):
-            forecast[start : start + steps, sensor] = observe_states(problem, fit.theta, run, (start, 0), sensor)
-        restarts[start] = 1.0
-    return forecast, restarts
 
 
 def choose_heldout_horizon(fit: Fit, pieces: Sequence[HeldOutStretch], exponent: float) -> Horizon:

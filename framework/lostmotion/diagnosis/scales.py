@@ -3,13 +3,14 @@
 Such an error leaves a missing force as large as the drive or larger, for which some term of the library always stands.
 Where that much is missing, the nominal model is fitted again with each input and each sensor multiplied by the usual
 factors between units, by -1, and by the ratio of two measured positions. A factor that removes most of the missing
-force is said in the first line of the result.
+force is said in the first line of the result. A sign may be wrong beside a law that the model lacks, so that no factor
+removes the missing force: then power that flows from the machine to its drive tells it, whatever law is missing.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -23,6 +24,8 @@ from lostmotion.inference.setup import make_problem, search_maximum
 from lostmotion.likelihood.latent import smooth_latent_force
 from lostmotion.likelihood.observation import Observation, find_harmonic
 from lostmotion.quantities import quantity_of
+from lostmotion.recording import Recording
+from lostmotion.recording.warnings import BACKWARD
 from lostmotion.results import percent, rounded
 
 LARGE = 0.4
@@ -106,6 +109,15 @@ def describe_wrong_scale(nominal: Fit, case: CaseFile, rng: np.random.Generator)
         f" {percent(chosen[0].missing / before)} of the missing force. Check units, signs and gear ratio before the"
         " findings below.",
     )
+
+
+def describe_wrong_sign(recordings: Iterable[Recording]) -> tuple[str, ...]:
+    """Return a sentence on a recording in which power flows from the machine to its drive; none for all others."""
+    for recording in recordings:
+        for note in recording.notes:
+            if note.startswith(BACKWARD):
+                return (f"The sign of a column is wrong: {note}. Check it before the findings below.",)
+    return ()
 
 
 def _try_scale(nominal: Fit, case: CaseFile, scaled: _Scaled, rng: np.random.Generator) -> _Trial:

@@ -109,6 +109,22 @@ def simulate_run(problem: Problem, theta: Array, y0: Array, start: int, steps: i
     return run
 
 
+def forecast_pieces(problem: Problem, theta: Array, states: Array, begin: int, length: int) -> tuple[Array, Array]:
+    """Return free-running predictions (samples, sensors) from sample `begin` on, and where they restart (samples,).
+
+    They restart at the filtered `states` (samples, n) after each `length` samples.
+    """
+    observation = problem.observations[0]
+    forecast, restarts = np.full(observation.readings.shape, np.nan), np.zeros(observation.samples)
+    for start in range(begin, observation.samples - 1, length):
+        steps = min(length, observation.samples - start)
+        run = simulate_run(problem, theta, states[start], start, steps)
+        for sensor in range(len(observation.sensors)):
+            forecast[start : start + steps, sensor] = observe_states(problem, theta, run, (start, 0), sensor)
+        restarts[start] = 1.0
+    return forecast, restarts
+
+
 def simulate_kicked(problem: Problem, theta: Array, y0: Array, kicks: Array, index: int = 0) -> Array:
     """Return the states (steps, n) of a run from the first sample, to which `kicks` (steps, n) are added."""
     run: Array = _simulate_runs(problem, theta, y0[None], np.zeros(1, dtype=np.int64), len(kicks), index, kicks[None])[

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from lostmotion.arguments import Rule, describe, flag, instance, mapping, maybe, number, path, whole, words
+from lostmotion.arguments import Rule, describe, flag, instance, mapping, maybe, number, path, positive, whole, words
 from lostmotion.case import Prior
 from lostmotion.contracts import Model
 from lostmotion.errors import CaseError
@@ -37,3 +37,11 @@ RUN: Mapping[str, Rule] = {
 """The arguments that most functions have."""
 CASE: Mapping[str, Rule] = {**RUN, "model": maybe(modelled), "known": maybe(KNOWN), "estimate": maybe(PRIORS)}
 """Those of functions of a case."""
+TRIED: Mapping[str, Rule] = {
+    "values": maybe(KNOWN),
+    "terms": words,
+    "begin": number,
+    "every": maybe(positive),
+    "registry": RUN["registry"],
+}
+"""Those of predictions with values that are tried."""

@@ -8,16 +8,16 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from lostmotion.arguments import Rule, checked, choice, describe, instance, mapping, maybe, text, words
+from lostmotion.arguments import Rule, checked, choice, describe, instance, list_texts, mapping, maybe, text, words
 from lostmotion.case import GUESSED, WRITTEN, CaseFile, Experiment, Prior, SensorSpec, check_same_sensors, dump_case
 from lostmotion.contracts import Model
 from lostmotion.equations import name_inputs
 from lostmotion.errors import CaseError, PluginError, nearest
-from lostmotion.notebook.argument_rules import KNOWN, PRIORS, modelled
+from lostmotion.notebook.argument_rules import KNOWN, PRIORS, TRIED, modelled
 from lostmotion.notebook.robot_objects import make_robot_case, make_robot_recording
 from lostmotion.preparation.prepare import Prepared, case_of, prepare_loaded
 from lostmotion.preparation.vetting import make_plugin
@@ -29,6 +29,9 @@ from lostmotion.robots.arm_model import RobotModel, make_robot_model
 from lostmotion.settings import DEFAULT, Settings, read
 from lostmotion.storage import folder_for, save_table
 from lostmotion.written import Written, is_equation, model_of
+
+if TYPE_CHECKING:
+    from lostmotion.diagnosis.tried_model import TriedPrediction
 
 
 @checked(
@@ -257,6 +260,26 @@ class Case:
             )
         found = prepare_loaded(file, self._recordings, made, registry, settings)
         return found if terms == "all" else replace(found, terms=_choose_terms(found, terms))
+
+    @checked(**TRIED)
+    def predict(
+        self,
+        values: Mapping[str, float] | None = None,
+        terms: str | Sequence[str] = (),
+        *,
+        begin: float = 0.0,
+        every: float | None = None,
+        registry: Registry | None = None,
+    ) -> TriedPrediction:
+        """Return how the model would predict the first recording with some `values` (SI), without a fit.
+
+        Estimated parameters without a value are at the middle of their priors. `terms` are keys of terms, whose values
+        are named `coulomb_friction.force`. Free runs restart after `every` s, by default some cycles of the motion.
+        """
+        from lostmotion.diagnosis.tried_model import TriedModel
+
+        tried = TriedModel.of(self.prepare(registry or default()))
+        return tried.predict(values or {}, list_texts(terms), begin=begin, every=every)
 
     def _make_case_file(self) -> CaseFile:
         """Return the case in the form of a case file, with a digest of its content."""

@@ -6,7 +6,7 @@ was guessed is said with its reason, and a guess that makes no sense is asked ab
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -25,8 +25,12 @@ SAME = 0.01
 """Two columns of time agree when their rates differ by less than this share."""
 GUESSED = 3
 """The rank of a column of which only the name says time."""
-_EPOCHS = ((1e17, "ns"), (1e14, "us"), (1e11, "ms"))
-"""Numbers above these sizes are this unit since 1970."""
+_EPOCHS = (
+    (9e17, 2e18, "ns", "ns since 1970"), (6e17, 7e17, "100ns", "steps of 100 ns since the year 1 (.NET)"),
+    (1.2e17, 1.6e17, "100ns", "steps of 100 ns since 1601 (file times of Windows)"),
+    (1e14, 2e15, "us", "us since 1970"), (1e11, 2e12, "ms", "ms since 1970"),
+)  # fmt: skip
+"""Ranges of numbers that are dates, with their unit and what they count."""
 _DAYS = ((25_000.0, 80_000.0, "Excel"), (719_000.0, 780_000.0, "MATLAB"))
 """Numbers of days in these ranges are dates from about 1970 to 2100 in these programs."""
 ROUNDING = 1e-12
@@ -54,7 +58,7 @@ class FoundTime:
     def says(self) -> str:
         """What is taken for time, and why."""
         if self.column is None:
-            return f"time from the rate of {1.0 / self.clock.dt:.6g} Hz that is given"
+            return f"time from the rate of {1.0 / self.clock.dt:.6g} Hz: {self.why}"
         return f"time in the column {self.column!r} ({self.unit}): {self.why}"
 
 
@@ -75,12 +79,12 @@ def find_time(
             raise DataError(f"the rate is {rate:g} Hz: give a positive number")
         clock = EvenClock(check_step(1.0 / rate, source), False, (), 0.0)
         notes = (*note_repeated_rows(table), *note_other_rate(table, source, rate))
-        return FoundTime(None, "s", np.empty(0), clock, "as given", notes)
+        return FoundTime(None, "s", np.empty(0), clock, "it is given", notes)
     if column is not None:
         unit = (units or {}).get(column)
         time, found, notes = read_time(table, column, unit, source)
         clock = checked_clock(time, source, table, column, unit)
-        return FoundTime(column, found, time, clock, "as given", (*notes, *clock.notes))
+        return FoundTime(column, found, time, clock, "as given", (*notes, *clock.notes, *note_stated(table, clock)))
     return _choose_time(table, source, units or {})
 
 
@@ -106,9 +110,8 @@ def unit_by_size(values: Array) -> tuple[str, str]:
     """Return the unit of dates that are numbers, and what they are; two empty texts for other numbers."""
     seen = values[np.isfinite(values)]
     size = float(np.median(seen)) if seen.size else 0.0
-    since = next((unit for least, unit in _EPOCHS if least < size < 20.0 * least), "")
-    if since:
-        return since, f"{since} since 1970"
+    if since := next((one[2:] for one in _EPOCHS if one[0] < size < one[1]), None):
+        return since
     program = next((name for low, high, name in _DAYS if low < size < high), "")
     daily = program and seen.size > 1 and 0.0 < float(np.ptp(seen)) / (seen.size - 1) < _DAILY
     return ("d", f"dates of {program} in days") if daily else ("", "")
@@ -151,7 +154,7 @@ def checked_clock(
 
 def _choose_time(table: Table, source: str, units: Mapping[str, str]) -> FoundTime:
     """Return the time that is found in a table: the best candidate that is even, with its reason."""
-    ranked = sorted(_list_candidates(table, units), key=lambda one: one[0])
+    ranked, stated = sorted(_list_candidates(table, units), key=lambda one: one[0]), _find_stated(table, source)
     tried: list[FoundTime] = []
     problem: DataError | None = None
     for _, name, why in ranked:
@@ -159,12 +162,17 @@ def _choose_time(table: Table, source: str, units: Mapping[str, str]) -> FoundTi
             found = find_time(table, source, name, None, units)
             found = replace(found, why=why if found.unit == "s" else why.partition(";")[0])
         except DataError as err:
-            problem = problem or err
+            if stated is None or not _grows_evenly(table.columns.get(name, np.empty(0))):
+                problem = problem or err
             continue
         tried.append(found)
     if tried:
         _check_agreement(tried, source)
+        for note in note_stated(table, tried[0].clock):
+            raise DataError(f"{source}: {note}: name the time with --time, or give --rate")
         return tried[0]
+    if problem is None and stated is not None:
+        return stated
     if problem:
         raise problem
     return _choose_by_growth(table, source, units)
@@ -185,6 +193,8 @@ def _list_candidates(table: Table, units: Mapping[str, str]) -> list[tuple[int, 
             found.append((GUESSED, name, f"its name is one of time; its unit {unit!r} is none that is known, so s"))
         elif names_time(name) and not unit:
             found.append((GUESSED, name, "its name is one of time; no unit is stated, so s"))
+        elif not unit and not names_other(name) and (says := unit_by_size(table.columns.get(name, np.empty(0)))[1]):
+            found.append((GUESSED, name, f"its numbers are {says} by their size"))
     return found
 
 
@@ -234,17 +244,40 @@ def _counts(name: str, values: Array) -> bool:
     return COUNTER.match(name) is not None or bool(np.all(values == np.rint(values)))
 
 
-def note_other_rate(table: Table, source: str, rate: float) -> tuple[str, ...]:
-    """Return a note on a time in the table that has another rate (Hz) than the one that is given."""
+def _find_stated(table: Table, source: str) -> FoundTime | None:
+    """Return the time from the sampling rate that the file states; `DataError` where it states two, None for none."""
+    for words, rate in table.rates.items():
+        for other, another in table.rates.items():
+            if abs(another / rate - 1.0) > SAME:
+                raise DataError(
+                    f"{source}: two sampling rates are stated: {words} ({rate:.6g} Hz), and {other} ({another:.6g} Hz):"
+                    " give --rate HZ"
+                )
+    words, rate = next(iter(table.rates.items()), ("", 0.0))
+    if not words:
+        return None
+    clock = EvenClock(check_step(1.0 / rate, source), False, (), 0.0)
+    return FoundTime(None, "s", np.empty(0), clock, words, note_repeated_rows(table))
+
+
+def note_stated(table: Table, clock: EvenClock) -> Iterator[str]:
+    """Yield a note on a sampling rate that the file states and that is not that of its time."""
+    for words, rate in table.rates.items():
+        if abs(1.0 / (clock.dt * rate) - 1.0) > SAME:
+            yield f"{words}, and the time has {1.0 / clock.dt:.6g} Hz: one of them is wrong"
+            return
+
+
+def note_other_rate(table: Table, source: str, rate: float) -> Iterator[str]:
+    """Yield a note on a time, or on a stated rate, that is not the rate (Hz) that is given."""
+    yield from note_stated(table, EvenClock(1.0 / rate, False, (), 0.0))
     try:
-        found = _choose_time(table, source, {})
+        found = _choose_time(replace(table, rates={}), source, {})
     except DataError:
-        return ()
+        return
     other = 1.0 / found.clock.dt
-    if found.guessed or abs(other / rate - 1.0) <= SAME:
-        return ()
-    says = f"the rate that is given is {rate:.6g} Hz, and {found.column!r} has {other:.6g} Hz: one of them is wrong"
-    return (says,)
+    if not found.guessed and abs(other / rate - 1.0) > SAME:
+        yield f"the rate that is given is {rate:.6g} Hz, and {found.column!r} has {other:.6g} Hz: one of them is wrong"
 
 
 def note_repeated_rows(table: Table) -> tuple[str, ...]:

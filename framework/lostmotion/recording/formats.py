@@ -160,6 +160,7 @@ def _read_nc(path: Path) -> Table:
             return table_of_nested(
                 {str(n): v.values for n, v in data.variables.items()},
                 {str(n): _unit_of(v.attrs) for n, v in data.variables.items()},
+                data.attrs,
             )
     check_hdf5(path)
     groups = xr.open_groups(path, engine="h5netcdf", decode_times=False)
@@ -167,10 +168,11 @@ def _read_nc(path: Path) -> Table:
         held = {_path_in_file(g, n): v for g, data in groups.items() for n, v in data.variables.items()}
         found = {name: v.values for name, v in held.items()}
         units = {name: _unit_of(v.attrs) for name, v in held.items()}
+        told = {key: value for data in groups.values() for key, value in data.attrs.items()}
     finally:
         for data in groups.values():
             data.close()
-    return table_of_nested(found, units)
+    return table_of_nested(found, units, told)
 
 
 def _path_in_file(group: str, name: object) -> str:
@@ -183,10 +185,12 @@ def _read_h5(path: Path) -> Table:
     check_hdf5(path)
     with h5py.File(path, "r") as file:
         if "_NCProperties" not in file.attrs:
-            held: dict[str, Any] = {}  # data sets of h5py, which has no types
-            file.visititems(lambda name, item: held.update({name: item} if _is_numeric(item) else {}))
+            items: dict[str, Any] = {"": file}  # groups and data sets of h5py, which has no types
+            file.visititems(items.__setitem__)
+            held = {name: item for name, item in items.items() if _is_numeric(item)}
             units = {name: _unit_of(item.attrs) for name, item in held.items()}
-            return table_of_nested({name: _read_set(item) for name, item in held.items()}, units)
+            told = {key: item.attrs[key] for item in items.values() for key in item.attrs}
+            return table_of_nested({name: _read_set(item) for name, item in held.items()}, units, told)
     return _read_nc(path)
 
 

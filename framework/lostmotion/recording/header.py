@@ -7,22 +7,32 @@ are comments, of which the last one above the numbers may hold the names.
 
 from __future__ import annotations
 
-import csv
 import re
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from itertools import pairwise
 
 from lostmotion.errors import DataError
-from lostmotion.recording.numbers import is_missing, read_number
+from lostmotion.recording.cells import (
+    SEPARATORS,
+    Header,
+    Line,
+    cells_of,
+    is_comment,
+    is_filled,
+    is_number,
+    is_value,
+    keep_units,
+    separator_of,
+    strip_comment,
+)
+from lostmotion.recording.instruments import read_instrument
+from lostmotion.recording.numbers import is_missing
 from lostmotion.recording.stamps import is_date, is_stamp
+from lostmotion.recording.stated_rate import rates_in_lines
 from lostmotion.recording.units import is_unit, split_name, unit_line
 
-COMMENTS = ("#", "%", "//")
-"""How a comment line begins."""
-SEPARATORS = (";", "\t", ",", "|")
-"""The separators of cells beside blanks, in the order in which they are tried."""
 UNNAMED = "column 1"
 """The name of a first column of numbers that has none, as pandas and R write the index."""
 HEAD = 1000
@@ -32,106 +42,46 @@ TYPE = re.compile(r"u?int\d*|float\d*|double|single|real|number|numeric|decimal|
 LAST = 50
 """The most rows at the end of these lines from which the form of a row of numbers is taken."""
 
-Line = tuple[int, str]
-"""A line: index in the file, and text."""
-
-
-@dataclass(frozen=True)
-class Header:
-    """The names and units of the columns, the separator of cells (None: blanks), and the line of the first row.
-
-    `trailing` tells that rows end with a separator after the last cell; `stamped` names the columns of time stamps.
-    `dated` is the number of the column of dates that belong to the times of day in the column `stamped`, -1 for none.
-    `grid` is a column that numbers the samples, with the time (s) of number zero and the step (s).
-    """
-
-    names: list[str]
-    units: dict[str, str]
-    separator: str | None
-    first: int
-    trailing: bool = False
-    stamped: frozenset[str] = frozenset()
-    dated: int = -1
-    grid: tuple[str, float, float] | None = None
-
-
-def is_comment(line: str) -> bool:
-    """Return whether a line of a file is a comment."""
-    return line.lstrip().startswith(COMMENTS)
+SUMMARY = 20
+"""A table of fewer rows, with a blank line and another table below it, is a summary."""
 
 
 def find_header(file: str, lines: list[str]) -> Header:
     """Return the header of a table from the first lines of its file; `DataError` if there is none."""
+    lines = _join_quoted(lines)
     rows = [(i, line) for i, line in enumerate(lines) if line.strip() and not is_comment(line)]
     notes = [(i, line) for i, line in enumerate(lines) if is_comment(line)]
-    if rows and (beside := _read_beside(rows) or _read_waveform(rows) or _read_increments(rows)):
-        return beside
-    if rows and _has_only_values(rows[0][1]):
-        return _read_comment(file, [note for note in notes if note[0] < rows[0][0]], rows)
     if not rows:
-        if not notes:
-            raise DataError(f"{file} holds only blank lines: record or export it again")
-        raise _no_numbers(file)
-    found = next(_find_candidates(rows, whole=True), None) or next(_find_candidates(rows, whole=False), None)
-    header = found or _use_first_line(file, rows)
-    return _with_units_above(header, [line for line in enumerate(lines) if line[0] < header.first - 1])
+        raise _no_numbers(file) if notes else DataError(f"{file} holds only blank lines: record or export it again")
+    header = read_instrument(rows)
+    if header is None and _has_only_values(rows[0][1]):
+        header = _read_comment(file, [note for note in notes if note[0] < rows[0][0]], rows)
+    elif header is None:
+        found = _skip_summary(lines, [*_find_candidates(rows, whole=True)])
+        header = found or next(_find_candidates(rows, whole=False), None) or _use_first_line(file, rows)
+        header = _with_units_above(header, [line for line in enumerate(lines) if line[0] < header.first - 1])
+    return replace(header, rates=rates_in_lines(lines[: header.first - 1]))
 
 
-def _keep_units(stated: Mapping[str, str]) -> dict[str, str]:
-    """Return the units of the columns that have a name and a unit."""
-    return {name: unit for name, unit in stated.items() if name and is_unit(unit)}
+def _join_quoted(lines: list[str]) -> list[str]:
+    """Return the lines with names that are broken over lines, in quotes, as one line; blank lines take their places."""
+    found = list(lines)
+    for i, line in enumerate(lines[:LAST]):
+        end = next((j for j in range(i + 1, min(i + 6, len(lines))) if lines[j].count('"') % 2), 0)
+        if found[i].strip() and line.count('"') % 2 and end:
+            found[i] = " ".join(part.strip() for part in lines[i : end + 1])
+            found[i + 1 : end + 1] = [""] * (end - i)
+    return found
 
 
-def _read_beside(rows: list[Line]) -> Header | None:
-    """Return the header of a table of Tektronix, whose settings stand in the first rows, beside time and readings."""
-    cells = [cells_of(line, ",") for _, line in rows[:LAST]]
-    if not all(len(row) >= 5 and _is_filled(row[3]) and _is_filled(row[4]) for row in cells) or not cells[0][0]:
-        return None
-    stated = {row[0].strip().lower(): row[1].strip() for row in cells}
-    if "record length" not in stated:
-        return None
-    names, units = [""] * len(cells[0]), {"time": stated.get("horizontal units", "")}
-    blocks = [j for j, cell in enumerate(cells[0][:-4]) if cell.strip().lower() == "record length"]
-    for begin in blocks:  # for each channel: two columns of settings, an empty one, time and reading
-        own = {row[begin].strip().lower(): row[begin + 1].strip() for row in cells if len(row) > begin + 1}
-        name = own.get("source") or f"reading {blocks.index(begin) + 1}"
-        names[begin + 3 : begin + 5] = ["" if begin else "time", name]
-        units[name] = own.get("vertical units", "")
-    return Header(names, _keep_units(units), ",", rows[0][0] + 1)
-
-
-def _read_waveform(rows: list[Line]) -> Header | None:
-    """Return the header of a waveform of Keysight: settings, a line `Data:` without names, then time and reading."""
-    split = [cells_of(line, ",") for _, line in rows]
-    end = next((k for k, cells in enumerate(split[:LAST]) if cells and cells[0].strip() == "Data:"), None)
-    if end is None or end + 1 >= len(rows) or not all(_is_number(cell) for cell in split[end + 1]):
-        return None
-    stated = {cells[0].strip(" :").lower(): cells[1].strip() for cells in split[:end] if len(cells) > 1}
-    names = ["time", "reading", *(f"reading {k}" for k in range(2, len(split[end + 1])))][: len(split[end + 1])]
-    units = {"time": stated.get("x units", ""), **dict.fromkeys(names[1:], stated.get("y units", ""))}
-    return Header(names, _keep_units(units), ",", rows[end + 1][0] + 1)
-
-
-def _read_increments(rows: list[Line]) -> Header | None:
-    """Return the header of a scope of Rigol, whose first row has start and increment of the time beside the names."""
-    if len(rows) < 3:
-        return None
-    names, below = ([cell.strip() for cell in cells_of(line.rstrip(", \r\n"), ",")] for _, line in rows[:2])
-    lower = [name.lower() for name in names]
-    if not {"start", "increment"} <= set(lower) or len(below) < len(lower) or lower[0] not in ("x", "time", "sequence"):
-        return None
-    start, step = (read_number(below[lower.index(name)]) for name in ("start", "increment"))
-    if start is None or step is None or not step > 0.0:
-        return None
-    kept = [
-        "time",
-        *("" if name in ("start", "increment") else given for name, given in zip(lower, names, strict=True)),
-    ]
-    del kept[1]
-    spelt = [unit.title() if unit in ("VOLT", "AMP") else unit for unit in below]
-    units = _keep_units({"time": "s"} | dict(zip(kept[1:], spelt[1:], strict=False)))
-    columns = len(kept) - (not kept[-1])
-    return Header(kept[:columns], units, ",", rows[2][0] + 1, trailing=columns < len(kept), grid=("time", start, step))
+def _skip_summary(lines: list[str], found: list[Header]) -> Header | None:
+    """Return the first header that is not followed by a few rows and the header of another table."""
+    tables = [*{one.first: one for one in reversed(found)}.values()][::-1]  # not the units below the names
+    for one, other in pairwise(tables):
+        between = lines[one.first : other.first - 1]
+        if other.names == one.names or len(between) > SUMMARY or all(line.strip() for line in between):
+            return one
+    return tables[-1] if tables else None
 
 
 def _no_numbers(file: str) -> DataError:
@@ -168,7 +118,7 @@ def _with_units_above(header: Header, above: list[Line]) -> Header:
         key, stated = cells[0].strip().lower() if cells else "", [cell.strip() for cell in cells[1:]]
         names = number_names(header.names)
         columns = {"horizontal units": names[:1], "vertical units": names[1:]}.get(key.rstrip(":"), [])
-        units = _keep_units(dict(zip(columns, stated, strict=False))) | units
+        units = keep_units(dict(zip(columns, stated, strict=False))) | units
         line = unit_line(cells) if len(cells) == len(header.names) > 1 else None
         if line and all(not unit or is_unit(unit) for unit in line):
             units = {name: unit for name, unit in zip(names, line, strict=True) if name and unit} | units
@@ -185,7 +135,7 @@ def _try_header(line: str, below: str, rows: list[Line], whole: bool) -> Header 
     if _names_types(cells_of(below, separator)):
         rows, below = rows[1:], rows[1][1] if len(rows) > 1 else ""
     units = unit_line(cells_of(below, separator)) if len(cells_of(below, separator)) >= len(names) - 1 else None
-    if units is not None and not any(_is_number(cell) for cell in cells_of(below, separator)):
+    if units is not None and not any(is_number(cell) for cell in cells_of(below, separator)):
         rows = rows[1:]
         if len(rows) > 1 and not any(is_value(cell) for cell in cells_of(rows[0][1], separator) if cell.strip()):
             rows = rows[1:]  # a line of words below the units, as of Campbell
@@ -196,7 +146,8 @@ def _try_header(line: str, below: str, rows: list[Line], whole: bool) -> Header 
         return None
     width, numeric = shape
     first = cells_of(rows[0][1], separator)
-    if len(first) <= (max(numeric) if whole else 0) or not all(is_value(first[j]) for j in numeric if j < len(first)):
+    there = [first[j] for j in numeric if j < len(first)]
+    if len(first) <= (max(numeric) if whole else 0) or not all(map(is_value, there)) or not any(map(is_filled, there)):
         return None
     return _make_header(names, units or [], separator, rows, width)
 
@@ -235,7 +186,7 @@ def _find_short_shape(rows: list[Line], separator: str | None, names: list[str])
 
 def _is_numeric(cells: list[str]) -> bool:
     """Return whether a column mostly holds numbers or time stamps."""
-    filled = [_is_filled(cell) for cell in cells if not is_missing(cell)]
+    filled = [is_filled(cell) for cell in cells if not is_missing(cell)]
     return bool(filled) and 2 * sum(filled) > len(filled)
 
 
@@ -312,39 +263,6 @@ def _use_first_line(file: str, rows: list[Line]) -> Header:
     return _make_header(names, [], separator, rows[1:], len(names))
 
 
-def strip_comment(line: str) -> str:
-    """Return a line without the marks of a comment at its beginning."""
-    text = line.strip("\r\n ")
-    return text.lstrip("#%/ \t") if is_comment(text) else text
-
-
-def separator_of(header: str, row: str) -> str | None:
-    """Return the separator of the cells of a table; None means blanks."""
-    found = [separator for separator in SEPARATORS if separator in header]
-    for separator in (*(one for one in found if one in row), *found):
-        if separator in row or len(_split_words(header)) != len(row.split()):
-            return separator
-    names = len(_split_words(header))  # the names of the rows may lack one themselves
-    return None if names == len(row.split()) or names == len(row.split()) - 1 > 0 else ";"
-
-
-def cells_of(line: str, separator: str | None) -> list[str]:
-    """Return the cells of a line; where blanks separate them, a unit in brackets belongs to the name before it."""
-    if separator is None:
-        return [cell.strip('"') for cell in _split_words(line)]
-    return next(csv.reader([line], delimiter=separator, skipinitialspace=True), [])
-
-
-def _split_words(line: str) -> list[str]:
-    words: list[str] = []
-    for word in line.split():
-        if words and word[0] in "[(" and split_name(f"{words[-1]} {word}")[1]:
-            words[-1] += f" {word}"
-        else:
-            words.append(word)
-    return words
-
-
 def _split_cells(line: str) -> list[str]:
     """Return the cells of a line with an unknown separator."""
     text = strip_comment(line)
@@ -353,24 +271,5 @@ def _split_cells(line: str) -> list[str]:
 
 def _has_only_values(line: str) -> bool:
     """Return whether a line holds only numbers and time stamps, with any separator."""
-    if all(is_value(cell) for cell in _split_cells(line)):
-        return True
-    return all(is_value(cell) for cell in line.replace(";", " ").replace(",", " ").split())
-
-
-def _is_number(cell: str) -> bool:
-    return not is_missing(cell) and (read_number(cell) is not None or read_number(cell, "comma") is not None)
-
-
-def is_value(cell: str) -> bool:
-    """Return whether a cell is a number, a time stamp, a date or empty."""
-    return is_missing(cell) or _is_filled(cell)
-
-
-def _is_filled(cell: str) -> bool:
-    text = cell.strip()
-    if is_missing(text):
-        return False
-    number, _, unit = text.partition(" ")
-    measured = is_unit(unit) and not unit.startswith(("(", "[")) and _is_number(number)  # `101 (V)` is a name
-    return _is_number(text) or is_stamp(text) or is_date(text) or measured
+    ways = (_split_cells(line), line.replace(";", " ").replace(",", " ").split())
+    return any(all(map(is_value, cells)) and any(map(is_filled, cells)) for cells in ways)

@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 _SECONDS = re.compile(r"(.*?)(s|secs?|seconds?)", re.IGNORECASE)
-_PARTS = {
+PARTS = {
     1e-9: re.compile(r"(.*?)(ns|nsecs?|nanosecs?|nanoseconds?)", re.IGNORECASE),
-    1e-6: re.compile(r"(.*?)(us|usecs?|microsecs?|microseconds?)", re.IGNORECASE),
+    1e-6: re.compile(r"(.*?)(us|µs|usecs?|micros|microsecs?|microseconds?)", re.IGNORECASE),
+    1e-3: re.compile(r"(.*?)(ms|msecs?|millis|milli ?secs?|milli ?seconds?|millisekunden?|ミリ秒|мс)", re.IGNORECASE),
 }
 """Names of the seconds of a stamp, and of the rest of it, with the size of one count in s."""
 _CLOCK = tuple(
@@ -30,7 +31,7 @@ def join_times(columns: Mapping[str, Array]) -> dict[str, Array]:
 def _join_stamps(columns: Mapping[str, Array]) -> dict[str, Array]:
     """Return the sums of a column of whole seconds and one of the nanoseconds or microseconds that belong to it."""
     found: dict[str, Array] = {}
-    for size, pattern in _PARTS.items():
+    for size, pattern in PARTS.items():
         for name, rest in columns.items():
             stem = pattern.fullmatch(name.strip())
             for other, whole in columns.items():

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from lostmotion.arguments import checked, describe, path
 from lostmotion.errors import DataError
 from lostmotion.quantities import si_factor
-from lostmotion.recording.clock import checked_clock, note_other_rate, note_repeated_rows, read_time
+from lostmotion.recording.clock import checked_clock, note_other_rate, note_repeated_rows, note_stated, read_time
 from lostmotion.recording.counts import centre_position, sum_changes
 from lostmotion.recording.folders import digest_recording
 from lostmotion.recording.formats import read_table
@@ -179,9 +179,10 @@ class Recording:
             named = str(index.name or "index")
             columns[named] = index
             time = named if rate is None else None
-        stated = getattr(frame, "attrs", {}).get("units", {})
+        held = getattr(frame, "attrs", {})
+        which = (inputs or {}, sensors)
         layout = RecordingLayout(
-            (inputs or {}, sensors), units or {}, time, rate, noise or {}, hold, name, dict(stated)
+            which, units or {}, time, rate, noise or {}, hold, name, dict(held.get("units", {})), held
         )
         return make_recording(collect_columns(columns, layout), settings)
 
@@ -213,7 +214,9 @@ class Recording:
         stated = {
             str(key): str(value.attrs["units"]) for key, value in decoded.variables.items() if "units" in value.attrs
         }
-        layout = RecordingLayout((inputs or {}, sensors), units or {}, time, None, noise or {}, hold, name, stated)
+        held = {**dataset.attrs, **{str(k): v.values.item() for k, v in decoded.variables.items() if not v.ndim}}
+        which = (inputs or {}, sensors)
+        layout = RecordingLayout(which, units or {}, time, None, noise or {}, hold, name, stated, held)
         return make_recording(collect_columns(columns, layout), settings)
 
     @classmethod
@@ -269,6 +272,7 @@ def recording_of(
     check_length(time.size, source)
     if spec.time:
         clock = checked_clock(time, source, table, spec.time, spec.time_unit, int(np.argmax(inside)))
+        notes = (*notes, *note_stated(table, clock))
     else:
         clock = EvenClock(1.0 / _require_rate(spec), False, (), float(time[0]))
     roles = [("excitation", c) for c in spec.inputs] + [("response", c) for c in spec.sensors]

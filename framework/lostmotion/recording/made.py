@@ -21,6 +21,7 @@ from lostmotion.recording.folders import digest_recording
 from lostmotion.recording.formats import read_table
 from lostmotion.recording.spec import Channel, Hold, RecordingSpec
 from lostmotion.recording.stamps import is_stamp
+from lostmotion.recording.stated_rate import rates_in
 from lostmotion.recording.table import Table
 from lostmotion.recording.units import check_name
 
@@ -56,7 +57,8 @@ COLUMNS: Mapping[str, Rule] = {
 class RecordingLayout:
     """The roles of the columns of a recording: `which` are inputs and sensors, the other fields as in `Recording`.
 
-    `units` are those that the user gives, `stated` those in the attributes of the data; `notes` say what was found.
+    `units` are those that the user gives, `stated` those in the attributes of the data, and `attributes` the others;
+    `notes` say what was found.
     """
 
     which: Which
@@ -67,6 +69,7 @@ class RecordingLayout:
     hold: Hold = "smooth"
     name: str = "recording"
     stated: Mapping[str, str] = field(default_factory=dict)
+    attributes: Mapping[str, object] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
 
 
@@ -82,7 +85,7 @@ class RecordingSource(NamedTuple):
 
 def collect_columns(columns: Mapping[str, Any], layout: RecordingLayout) -> RecordingSource:
     """Return the source of a recording of columns (n,) in memory."""
-    table = table_of_arrays(columns, layout.stated)
+    table = replace(table_of_arrays(columns, layout.stated), rates=rates_in(layout.attributes))
     _check_names(table, layout, layout.name)
     layout = _with_time(table, layout, layout.name)
     content = b"".join(key.encode() + table.column(key, layout.name).tobytes() for key in sorted(_used_columns(layout)))
@@ -124,7 +127,8 @@ def _with_time(table: Table, layout: RecordingLayout, source: str) -> RecordingL
     if layout.time is not None or layout.rate is not None:
         return layout
     found = find_time(table, source, units=layout.units)
-    return replace(layout, time=found.column, notes=(found.says,))
+    rate = None if found.column else 1.0 / found.clock.dt
+    return replace(layout, time=found.column, rate=rate, notes=(found.says,))
 
 
 def _make_source(table: Table, layout: RecordingLayout, name: str, digest: str) -> RecordingSource:

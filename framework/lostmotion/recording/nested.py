@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.recording.arrays import table_of_arrays
+from lostmotion.recording.stated_rate import rates_in
 from lostmotion.recording.table import Table, make_table
 
 KINDS = "fiub"
@@ -17,14 +19,32 @@ TIMES = "mMc"
 """Kinds that are converted, or refused with a reason where they are asked for: durations, dates, complex numbers."""
 
 
-def table_of_nested(content: Mapping[str, object], units: Mapping[str, str] | None = None) -> Table:
-    """Return the table of some arrays; the unit of a two-dimensional array is that of its columns."""
+def table_of_nested(
+    content: Mapping[str, object],
+    units: Mapping[str, str] | None = None,
+    attributes: Mapping[str, object] | None = None,
+) -> Table:
+    """Return the table of some arrays; the unit of a two-dimensional array is that of its columns.
+
+    A sampling rate may be a single number in the content, or one of the attributes.
+    """
     flat = dict(_flatten_all(content))
     columns = {name: array for name, array in flat.items() if array.dtype.kind in KINDS}
     other = table_of_arrays({name: array for name, array in flat.items() if name not in columns}, {})
     columns = {name: array.astype(np.float64) for name, array in columns.items()} | dict(other.columns)
+    told = rates_in(dict(_list_single("", attributes or {})))
+    single = dict(_list_single("", content))
     known = {name: (units or {}).get(name) or (units or {}).get(name.rpartition("[")[0], "") for name in columns}
-    return make_table(columns, known, other.starts, other.refused)
+    return replace(make_table(columns, known, other.starts, other.refused), rates=rates_in(single, "number") | told)
+
+
+def _list_single(name: str, value: Any) -> Iterator[tuple[str, object]]:
+    """Yield the single numbers and texts in a value, with their names."""
+    if isinstance(value, Mapping):
+        for key, item in value.items():
+            yield from _list_single(f"{name}.{key}", item)
+    elif isinstance(value, (str, int, float)) or (np.size(value) == 1 and np.asarray(value).dtype.kind in "fiuU"):
+        yield name, value if isinstance(value, str) else np.asarray(value).reshape(-1)[0].item()
 
 
 def _flatten_all(content: Mapping[str, object]) -> Iterator[tuple[str, NDArray[Any]]]:

@@ -28,7 +28,9 @@ MISSING = {
     "", "nan", "-nan", "na", "n/a", "#n/a", "#na", "#nv", "null", "none", "-", "--", "---", "nan(ind)", "-nan(ind)",
     "1.#qnan", "-1.#ind", "<na>", "nat", "\\n", "#value!", "#div/0!", "#num!", "#ref!", "#wert!", "#zahl!", "#bezug!",
     "#valeur!", "#nombre!", "ovld", "ol", "+ol", "-ol", "overload", "overrange", "over range", "underrange", "over",
-    "under", "invalid", "欠測",
+    "under", "invalid", "欠測", "no data", "nodata", "missing", "burn out", "burnout", "ofl", "n.a.", "k.a.", "--.--",
+    "+over", "-over", "overflow", "underflow", "1.#ind", "error", "err", "bad", "fault", "fail", "open", "s/d", ".",
+    "sensor error", "open circuit", "fehler", "erreur",
 }  # fmt: skip
 """Cells without a reading, in lower case."""
 _GROUPS = "'’ \u00a0\u2009\u202f"
@@ -55,7 +57,7 @@ Place = tuple[int, str]
 def is_missing(cell: str) -> bool:
     """Return whether a cell has no reading; stars stand for a number that did not fit."""
     word = cell.strip().lower()
-    return word in MISSING or (word[:2] == "**" and not word.strip("*"))
+    return word in MISSING or (word[:2] in ("**", "##") and not word.strip("*#"))
 
 
 def read_number(cell: str, mark: Mark = "point") -> float | None:

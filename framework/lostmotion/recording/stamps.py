@@ -47,6 +47,8 @@ _WRITTEN = str.maketrans({"年": "-", "月": "-", "日": " ", "時": ":", "分":
 _SECOND, _DAY = 10**9, 86400 * 10**9
 _Fields = tuple[str | None, str, str, str, str | None, str | None, str | None]
 _NOTHING: _Fields = (None, "0", "0", "0", None, None, None)
+SIMILAR = 1.5
+"""Steps that differ by less than this factor do not decide in which order dates are written."""
 EPOCH = date(1970, 1, 1).toordinal()
 
 
@@ -160,13 +162,26 @@ def _find_days(dates: list[str | None], which: Whole, since: Whole, what: str) -
     """Return the day (since 1970) of each distinct date.
 
     With dots the day is first. Otherwise a number above 12 decides, then the order in which time never decreases and
-    the recording is shortest; else the month is first, which then does not change any difference.
+    its longest step is the shortest; else the month is first, where that changes no difference. `DataError` is raised
+    where two orders are possible and have steps of similar length.
     """
     texts = [text or "" for text in dates]
     found = [days for order in _possible_orders(texts[0]) if (days := _read_dates(texts, order)) is not None]
     if not found:
         raise DataError(f"{what}: {texts[0]!r} is no date in the format of all others: correct the dates")
-    return min(found, key=lambda days: _rank_reading(since + _DAY * (days - days[0])[which]))
+    totals = [since + _DAY * (days - days[0])[which] for days in found]
+    decrease, step = min(map(_rank_reading, totals))
+    (days, total), *others = (pair for pair in zip(found, totals, strict=True) if _rank_reading(pair[1])[0] == decrease
+                              and _rank_reading(pair[1])[1] <= SIMILAR * step)  # fmt: skip
+    for other, another in others:
+        if not np.array_equal(total, another):
+            k = int(np.argmax(total != another))
+            one, two = (date.fromordinal(int(read[which[k]]) + EPOCH).isoformat() for read in (days, other))
+            raise DataError(
+                f"{what}: {texts[which[k]]!r} is {one} or {two}, and {texts[which[0]]!r} allows both: write dates with"
+                " the year first"
+            )
+    return days
 
 
 def _possible_orders(text: str) -> tuple[tuple[int, int, int], ...]:
@@ -202,7 +217,9 @@ def _split_date(text: str) -> list[int]:
 
 
 def _rank_reading(total: Whole) -> tuple[bool, int]:
-    return bool(np.any(np.diff(total) < 0)), int(np.ptp(total))
+    """Return whether times (n,) decrease, and the longest step between them."""
+    steps = np.diff(total)
+    return bool(np.any(steps < 0)), int(steps.max(initial=0))
 
 
 def _format_iso(since: int, day: int | None, offset: str) -> str:

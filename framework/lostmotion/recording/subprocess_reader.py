@@ -26,6 +26,7 @@ REFUSED = 3
 WALL = 600
 """Limit of the elapsed time (s) of the reader."""
 _HEAD = "head"
+_TOLD = ("units", "starts", "refused", "rates")
 _READER = (
     "import sys; from pathlib import Path; from lostmotion.recording.reader_program import main; "
     "sys.exit(main(sys.argv[1], Path(sys.argv[2])))"
@@ -79,7 +80,7 @@ def pack_table(table: Table) -> bytes:
     out = io.BytesIO()
     kept: dict[int, int] = {}  # a column with a second name is written once
     places = [kept.setdefault(id(column), len(kept)) for column in table.columns.values()]
-    told = {"units": dict(table.units), "starts": dict(table.starts), "refused": dict(table.refused)}
+    told = {name: dict(getattr(table, name)) for name in _TOLD}
     head = json.dumps({"columns": list(table.columns), "places": places, "line": table.line, **told})
     held: dict[str, Any] = {f"column_{i}": c for i, c in zip(places, table.columns.values(), strict=True)}
     held[_HEAD] = np.frombuffer(head.encode(), dtype=np.uint8)
@@ -92,4 +93,4 @@ def _unpack_table(raw: bytes) -> Table:
         head = json.loads(archive[_HEAD].tobytes())
         arrays = {place: archive[f"column_{place}"] for place in set(head["places"])}
     columns = {name: arrays[place] for name, place in zip(head["columns"], head["places"], strict=True)}
-    return Table(columns, head["units"], head["starts"], head["refused"], head["line"])
+    return Table(columns, line=head["line"], **{name: head[name] for name in _TOLD})

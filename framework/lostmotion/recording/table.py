@@ -25,7 +25,8 @@ class Table:
     `units` holds the unit of a column, where there is one. A column of time stamps is in seconds from its first stamp,
     and `starts` holds that stamp (ISO date and time, or the time alone where there is no date). `refused` holds the
     reason of each column that cannot be read, which matters only where this column is needed. `line` is the line of the
-    first row in its file, 0 where that is unknown. A column with a unit in its name, `Force [N]`, is also available as
+    first row in its file, 0 where that is unknown; `rates` are sampling rates (Hz) that the file states beside its
+    columns, by the words that say so. A column with a unit in its name, `Force [N]`, is also available as
     `Force`, unless another column has that name: both refer to the same array. Full names come first.
     """
 
@@ -34,6 +35,7 @@ class Table:
     starts: Mapping[str, str] = field(default_factory=dict)
     refused: Mapping[str, str] = field(default_factory=dict)
     line: int = 0
+    rates: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def full_names(self) -> tuple[str, ...]:

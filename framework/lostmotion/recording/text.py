@@ -19,9 +19,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.errors import DataError
-from lostmotion.recording.column_names import MILLISECONDS, has_foreign_name
+from lostmotion.recording.cells import Header, cells_of, is_comment
+from lostmotion.recording.column_names import has_foreign_name
 from lostmotion.recording.footer import drop_footer
-from lostmotion.recording.header import HEAD, Header, cells_of, find_header, is_comment, number_names
+from lostmotion.recording.header import HEAD, find_header, number_names
+from lostmotion.recording.joined import PARTS
 from lostmotion.recording.limits import check_columns, check_line, check_numbers
 from lostmotion.recording.lvm import FIRST, read_lvm
 from lostmotion.recording.numbers import RAW, Mark, NumberColumn, choose_mark, is_missing
@@ -37,6 +39,9 @@ ENCODINGS = ("cp932", "cp1251", "euc_jp", "koi8-r", "cp866", "gbk", "cp949", "bi
 _CONTROL = re.compile(rb"[\x00-\x08\x0b\x0e-\x1f]")
 _BLOCK = 1 << 20
 _UTF_16 = (b"\xff\xfe", b"\xfe\xff")
+_UTF_32 = (b"\xff\xfe\x00\x00", b"\x00\x00\xfe\xff")
+_DOS = re.compile(rb"[\[(/_ ]\xe6[msgNAV][\])\s,;_]|[\[(]\xf8[CF]?[\])]|[sm]\xfd[\])]")
+"""Units with a micro sign, a degree sign or a square in the encodings of DOS."""
 
 
 @dataclass(frozen=True)
@@ -99,28 +104,20 @@ def read_text(path: Path) -> Table:
         if stream.readline().startswith(FIRST):
             return read_lvm(path.name, _check_lines(path.name, stream))
     text = _open_text(path, encoding)
-    found = _read_plain(text)
-    if found is None:
-        return _put_on_grid(_read_cells(text), text.header)
-    return make_table(found, text.header.units, line=text.header.first if text.whole else 0)
-
-
-def _put_on_grid(table: Table, header: Header) -> Table:
-    """Return the table with the times of samples that a column only numbers."""
-    if header.grid is None or header.grid[0] not in table.columns:
-        return table
-    name, start, step = header.grid
-    return replace(table, columns={**table.columns, name: start + step * table.columns[name]})
+    found, line = _read_plain(text), text.header.first if text.whole else 0
+    table = _read_cells(text) if found is None else make_table(found, text.header.units, line=line)
+    return replace(table, rates=text.header.rates)
 
 
 def _encoding(path: Path) -> str:
     """Return the encoding of a text: UTF-16 with a byte order mark, UTF-8 if it is valid, else one of Windows."""
     with path.open("rb") as raw:
         head = raw.read(4096)
-        if head.startswith(_UTF_16):
-            return "utf-16"
-        if 0 in head[1::2] and 0 not in head[::2] and head[1::2].count(0) > len(head) // 4:
-            return "utf-16-le"
+        if head.startswith((*_UTF_32, *_UTF_16)):
+            return "utf-32" if head.startswith(_UTF_32) else "utf-16"
+        for other, zeros, encoding in ((head[::2], head[1::2], "utf-16-le"), (head[1::2], head[::2], "utf-16-be")):
+            if 0 not in other and zeros.count(0) > len(head) // 4:
+                return encoding
         if len(control := _CONTROL.findall(head)) in range(1, len(head) // 100):
             line = head[: head.index(control[0])].count(b"\n") + 1
             raise DataError(
@@ -151,6 +148,8 @@ def _guess_encoding(head: bytes) -> str:
         with suppress(UnicodeDecodeError):
             if has_foreign_name(lines.decode(encoding)):
                 return encoding
+    if _DOS.search(head):
+        return "cp850"
     if re.search(rb"[\x81-\x84\x88-\x9f][\x40-\xfc]", head):
         with suppress(UnicodeDecodeError):
             head[: head.rfind(b"\n") + 1].decode("cp932")
@@ -166,7 +165,7 @@ def _open_text(path: Path, encoding: str) -> _Text:
         lines, whole, mark, broken = _scan_lines(below, header.separator)
     check_columns(len(header.names), path.name)
     check_numbers(lines * len(header.names), path.name)
-    if header.stamped or header.grid or "" in header.names or _find_twice(header.names):
+    if header.stamped or header.finish or "" in header.names or _find_twice(header.names):
         mark = None
     return _Text(path, encoding, header, lines, whole, mark, header.first + broken if broken else 0)
 
@@ -263,7 +262,7 @@ def _collect(text: _Text, columns: list[NumberColumn | _StampColumn], units: dic
             try:
                 found[one.name], starts[one.name] = one.finish(file)
             except DataError as err:
-                refused[one.name] = str(err)
+                refused[one.name], starts[one.name] = str(err), ""
             continue
         own = mark or (next(iter(one.proof)) if len(one.proof) == 1 else None)
         if why := one.refusal(own, units[one.name] or name_and_unit(one.name)[1]):
@@ -271,24 +270,29 @@ def _collect(text: _Text, columns: list[NumberColumn | _StampColumn], units: dic
         else:
             found[one.name] = one.finish(own or "point")
             units[one.name] = units[one.name] or next(iter(one.units), "")
-    _add_milliseconds(found, starts)
+    _add_fractions(found, starts)
+    if text.header.finish:
+        text.header.finish(found, units, refused)
     if refused and not found:
         raise DataError(next(iter(refused.values())))
     return make_table(found, units, starts, refused, line)
 
 
-def _add_milliseconds(found: dict[str, Array], starts: dict[str, str]) -> None:
-    """Add a column of milliseconds (0 to 999) to the only column of time stamps, which has whole seconds."""
-    parts = [name for name in found if MILLISECONDS.fullmatch(name.strip()) and name not in starts]
+def _add_fractions(found: dict[str, Array], starts: dict[str, str]) -> None:
+    """Add a column of the parts of a second, such as milliseconds, to the only column of time stamps if it has none."""
+    named = ((size, name, form.fullmatch(name.strip())) for size, form in PARTS.items() for name in found)
+    parts = [(size, name) for size, name, word in named if word and not word[1] and name not in starts]
     if len(parts) != 1 or len(starts) != 1:
         return
-    ((stamped, first),), milli = starts.items(), found[parts[0]]
-    whole = found[stamped]
-    if not (np.all((milli >= 0.0) & (milli < 1000.0)) and np.array_equal(whole, np.rint(whole)) and "." not in first):
+    ((stamped, first),), ((size, name),) = starts.items(), parts
+    if stamped not in found:  # its dates have two readings
         return
-    found[stamped] = whole + (milli - milli[0]) / 1e3
-    starts[stamped] = f"{first}.{int(milli[0]):03d}"
-    del found[parts[0]]
+    whole, rest = found[stamped], found[name]
+    if not (np.all((rest >= 0.0) & (rest * size < 1.0)) and np.array_equal(whole, np.rint(whole)) and "." not in first):
+        return
+    found[stamped] = whole + (rest - rest[0]) * size
+    starts[stamped] = f"{first}.{rest[0] * size:.9f}".replace(".0.", ".").rstrip("0").ljust(len(first) + 4, "0")
+    del found[name]
 
 
 def _add_rows(text: _Text, columns: Sequence[NumberColumn | _StampColumn | None], block: list[tuple[int, str]]) -> None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,9 +33,7 @@ _PLAIN = {
     "gf", "g_0", "g_n", "gn", "g0", "count", "counts", "digit", "digits", "LSB", "dB", "ppm", "arcmin", "arcsec", "gon",
     "pound", "pounds", "pound_force", "force_pound", "thou", "micron", "angstrom", "grad", "klbf", "dyne", "d", "day",
     "days", "U", "Umdr", "r", "rps", "dps", "gee", "Nmm", "Ncm", "mils",
-    "Grad", "Newton", "Newtons", "Millimeter", "Millimeters", "Millimetre", "Millimetres", "Meter", "Meters", "Sekunde",
-    "Sekunden", "Second", "Seconds", "Volt", "Volts", "Amp", "Amps", "Ampere", "Degrees", "Degree", "Radians", "RPM",
-    "Sec", "SEC", "Secs",
+    "Grad", "Sekunde", "Sekunden", "RPM", "Sec", "SEC", "Secs",
 }  # fmt: skip
 _ATOMS = (
     _PLAIN
@@ -47,19 +46,27 @@ _GROUPS = re.compile(r"\[([^\[\]]+)\]|\{([^{}]+)\}|<([^<>]+)>|\(((?:[^()]|\([^()
 """A part of a name in brackets."""
 _LISTED = re.compile(r"(.*?\S)(?:\s*[,;]\s*|\s+in\s+|\s+[-\u2013]\s+)([^,(\[]+?)\s*(?:\(.*\)|\[.*\])?")
 """A name, a unit behind a comma, a dash or `in`, and perhaps a remark in brackets, as loggers of HOBO write it."""
-_CAMEL = re.compile(r"(.*[a-z])((?:[A-Z][a-z]*|MS|US|NS|RPM)(?:Per[A-Z][a-z]*2?)?)")
-"""A name with a unit that begins with a capital letter, `positionMm`."""
+_CAMEL = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])|\d+")
+"""The words of a name whose words begin with a capital letter, `positionMm`."""
+_SCALED = re.compile(r"(?:[\[(]|[_ (\[](?:x|times|div|by|in)|[*×/]) ?(?:10+|0[.,]0*1|1e-?\d+|10\^-?\d+)(?![\d.])", re.I)
+"""A factor beside a unit."""
 _CAPITALS = {
     "M": "m", "MM": "mm", "CM": "cm", "UM": "um", "IN": "in", "INCH": "inch", "FT": "ft", "S": "s", "SEC": "s",
     "MS": "ms", "US": "us", "MIN": "min", "KN": "kN", "LBF": "lbf", "KGF": "kgf", "DEG": "deg", "RAD": "rad", "G": "g",
     "NM": "Nm", "MV": "mV", "MA": "mA", "HZ": "Hz", "MILS": "mils", "SECONDS": "s", "KIP": "kip", "LBS": "lbs",
 }  # fmt: skip
 """Units in names that consist of capital letters."""
+_FORCES = {"lb": "lbf", "lbs": "lbf", "kn": "kN"}
+"""Words that are a unit of force in the name of a force."""
 _RATES = re.compile(r"(u?m|mm|cm|in|ft|m?rad|deg|rev)(?:_?p|_?per_?)s(?:ec(?:ond)?)?_?(2?)")
 _SHORT_RATES = re.compile(r"(m|mm|rad|deg)_?s(_?2)?")
 _DOUBTFUL = {"in", "rev", "turn", "turns", "count", "counts", "mil", "foot", "digit", "digits", "cm", "pm", "nm", "dm",
-             "cd", "dN", "mg", "kg", "ft", "gon"}  # fmt: skip
+             "cd", "dN", "mg", "kg", "ft", "gon", "kp"}  # fmt: skip
 """Words that may be a unit, or a part of a name."""
+_ENDING = {"in", "rev", "turn", "turns", "count", "counts", "mil", "foot", "digit", "digits", "pm", "cd", "dN", "r",
+           "U", "grad", "gon", "kp", "min", "h", "d"}  # fmt: skip
+"""Units that are read at the end of a name only: elsewhere they are other words."""
+_ANGLES = re.compile(r"angle|theta|phi|winkel|^d*q", re.IGNORECASE)
 _OTHER = {"mV", "uV", "kV", "mA", "uA", "kA", "Hz", "kHz", "degC", "bar", "kPa", "MPa", "Pa", "psi", "counts"}
 _NONE = re.compile(r"(?!)")
 RAW = frozenset(("V", "mV", "uV", "µV", "kV", "A", "mA", "uA", "kA", "%", "counts", "count", "digits", "digit", "LSB"))
@@ -70,18 +77,21 @@ _ELECTRICAL = {
 }
 _WRAPPED = re.compile(r"\[(.*)\]|\((.*)\)|\{(.*)\}|<(.*)>")
 _UNIT_WORD = re.compile(r"(?:units?|einheit(?:en)?)\s*[:=]\s*", re.IGNORECASE)
+LONG = 100
+"""A longer name has its unit in brackets."""
 LONGEST = 40
 """The greatest number of characters of a unit in a header."""
 EMPTY = {"", "-", "--", "1"}
 """Cells of a line of units that mean: no unit."""
 
-PER_SECOND = {"s": 1.0, "ms": 1e3, "us": 1e6, "ns": 1e9}
+PER_SECOND = {"s": 1.0, "ms": 1e3, "us": 1e6, "100ns": 1e7, "ns": 1e9}
 SECONDS = {"min": 60.0, "h": 3600.0, "d": 86400.0}
 _ALIASES = {
     "s": ("s", "sec", "secs", "second", "seconds", "Second", "Seconds", "Sec", "SEC", "Secs"),
     "ms": ("ms", "msec", "millisecond", "milliseconds", "millis"),
     "us": ("us", "µs", "μs", "usec", "microsecond", "microseconds", "micros"),
     "ns": ("ns", "nsec", "nanosecond", "nanoseconds"),
+    "100ns": ("100ns", "100 ns"),
     "min": ("min", "minute", "minutes"),
     "h": ("h", "hr", "hrs", "hour", "hours"),
     "d": ("d", "day", "days"),
@@ -116,12 +126,16 @@ def split_name(name: str) -> tuple[str, str]:
 
 
 def strange_unit(name: str) -> str:
-    """Return the word in square, curly or pointed brackets at the end of a name if it is no known unit; else ""."""
+    """Return the word in brackets at the end of a name if it is no known unit, or a factor beside a unit; else "".
+
+    In round brackets are often remarks: they count where a part of them is a unit.
+    """
     *_, last = (None, *_GROUPS.finditer(name))
-    if last is None or last[4] or name[last.end() :].strip() or split_name(name)[1]:
-        return ""
+    if last is None or name[last.end() :].strip() or split_name(name)[1]:
+        return scale_in(name)
     word = next(filter(None, last.groups())).strip()
-    return "" if word.isdigit() or word in EMPTY else word
+    remark = last[4] and not any(len(part) > 1 and is_unit(part) for part in re.split(r"[\W\d_]+", word))
+    return scale_in(name) if remark or word.isdigit() or word in EMPTY else word
 
 
 def _unit_in_name(head: str, word: str) -> str:
@@ -136,39 +150,55 @@ def _unit_in_name(head: str, word: str) -> str:
         word = spelt if is_unit(spelt) else word
     if kind == "force" and (torque := re.fullmatch(r"([mk]?)nm", word)):
         return f"{torque[1]}Nm"
-    if kind == "force" and word in ("lb", "lbs"):
-        return "lbf"
+    if kind == "force" and word in _FORCES:
+        return _FORCES[word]
+    if word not in _ATOMS and (plain := word.lower().rstrip(".")) in _ATOMS and len(plain) > 2:
+        return plain
     return "g" if word == "G" and kind == "acceleration" else word if is_unit(word) else ""
 
 
+@lru_cache(maxsize=4096)
 def name_and_unit(name: str) -> tuple[str, str]:
     """Return the name of a column without its unit, and that unit, which may be empty.
 
-    The unit is in brackets, `Force [N]`, behind a comma, `Force, N`, or at the end, `force_N`, `Time/ms`, `v_mm_per_s`,
-    `positionMm`. At the end, a single letter is a unit only of the quantity that the name says: `force_N`, but not
-    `sensor_A`; and so is a word that may have another sense, as in `force_min`. A name may also be a unit of time only.
+    The unit is in brackets, `Force [N]`, behind a comma, `Force, N`, at the end, `force_N`, `Time/ms`, `v_mm_per_s`,
+    `positionMm`, or within the name, `mm_pos`, `angle_deg_filtered`. A single letter is a unit only of the quantity
+    that the name says: `force_N`, but not `sensor_A`; and so is a word that may have another sense, as in `force_min`,
+    and each unit that is not at the end. A name may also be a unit only.
     """
     bare, unit = split_name(name)
-    if unit:
+    if unit or scale_in(name) or len(name) > LONG:
         return bare, unit
-    pieces = re.split(r"([_/ .:@])", name)
-    for count in (7, 5, 3, 1):  # pieces of the unit, with the separators between them
-        head, tail = "".join(pieces[: -count - 1]), pieces[-count:]
-        if len(pieces) > count + 1 and head and (word := _unit_at_end(head, tail)) and _fits(head, word):
-            return head, word
-    if (camel := _CAMEL.fullmatch(name)) and (word := _unit_at_end(camel[1], [_lower_first(camel[2])])):
-        return (camel[1], word) if _fits(camel[1], word) else (name, "")
-    alone = TIME_UNITS.get(name.strip().rstrip("()")) if name.strip() not in ("d", "h", "min") else None
-    return name, alone or ""
+    words = [word for word in _CAMEL.findall(name) if word]
+    camel = "_".join(map(_lower_first, words)) if len(words) > 1 and "".join(words) == name else name
+    plain = re.sub(r"\s*\([^()]*\)$", "", name)
+    for text in dict.fromkeys((name, camel, plain, re.sub(r"-(?=[^\W\d])|(?=°$)", "_", plain))):
+        pieces = re.split(r"([_/ .:@])", text)
+        for last in range(len(pieces), 0, -2):
+            for first in range(max(last - 7, 0), last, 2):  # pieces of the unit, with their separators
+                rest = "".join((*pieces[: max(first - 1, 0)], *pieces[last + (first == 0) :]))
+                word = _unit_at_end(rest, pieces[first:last])
+                if rest and word and _fits(rest, word, (first > 0) + (first > 0 and last == len(pieces))):
+                    return rest, word
+    alone = name.strip().rstrip("()")
+    if len(alone) > 1 and alone not in _ENDING | _DOUBTFUL and (alone in _ATOMS or "/" in alone) and kinds_of(alone):
+        return name, alone
+    return name, TIME_UNITS.get(alone, "") if alone not in ("d", "h", "min") else ""
+
+
+def scale_in(name: str) -> str:
+    """Return the factor beside a unit in the name of a column, `x10` in `pos_mm_x10`; "" where there is none."""
+    found = _SCALED.search(name)
+    return found[0].strip("_ ([") if found else ""
 
 
 def _lower_first(word: str) -> str:
     """Return a word of capitals, or with a capital at its beginning, in lower case; N stays as it is."""
-    return word.lower().replace("per", "_per_") if word != "N" else word
+    return word.lower() if word != "N" else word
 
 
 def _unit_at_end(head: str, tail: Sequence[str]) -> str:
-    """Return the unit in the last pieces of a name: `m_per_s2`, `m_s2` and `mps2` become `m/s^2`; "" where none is."""
+    """Return the unit in some pieces of a name: `m_per_s2`, `m_s2` and `mps2` become `m/s^2`; "" where none is."""
     text, kind = "".join(tail), kind_named(head)
     rate = _RATES.fullmatch(text)
     if rate is None and kind in ("velocity", "acceleration"):
@@ -179,17 +209,21 @@ def _unit_at_end(head: str, tail: Sequence[str]) -> str:
     return _unit_in_name(head, "/".join(word for word in tail[::2] if word and word != "per"))
 
 
-def _fits(head: str, unit: str) -> bool:
-    """Return whether a word at the end of a name is the unit of what the rest of the name says."""
+def _fits(rest: str, unit: str, place: int) -> bool:
+    """Return whether a word of a name is the unit of what the rest says; its place: first, within or last (0 to 2)."""
+    if place < 2 and (unit in _ENDING or (place == 0 and unit == "rad")):
+        return False
     if unit in TIME_UNITS:
-        return names_time(head)
-    kinds = kinds_of(unit)
-    if len(unit) > 1 and unit not in _DOUBTFUL:
-        return bool(kinds) or unit in _OTHER
-    called = kind_named(head)
-    return called in kinds if kinds else _ELECTRICAL.get(unit, _NONE).search(head) is not None
+        return names_time(rest)
+    if unit == "m" and _ANGLES.search(rest):  # `theta_m`, the angle of a motor
+        return False
+    kinds, called = kinds_of(unit), kind_named(rest)
+    if len(unit) > 1 and unit not in _DOUBTFUL and (place == 2 or not called):
+        return bool(kinds) or (place == 2 and unit in _OTHER)
+    return called in kinds if kinds else _ELECTRICAL.get(unit, _NONE).search(rest) is not None
 
 
+@lru_cache(maxsize=4096)
 def kinds_of(unit: str) -> tuple[str, ...]:
     """Return the quantities of `KINDS` that a unit measures; none for volts, or for an empty text."""
     return tuple(kind for kind in KINDS if unit and _measures(unit, kind))
@@ -245,6 +279,8 @@ def seconds(values: Array, unit: str, source: str) -> Array:
         raise DataError(f"{source}: time in {unit[:LONGEST]!r} is not understood: expected s, ms, us, ns, min, h or d")
     if known == "s":
         return values
+    if known == "100ns":  # dates as large as these are resolved to some us only
+        return (values - values[:1]) / PER_SECOND[known]
     return values / PER_SECOND[known] if known in PER_SECOND else values * SECONDS[known]
 
 

@@ -25,6 +25,8 @@ QUIET, MOSTLY = 0.05, 0.9
 """An input is impulsive when more than the second share of its samples is below the first share of its peak."""
 SEGMENTS, HEARD = 16, 1e-3
 """Segments over which the power is averaged; frequencies from this share of the strongest power on are counted."""
+BACKWARD = "on average power flows from the machine to its drive"
+"""The first words of the note on a wrong sign."""
 _POWERS = {("force", "position"): 1, ("force", "velocity"): 0, ("force", "acceleration"): -1}
 _ANGLE = {"deg": re.compile(r"deg|°"), "rad": re.compile(r"rad")}
 
@@ -164,7 +166,7 @@ def note_power(
     share, errors = mean_power(fill_lost(force.values), fill_lost(motion.values), dt, order)
     if share < -limits.returned and errors < -limits.returned_errors:
         yield (
-            f"on average power flows from the machine to its drive ({-share:.2g} of force times speed): one of the "
+            f"{BACKWARD} ({-share:.2g} of force times speed): one of the "
             f"signs is wrong (factor = -1.0), or {excitation.column!r} and {response.column!r} are swapped, or one of "
             "them is late"
         )

@@ -58,6 +58,8 @@ Choice = tuple[int, ...]
 """The option of each smooth force, -1 where it is absent; then that of `LOOSER`."""
 LOOSER = (1.0, 3.0)
 """Values of the model are known within its tolerance, or all of them less well by this factor."""
+WORSE = math.log(20.0)
+"""The log prior odds against values that are known less well than the tolerance says."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,8 +92,9 @@ class Discrepancy:
         return found
 
     def price(self, choice: Choice) -> float:
-        """Return the log penalty of a choice: each force that is present has one of its options."""
-        return sum(math.log(len(f.options)) for f, option in zip(self.forces, choice[:-1], strict=True) if option >= 0)
+        """Return the log penalty of a choice: each force that is present has one of its options, and `WORSE`."""
+        options = [len(f.options) for f, option in zip(self.forces, choice[:-1], strict=True) if option >= 0]
+        return sum(map(math.log, options)) + (WORSE if choice[-1] else 0.0)
 
     def force(self, coefficients: Array) -> Array:
         """Return the force (samples, n) of coefficients."""

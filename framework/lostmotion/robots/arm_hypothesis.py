@@ -208,7 +208,7 @@ def fit_hypothesis(frame: ArmFrame, start: Array, price: float, choice: Choice |
         if not (again and frame.discrepancy.inertias):
             break
         frame = frame.follow(at)
-    used, precision = _find_precision(frame, seen, chosen)
+    used, precision = find_precision(frame, seen, chosen)
     target = float(seen.here.log_likelihood) + frame.log_prior(at, chosen) - frame.discrepancy.price(chosen)
     sign, size = np.linalg.slogdet(precision)
     if sign <= 0 or not math.isfinite(target):
@@ -230,7 +230,7 @@ def _climb(frame: ArmFrame, at: Array, chosen: Choice) -> tuple[Array, Choice, E
             return None
         chosen = _choose_forces(frame, seen, chosen)
         at = np.where(np.concatenate([np.ones(own, bool), frame.discrepancy.widths(chosen) > 0.0]), at, 0.0)
-        used, precision = _find_precision(frame, seen, chosen)
+        used, precision = find_precision(frame, seen, chosen)
         there, gain, damping = _step(frame, (seen, chosen), at, (used, precision), damping)
         if gain < CLOSE:
             break
@@ -279,7 +279,7 @@ def _choose_forces(frame: ArmFrame, seen: Expansion, choice: Choice) -> Choice:
     return frame.discrepancy.choose(gradient, information, choice)
 
 
-def _find_precision(frame: ArmFrame, seen: Expansion, choice: Choice) -> tuple[NDArray[np.intp], Array]:
+def find_precision(frame: ArmFrame, seen: Expansion, choice: Choice) -> tuple[NDArray[np.intp], Array]:
     """Return the indices of the coordinates in use, and the precision of their posterior."""
     weights = frame.weigh(choice)
     used = np.flatnonzero(np.isfinite(weights))

@@ -15,7 +15,7 @@ from lostmotion.kernels.threads import each
 from lostmotion.parts import Array
 from lostmotion.robots.arm_discrepancy import Discrepancy
 from lostmotion.robots.arm_effects import ArmEffect
-from lostmotion.robots.arm_hypothesis import ArmFrame, ArmHypothesis, fit_hypothesis, score_heldout
+from lostmotion.robots.arm_hypothesis import ArmFrame, ArmHypothesis, find_precision, fit_hypothesis, score_heldout
 from lostmotion.robots.promises import Group, Screen, list_gear_promises, list_groups, list_promises
 
 Say = Callable[[str], None]
@@ -122,16 +122,18 @@ class ArmSearch:
             self._keep(made)
 
     def _make_small(self, target: ArmHypothesis) -> ArmHypothesis | None:
-        """Return the hypothesis with a small random force, at which slopes of effects that look like noise show."""
+        """Return the hypothesis with a small random force, and values of the model known within the tolerance.
+
+        There slopes show of effects that look like noise, or that less well known values would take.
+        """
         at = target.at.copy()
         at[: len(self.frame.arm.joints)] += math.log(SMALL)
         seen, kept = target.frame.expand(at)
         if not math.isfinite(float(kept.seen.log_likelihood)):
             return None
-        precision = seen.information[np.ix_(target.used, target.used)] + np.diag(
-            target.frame.weigh(target.choice)[target.used]
-        )
-        return replace(target, at=at, expansion=seen, kept=kept, precision=precision)
+        choice = (*target.choice[:-1], 0)
+        used, precision = find_precision(target.frame, seen, choice)
+        return replace(target, at=at, choice=choice, expansion=seen, kept=kept, used=used, precision=precision)
 
     def _fit_beside(self, target: ArmHypothesis, group: Group, shifts: tuple[float, ...]) -> ArmHypothesis | None:
         """Return the fitted set with further effects, in place of simpler ones that they contain."""

@@ -148,7 +148,7 @@ def _draw_machine(
     draw: Callable[[], BlindMachine],
     fill: Callable[[Pilot], Filled],
 ) -> tuple[BlindMachine, Filled]:
-    """Return a machine that can have all of these mechanisms and moves, with effects, motion and imperfections."""
+    """Return a machine that moves with all of these mechanisms, with its effects, its motion and its imperfections."""
     for _ in range(TRIES):
         rig = draw()
         if not all(TABLE[name].fits(rig) if name in TABLE else rig.model in SPRUNG for name in names):

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from lostmotion.errors import DataError
+from lostmotion.recording.cells import is_filled
 from lostmotion.recording.table import Table
 from lostmotion.recording.text import read_text
 
@@ -19,7 +20,10 @@ def read_sheet(path: Path) -> Table:
 
     book = calamine.CalamineWorkbook.from_path(str(path))
     sheets = {name: book.get_sheet_by_name(name).to_python(skip_empty_area=False) for name in book.sheet_names}
-    filled = {name: rows for name, rows in sheets.items() if any(_is_number(cell) for row in rows for cell in row)}
+    for holds in (_is_number, lambda cell: isinstance(cell, str) and is_filled(cell)):  # numbers, or texts of numbers
+        filled = {name: rows for name, rows in sheets.items() if any(holds(cell) for row in rows for cell in row)}
+        if filled:
+            break
     if len(filled) > 1:
         raise DataError(
             f"{path.name} has {len(filled)} sheets with numbers ({', '.join(filled)}): save the one with the recording"

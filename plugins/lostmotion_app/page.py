@@ -1,0 +1,107 @@
+"""One page: its screens as tabs, and what it works on, which stands in its address so that a reload finds it again."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Mapping
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import panel as pn
+
+from lostmotion.registry import Registry
+from lostmotion_app.desk import Desk
+from lostmotion_app.folder import WorkFolder
+from lostmotion_app.parts import STYLE, make_html, run_next
+from lostmotion_app.policy import POLICY
+from lostmotion_app.screens import PageScreen
+
+SCREENS: Mapping[str, str] = {
+    "Data": "data:DataScreen",
+    "Model": "model:ModelScreen",
+    "Check": "check:CheckScreen",
+    "Run": "run:RunScreen",
+    "Results": "results:ResultsScreen",
+    "Take away": "take_away:TakeAwayScreen",
+    "Analyse": "analyse:AnalyseScreen",
+}
+"""The screens by their titles; each is imported when it is opened, so that the first one is there soon."""
+BEGINNING = 50
+"""Milliseconds after which the first screen is filled: the browser is connected then."""
+_TEMPLATE = (Path(__file__).parent / "page.html.j2").read_text(encoding="utf-8")
+
+
+class Page:
+    """The screens of one page, of which one is seen."""
+
+    def __init__(self, desk: Desk) -> None:
+        self.desk, self.screens = desk, dict[str, PageScreen]()
+        self.head = make_html()
+        self.tabs = pn.Tabs(
+            *((title, pn.Column(sizing_mode="stretch_width")) for title in SCREENS),
+            sizing_mode="stretch_width",
+        )
+        titles, wanted = list(SCREENS), read_query("screen")
+        self.tabs.active = titles.index(wanted) if wanted in titles else 0
+        self._fill()
+        desk.changed = self.tell
+        self.tabs.param.watch(lambda _: self._open(), "active")
+
+    @property
+    def title(self) -> str:
+        """The title of the screen that is open."""
+        return list(SCREENS)[int(self.tabs.active)]
+
+    @property
+    def view(self) -> Any:
+        """The head of the page above its screens."""
+        return pn.Column(self.head, self.tabs, sizing_mode="stretch_width")
+
+    def begin(self) -> None:
+        """Show the state of the first screen, as soon as the page is there."""
+        self.screens[self.title].show()
+        self._write_head()
+
+    def tell(self) -> None:
+        """Show what has changed."""
+        self._write_head()
+
+    def _open(self) -> None:
+        """Show the screen that was chosen; Bokeh knows its models before they change."""
+        self._fill()
+        run_next(self.begin)
+
+    def _fill(self) -> None:
+        """Make the screen that was chosen, if it was not open before."""
+        if self.title not in self.screens:
+            module, _, name = SCREENS[self.title].partition(":")
+            made: PageScreen = getattr(import_module(f"lostmotion_app.screens.{module}"), name)(self.desk)
+            self.screens[self.title] = made
+            self.tabs[self.tabs.active][:] = [made.make_view()]
+
+    def _write_head(self) -> None:
+        desk, address = self.desk, pn.state.location
+        where = " · ".join(filter(None, (str(desk.folder.root), desk.recording)))
+        self.head.object = f'<div class="lm-head"><b>lostmotion</b><span>{html.escape(where)}</span></div>'
+        if address is not None:
+            address.update_query(screen=self.title, recording=desk.recording)
+
+
+def make_page(folder: WorkFolder, registry: Registry, plugins: tuple[str, ...]) -> Any:
+    """Return the page of a folder for one browser."""
+    pn.config.theme = "dark" if read_query("theme") == "dark" else "default"
+    page = Page(Desk(folder, registry, plugins, read_query("recording")))
+    made = pn.Template(_TEMPLATE)
+    made.add_variable("policy", POLICY)
+    made.add_variable("app_favicon", "data:,")
+    made.add_variable("style", STYLE.replace(":host, :root", ":root"))
+    made.add_panel("page", page.view)
+    pn.state.onload(lambda: pn.state.add_periodic_callback(page.begin, period=BEGINNING, count=1))
+    return made
+
+
+def read_query(key: str) -> str:
+    """Return a value in the address of this page, empty where it has none."""
+    values = pn.state.session_args.get(key) or [b""]
+    return str(values[0].decode("utf-8", "replace"))

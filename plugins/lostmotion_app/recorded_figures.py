@@ -1,0 +1,114 @@
+"""The figures of a recording: every column over time, a spectrum, and a phase plane."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import panel as pn
+from bokeh.models import ColumnDataSource
+from scipy.signal import savgol_filter
+
+from lostmotion.errors import DataError
+from lostmotion.recording.clock import find_time
+from lostmotion.recording.table import Table
+from lostmotion.recording.value_checks import fill_lost
+from lostmotion.report import style
+from lostmotion.signals import spectrum
+from lostmotion_app.curves import Array, CurvePanels, abreast, colour_of, make_figure, thin
+
+UNITS = (
+    "N", "kN", "mN", "N m", "mN m", "N cm", "lbf", "kgf", "m", "mm", "um", "cm", "inch", "rad", "mrad", "deg", "turn",
+    "m/s", "mm/s", "rad/s", "deg/s", "rpm", "m/s^2", "g", "mm/s^2", "rad/s^2", "deg/s^2", "V", "mV", "A", "mA",
+)  # fmt: skip
+"""The units that the page offers; any other that `init` knows may be typed."""
+MOST_COLUMNS = 12
+"""The number of columns that are drawn."""
+POINTS = 6000
+"""The number of points of a phase plane."""
+SMOOTHED = 9
+"""The number of samples over which a rate of change is fitted."""
+
+
+class RecordedFigures:
+    """The figures of one table."""
+
+    def __init__(self) -> None:
+        self.view = pn.Column(sizing_mode="stretch_width", margin=0)
+        self.time, self.columns, self.span = np.zeros(0), dict[str, Array](), (0.0, 1.0)
+        self.curves = CurvePanels("time (s)")
+        self.units: dict[str, str] = {}
+        self.boxes: list[tuple[Any, Any, Any]] = []
+        self.spectrum = make_figure(
+            "frequency (Hz)", "power spectral density", height=260, x_axis_type="log", y_axis_type="log",
+            tools="pan,wheel_zoom,box_zoom,reset,save",
+        )  # fmt: skip
+        self.phase = make_figure("", "", height=260, tools="pan,wheel_zoom,box_zoom,reset,save")
+        self.lines = (ColumnDataSource({"x": [], "y": []}), ColumnDataSource({"x": [], "y": []}))
+        self.spectrum.line("x", "y", source=self.lines[0], color=colour_of(style.AFTER))
+        self.phase.scatter("x", "y", source=self.lines[1], color=colour_of(style.AFTER), size=2, alpha=0.5)
+        self.column = pn.widgets.Select(name="Spectrum and phase plane of", width=260)
+        self.column.param.watch(lambda _: self._show_column(), "value")
+
+    def show_table(self, table: Table, source: str) -> None:
+        """Draw the columns of a table over its time, or over the number of the row where it has no time."""
+        self.time, label = find_axis(table, source)
+        columns = {name: table.columns[name] for name in table.full_names}
+        whole = {name: one for name, one in columns.items() if one.size == self.time.size and one is not self.time}
+        self.columns = dict(list(whole.items())[:MOST_COLUMNS])
+        self.units, self.span = dict(table.units), (float(self.time[0]), float(self.time[-1]))
+        self.curves, self.boxes = CurvePanels(label), []
+        for name, values in self.columns.items():
+            panel = self.curves.add_panel(label_of(name, self.units.get(name, "")))
+            self.curves.add_curve(panel, self.time, values, colour=style.RECORDED)
+        self.curves.fit_range(*self.span)
+        outer = self.curves.shade(*self.span), self.curves.shade(*self.span), self.curves.shade(*self.span)
+        self.boxes = list(zip(*outer, strict=True))
+        names = list(self.columns)
+        self.column.options, self.column.value = names, names[-1] if names else None
+        self._show_column()
+        self.view[:] = [
+            *(pn.pane.Bokeh(panel, sizing_mode="stretch_width", margin=(0, 2)) for panel in self.curves.panels),
+            self.column,
+            abreast(self.spectrum, self.phase),
+        ]  # fmt: skip
+
+    def mark(self, start: float, end: float, hold: float) -> None:
+        """Shade what is not used, and what is held out."""
+        held = end - hold * (end - start)
+        for before, kept, after in self.boxes:
+            before.update(left=self.span[0], right=start, fill_color="#7f7f7f", fill_alpha=0.35)
+            kept.update(left=held, right=end, fill_color=style.AFTER, fill_alpha=0.10)
+            after.update(left=end, right=self.span[1], fill_color="#7f7f7f", fill_alpha=0.35)
+
+    def _show_column(self) -> None:
+        """Draw spectrum and phase plane of the chosen column."""
+        values = self.columns.get(self.column.value or "")
+        if values is None or np.count_nonzero(np.isfinite(values)) < 3 * SMOOTHED:
+            for one in self.lines:
+                one.data = {"x": [], "y": []}
+            return
+        even, dt = fill_lost(values), float(np.median(np.diff(self.time)))
+        found = spectrum(even, dt, segments=8)
+        at, density = thin(found.frequency[1:], found.density[1:], 0.0, np.inf)
+        self.lines[0].data = {"x": at, "y": np.maximum(density, np.finfo(float).tiny)}
+        step = max(1, even.size // POINTS)
+        rate = savgol_filter(even, SMOOTHED, 2, deriv=1, delta=dt)
+        self.lines[1].data = {"x": even[::step], "y": rate[::step]}
+        unit = self.units.get(self.column.value, "")
+        self.phase.xaxis.axis_label = label_of(self.column.value, unit)
+        self.phase.yaxis.axis_label = label_of("rate of change", f"{unit}/s" if unit else "")
+
+
+def label_of(name: str, unit: str) -> str:
+    """Return the label of an axis, with its unit if the name has none."""
+    return name if not unit or unit in name else f"{name} ({unit})"
+
+
+def find_axis(table: Table, source: str) -> tuple[Array, str]:
+    """Return the time (n,) of a table in s, or the number of the row where it has none, and the label of the axis."""
+    try:
+        return find_time(table, source).time, "time (s)"
+    except DataError:
+        longest = max(table.columns[name].size for name in table.full_names)
+        return np.arange(longest, dtype=float), "row"

@@ -1,0 +1,239 @@
+"""The first screen: a recording of the folder, the table as it was read, roles and units of its columns, figures."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import panel as pn
+
+from lostmotion.recording.formats import read_table
+from lostmotion.recording.outline import GivenRoles
+from lostmotion.recording.table import Table
+from lostmotion_app import recorded_figures
+from lostmotion_app.desk import Desk
+from lostmotion_app.folder import MOST_UPLOADED
+from lostmotion_app.parts import (
+    NumberField,
+    beside,
+    make_html,
+    run_next,
+    write_command,
+    write_heading,
+    write_lines,
+    write_list,
+    write_note,
+)  # fmt: skip
+from lostmotion_app.screens import PageScreen
+
+AUTOMATIC, NONE = "(automatic)", "none"
+
+
+class DataScreen(PageScreen):
+    """Choose a recording, see what was read, assign columns, mark the stretch to use."""
+
+    title = "Data"
+
+    def __init__(self, desk: Desk) -> None:
+        super().__init__(desk)
+        self.shown = ("", 0.0)
+        self.file = pn.widgets.Select(name="Recording", sizing_mode="stretch_width")
+        self.upload = pn.widgets.FileInput(name="Another file", multiple=False, sizing_mode="stretch_width")
+        self.time = pn.widgets.Select(name="Time (--time)", sizing_mode="stretch_width")
+        self.rate = NumberField("Rate in Hz (--rate)", "from the time", width=150)
+        self.drive = _Channel("Drive (--drive)")
+        self.response = _Channel("Response (--response)")
+        self.apply = pn.widgets.Button(name="Use these columns", button_type="primary")
+        self.stretch = pn.widgets.EditableRangeSlider(
+            name="Stretch to use (s)", start=0.0, end=1.0, value=(0.0, 1.0), step=0.01, sizing_mode="stretch_width"
+        )
+        self.hold = pn.widgets.EditableFloatSlider(
+            name="Held out: last share", start=0.05, end=0.7, step=0.05, value=desk.hold, sizing_mode="stretch_width"
+        )
+        self.found, self.figures, self.same = make_html(), recorded_figures.RecordedFigures(), make_html()
+        self.file.param.watch(self._choose, "value")
+        self.upload.param.watch(self._upload, "value")
+        self.apply.on_click(lambda _: self._draft())
+        for slider in (self.stretch, self.hold):
+            slider.param.watch(self._mark, "value_throttled")
+
+    def make_view(self) -> Any:
+        """Return the controls beside the figures."""
+        controls = [
+            self.file,
+            make_html(write_note(f"Or copy a file into the folder, at most {MOST_UPLOADED // 2**20} MiB:")),
+            self.upload,
+            make_html(write_heading("Columns")),
+            self.time,
+            self.rate.widget,
+            *self.drive.widgets,
+            *self.response.widgets,
+            self.apply,
+            make_html(write_heading("Stretch")),
+            self.stretch,
+            self.hold,
+        ]
+        return beside(controls, [self.problem.pane, self.found, self.figures.view, self.same])
+
+    def show(self) -> None:
+        """List the recordings, and show the chosen one if it is another one or has changed."""
+        names = self.desk.folder.list_recordings()
+        self.file.options = names if self.desk.recording in names else ["", *names]
+        if self.desk.recording not in names:
+            self.desk.recording = ""
+        if not names:
+            self.found.object = write_note("The folder has no recording yet: copy one into it, such as a CSV file.")
+        if self.file.value != self.desk.recording:
+            self.file.value = self.desk.recording  # which shows it
+        elif self.desk.recording:
+            self._show_recording()
+
+    def _choose(self, event: Any) -> None:
+        self.desk.recording = event.new or ""
+        self.shown = ("", 0.0)
+        if self.desk.recording:
+            self._show_recording()
+
+    def _upload(self, event: Any) -> None:
+        if event.new is None:
+            return
+        with self.problem.watch():
+            name = self.desk.folder.upload(self.upload.filename, event.new)
+            self.file.options = [*self.file.options, *([] if name in self.file.options else [name])]
+            self.file.value = name
+
+    def _show_recording(self) -> None:
+        """Show a recording: first its columns, then what `init` says."""
+        with self.problem.watch():
+            path = self.desk.folder.find(self.desk.recording)
+            now = (self.desk.recording, path.stat().st_mtime)
+            if now == self.shown:
+                return
+            self.shown = now
+            self.found.object = write_note(f"Reading {self.desk.recording} ...")
+            run_next(lambda: self._read_recording(path))
+
+    def _read_recording(self, path: Path) -> None:
+        """Show the columns of a recording, and thereafter what `init` says."""
+        with self.problem.watch():
+            self.found.object = ""
+            table = read_table(path)
+            self._offer_columns(table)
+            self.figures.show_table(table, path.name)
+            if self.desk.content:
+                self._restore()
+            self.found.object = write_note("Looking for the roles of the columns ...")
+            run_next(lambda: self._draft(keep=True))
+
+    def _offer_columns(self, table: Table) -> None:
+        names = list(table.full_names)
+        self.time.options, self.time.value = [AUTOMATIC, *names], AUTOMATIC
+        self.rate.value = None
+        self.drive.offer([AUTOMATIC, NONE, *names])
+        self.response.offer([AUTOMATIC, *names])
+
+    def _restore(self) -> None:
+        """Set the columns to those of the case."""
+        first = self.desk.content["recordings"][0]
+        if "rate" in first:
+            self.rate.value = first["rate"]
+        else:
+            time = first["time"]["column"] if isinstance(first["time"], dict) else first["time"]
+            self.time.value = time if time in self.time.options else AUTOMATIC
+        inputs = first.get("inputs", [])
+        self.drive.restore(inputs[0] if inputs else {"column": NONE})
+        self.response.restore(first["sensors"][0])
+
+    def _read_roles(self) -> GivenRoles:
+        channels = (self.drive, self.response)
+        units = {one.column: one.unit.value for one in channels if one.column and one.unit.value}
+        time = None if self.time.value == AUTOMATIC else self.time.value
+        return GivenRoles(time, self.rate.value, self.drive.column, self.response.column, units)
+
+    def _draft(self, *, keep: bool = False) -> None:
+        """Write a first case of the chosen columns, or keep a present one, and show what was found."""
+        with self.problem.watch():
+            self.found.object = ""
+            roles = self._read_roles()
+            gains = {one.column: one.factor.value for one in (self.drive, self.response)
+                     if one.column and one.factor.value not in (None, 1.0)}  # fmt: skip
+            model = self.desk.content.get("model", {})
+            named = model.get("name", "") or ";".join(model.get("equations", ()))
+            draft = self.desk.draft(roles, gains, named, keep=keep)
+            self._restore()
+            notes = [write_heading("Please check"), write_list(draft.notes)] if draft.notes else []
+            self.found.object = "".join([write_heading("What was read"), write_lines(draft.found), *notes])
+            self.figures.column.value = self.response.choice.value
+            self._offer_stretch()
+            self._show_command(roles, gains)
+            self.desk.tell()
+
+    def _offer_stretch(self) -> None:
+        """Set the slider of the stretch to that of the case, and shade what is held out."""
+        low, high = self.figures.span
+        first = self.desk.content["recordings"][0]
+        now = (first.get("t_start", low), first.get("t_end", high))
+        step = float(f"{(high - low) / 1000.0:.1g}")
+        self.stretch.param.update(start=low, end=high, step=step, value=now)
+        self.figures.mark(*now, self.desk.hold)
+
+    def _mark(self, _: Any) -> None:
+        """Keep the stretch in the case, and shade what is held out."""
+        with self.problem.watch():
+            (start, end), (low, high) = self.stretch.value, self.figures.span
+            self.desk.hold = self.hold.value
+            self.figures.mark(start, end, self.desk.hold)
+            if content := self.desk.content:
+                first = content["recordings"][0]
+                for key, value, limit in (("t_start", start, low), ("t_end", end, high)):
+                    first.pop(key, None)
+                    if value != limit:
+                        first[key] = float(value)
+                self.desk.save(content)
+                self.desk.tell()
+
+    def _show_command(self, roles: GivenRoles, gains: dict[str, float]) -> None:
+        words = ["lostmotion", "init", self.desk.recording]
+        for option, value in (("--time", roles.time), ("--rate", roles.rate), ("--drive", roles.drive),
+                              ("--response", roles.response)):  # fmt: skip
+            words += [option, f"{value:g}" if isinstance(value, float) else str(value)] if value else []
+        for name, unit in (roles.units or {}).items():
+            words += ["--unit", f"{name}={unit}"]
+        for name, gain in gains.items():
+            words += ["--factor", f"{name}={gain:g}"]
+        self.same.object = write_command(*words, "--out", self.desk.folder.name_of(self.desk.case))
+
+
+class _Channel:
+    """The widgets of one role: its column, unit and factor."""
+
+    def __init__(self, name: str) -> None:
+        role = name.partition(" ")[0].lower()
+        self.choice = pn.widgets.Select(name=name, sizing_mode="stretch_width")
+        self.unit = pn.widgets.AutocompleteInput(
+            name=f"Unit of the {role} (--unit)", options=list(recorded_figures.UNITS), restrict=False, min_characters=1,
+            placeholder="from the file", sizing_mode="stretch_width",
+        )  # fmt: skip
+        self.factor = NumberField("Factor (--factor)", "1", width=110)
+
+    @property
+    def widgets(self) -> list[Any]:
+        """The widgets in their order."""
+        return [self.choice, pn.Row(self.unit, self.factor.widget, sizing_mode="stretch_width")]
+
+    @property
+    def column(self) -> str | None:
+        """The chosen column, "none", or None where it is chosen automatically."""
+        return None if self.choice.value in (AUTOMATIC, None) else str(self.choice.value)
+
+    def offer(self, names: list[str]) -> None:
+        """Offer the columns of another recording."""
+        self.choice.options, self.choice.value = names, AUTOMATIC
+        self.unit.value, self.factor.value = "", None
+
+    def restore(self, channel: dict[str, Any]) -> None:
+        """Set the widgets to a channel of the case."""
+        if channel["column"] in self.choice.options:
+            self.choice.value = channel["column"]
+        self.unit.value = channel.get("unit", "")
+        self.factor.value = channel.get("factor")

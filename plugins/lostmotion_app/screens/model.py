@@ -1,0 +1,200 @@
+"""The screen of the model: its name or equations, known values, priors, and its prediction of the recording."""
+
+from __future__ import annotations
+
+import html
+from typing import Any
+
+import numpy as np
+import panel as pn
+
+from lostmotion.cli.sheets import make_sheet
+from lostmotion.diagnosis.tried_model import TriedModel, TriedPrediction
+from lostmotion.preparation.prepare import prepare
+from lostmotion.quantities import unit_of
+from lostmotion.report import style
+from lostmotion.settings import read
+from lostmotion.written import model_of
+from lostmotion_app.curves import CurvePanels, format_legend
+from lostmotion_app.desk import Desk
+from lostmotion_app.parameter_rows import ParameterRow
+from lostmotion_app.parts import (
+    ProblemBox,
+    beside,
+    make_html,
+    run_next,
+    write_heading,
+    write_lines,
+    write_note,
+)  # fmt: skip
+from lostmotion_app.recorded_figures import label_of
+from lostmotion_app.screens import PageScreen
+
+LIBRARY, EQUATIONS = "Library", "Equations"
+EXAMPLE = "m*x'' + c*x' + k*x = force"
+CYCLES, NEVER = "after a few cycles", "never"
+
+
+class ModelScreen(PageScreen):
+    """Choose the model, give known values and priors, and see at once what it predicts."""
+
+    title = "Model"
+
+    def __init__(self, desk: Desk) -> None:
+        super().__init__(desk)
+        self.kind = pn.widgets.RadioButtonGroup(name="Kind", options=[LIBRARY, EQUATIONS], value=LIBRARY)
+        self.name = pn.widgets.Select(name="Model", sizing_mode="stretch_width")
+        self.about, self.place = make_html(), ProblemBox()
+        self.equations = pn.widgets.TextAreaInput(
+            name="Equations of motion, one line for each body", placeholder=EXAMPLE, rows=3, auto_grow=True,
+            sizing_mode="stretch_width",
+        )  # fmt: skip
+        self.use = pn.widgets.Button(name="Use this model", button_type="primary")
+        self.restart = pn.widgets.Select(name="Free runs restart", options=[CYCLES, NEVER], width=200)
+        self.rows: list[ParameterRow] = []
+        self.table = pn.Column(sizing_mode="stretch_width", margin=0)
+        self.figures = pn.Column(sizing_mode="stretch_width", margin=0)
+        self.error, self.same = make_html(), make_html()
+        self.tried: TriedModel | None = None
+        self.shown: tuple[Any, ...] = ()
+        self.curves: list[tuple[CurvePanels, Any]] = []
+        self.kind.param.watch(lambda _: self._switch(), "value")
+        self.name.param.watch(lambda _: self._describe(), "value")
+        self.equations.param.watch(lambda event: self._check_equations(event.new), "value_input")
+        self.use.on_click(lambda _: self._use())
+        self.restart.param.watch(lambda _: self._predict(), "value")
+
+    def make_view(self) -> Any:
+        """Return model and parameters beside the prediction."""
+        controls = [self.kind, self.name, self.equations, self.place.pane, self.use, self.about]
+        shown = [
+            self.problem.pane, self.table, make_html(write_heading("Nominal model and recording")), self.restart,
+            self.error, self.figures, self.same,
+        ]  # fmt: skip
+        return beside(controls, shown)
+
+    def show(self) -> None:
+        """Show the model of the case, if it has changed."""
+        with self.problem.watch():
+            content = self.desk.content
+            if not content:
+                self.error.object = write_note("Choose a recording on the screen Data first.")
+                return
+            now = (self.desk.recording, self.desk.case.stat().st_mtime_ns)
+            if now != self.shown:
+                self.shown = now
+                self._restore(content["model"])
+                self.error.object = write_note("Reading the case; the first time, kernels are compiled ...")
+                run_next(self._load)
+
+    def _restore(self, model: dict[str, Any]) -> None:
+        """Set the widgets to the model of the case."""
+        self.name.options = sorted(self.desk.registry.names("model"))
+        if "name" in model:
+            self.name.value = model["name"]
+        self.equations.value = "\n".join(model.get("equations", ()))
+        self.kind.value = LIBRARY if "name" in model else EQUATIONS
+        self._switch()
+
+    def _switch(self) -> None:
+        library = self.kind.value == LIBRARY
+        self.name.visible, self.equations.visible = library, not library
+        self.place.tell("")
+        self._describe()
+
+    def _describe(self) -> None:
+        """Show what the chosen model is, as `lostmotion plugins show` does."""
+        self.about.object = ""
+        if self.kind.value == LIBRARY and self.name.value:
+            with self.problem.watch():
+                registry = self.desk.registry
+                sheet = make_sheet(registry.entry("model", self.name.value), registry.load("model", self.name.value))
+                places = ", ".join(place.name for place in sheet.interfaces or ())
+                texts = [sheet.about, f"Places for terms: {places}" if places else "", sheet.paper or ""]
+                self.about.object = "".join(f"<p>{html.escape(text)}</p>" for text in texts if text)
+
+    def _check_equations(self, text: str) -> list[str]:
+        """Return equations that can be used, one for each body; none, and the place of the error, if they cannot."""
+        lines = [line.strip() for line in text.splitlines() if line.strip()]
+        with self.place.watch():
+            if lines:
+                model_of(lines)
+            return lines
+        return []
+
+    def _use(self) -> None:
+        """Write the case with the chosen model, with wide priors about the scales of the recording."""
+        with self.problem.watch():
+            if self.kind.value == LIBRARY:
+                self.desk.redraft(str(self.name.value))
+            elif lines := self._check_equations(self.equations.value):
+                self.desk.redraft(";".join(lines))
+            self.desk.tell()
+            self.show()
+
+    def _load(self) -> None:
+        """Prepare the case, and show its parameters and the prediction."""
+        with self.problem.watch():
+            self.error.object = ""
+            prepared = prepare(self.desk.case, self.desk.registry, read(self.desk.settings))
+            self.tried = TriedModel.of(prepared)
+            model, content = prepared.model, self.desk.content["model"]
+            self.rows = [ParameterRow(param, model.motion, content, self._change) for param in model.params]
+            self.table[:] = [make_html(write_heading("Parameters")), *(row.view for row in self.rows)]
+            self._make_figures()
+            self._predict()
+
+    def _change(self) -> None:
+        """Keep changed values and priors in the case, and predict again."""
+        with self.problem.watch():
+            content = self.desk.content
+            entries = [row.read() for row in self.rows]
+            content["model"]["known"] = {name: value for name, value in entries if isinstance(value, float)}
+            content["model"]["estimate"] = {name: prior for name, prior in entries if isinstance(prior, dict)}
+            if content != self.desk.content:
+                self.desk.save(content)
+                self.shown = (self.desk.recording, self.desk.case.stat().st_mtime_ns)
+            self._predict()
+
+    def _predict(self) -> None:
+        """Draw the prediction at the values that are tried."""
+        if self.tried is None:
+            return
+        with self.problem.watch():
+            span = 1e9 if self.restart.value == NEVER else None
+            found = self.tried.predict({row.name: row.tried for row in self.rows}, every=span)
+            self._draw(found)
+            self._show_same()
+
+    def _make_figures(self) -> None:
+        """Make one figure for each sensor."""
+        if self.tried is None:
+            return
+        observation = self.tried.problem.observations[0]
+        motion = self.tried.problem.system.model.motion
+        empty, panels, self.curves = np.zeros(0), [], []
+        curves = CurvePanels("time (s)")
+        for number, sensor in enumerate(observation.sensors):
+            panel = curves.add_panel(label_of(sensor.label, unit_of(sensor.channel, motion)), height=230)
+            curves.add_curve(panel, observation.time, observation.readings[:, number], colour=style.RECORDED,
+                             name="recording", width=2.4)  # fmt: skip
+            line = curves.add_curve(panel, empty, empty, colour=style.BEFORE, name="nominal model", width=1.4)
+            format_legend(panel)
+            panels.append(panel)
+            self.curves.append((curves, line))
+        last = observation.time[0] + min(len(observation.time), 2000) * observation.dt
+        curves.fit_range(float(observation.time[0]), float(last))
+        self.figures[:] = [pn.pane.Bokeh(panel, sizing_mode="stretch_width", margin=(0, 2)) for panel in panels]
+
+    def _draw(self, found: TriedPrediction) -> None:
+        for number, (curves, line) in enumerate(self.curves):
+            curves.replace(line, found.time, found.predicted[:, number])
+        said = ", ".join(f"{sensor.label}: {error:.3g}" for sensor, error in
+                         zip(found.sensors, found.errors, strict=True))  # fmt: skip
+        self.error.object = write_note(f"Error of free runs over the standard deviation of the readings: {said}")
+
+    def _show_same(self) -> None:
+        case = self.desk.folder.name_of(self.desk.case)
+        values = ", ".join(f'"{row.name}": {row.tried:.4g}' for row in self.rows)
+        lines = [f'case = lm.Case.read("{case}")', f"case.predict({{{values}}})"]
+        self.same.object = write_note("The same in Python:") + write_lines(lines)

@@ -1,0 +1,150 @@
+"""The screen of results: the answer, predictions with terms switched on and off, missing force, report."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import panel as pn
+
+import lostmotion
+from lostmotion.diagnosis.report import diagnosis_page, opening
+from lostmotion.diagnosis.report.page_data import Evidence
+from lostmotion.diagnosis.report.top_tables import make_mechanism_table, make_number_table
+from lostmotion.notebook.diagnosis_result import DiagnosisResult
+from lostmotion.report import style
+from lostmotion.report.pages import PageSection
+from lostmotion.report.words import percent, typeset
+from lostmotion.storage import load_json
+from lostmotion_app.desk import Desk
+from lostmotion_app.found_figures import MissingForce, SwitchedPrediction
+from lostmotion_app.parts import (
+    make_html,
+    run_next,
+    write_answer,
+    write_command,
+    write_heading,
+    write_list,
+    write_note,
+    write_table,
+)  # fmt: skip
+from lostmotion_app.screens import PageScreen
+from lostmotion_app.sections import write_grid, write_sections
+
+FILE = "diagnosis.json"
+ELSEWHERE = ("prediction", "missing")
+"""Sections of the report that this screen has in another form."""
+MOST_EARLIER = 30
+
+
+class ResultsScreen(PageScreen):
+    """What a diagnosis found."""
+
+    title = "Results"
+
+    def __init__(self, desk: Desk) -> None:
+        super().__init__(desk)
+        self.choice = pn.widgets.Select(name="Result", sizing_mode="stretch_width", max_width=520)
+        self.section = pn.widgets.Select(name="Section of the report", width=320)
+        self.answer, self.drawn, self.earlier, self.same = (make_html() for _ in range(4))
+        self.prediction, self.missing = SwitchedPrediction(), MissingForce()
+        self.found: DiagnosisResult | None = None
+        self.shown: tuple[str, float] = ("", 0.0)
+        self.choice.param.watch(lambda _: self._open(), "value")
+        self.section.param.watch(lambda _: self._draw_section(), "value")
+
+    def make_view(self) -> Any:
+        """Return the parts of the screen below each other."""
+        return pn.Column(
+            self.choice, self.problem.pane, self.answer, self.prediction.view, self.missing.view, self.section,
+            self.drawn, self.earlier, self.same, sizing_mode="stretch_width",
+        )  # fmt: skip
+
+    def show(self) -> None:
+        """List the results of the folder, those of this recording first, and show the newest one."""
+        folders = self.desk.folder.list_results(FILE)
+        own = [one for one in folders if self.desk.recording and one.is_relative_to(self.desk.place)]
+        names = [self.desk.folder.name_of(one) for one in (*own, *(one for one in folders if one not in own))]
+        self._compare(names)
+        newest = names[0] if names else None
+        if names != self.choice.options:
+            self.choice.options = names
+        if not names:
+            self.answer.object = write_note("This folder has no result yet: begin one on the screen Run.")
+        elif self.choice.value != newest and newest != self.shown[0]:
+            self.choice.value = newest
+        else:
+            self._open()
+
+    def _open(self) -> None:
+        """Show the chosen result, if it is another one or has changed."""
+        name = self.choice.value
+        if not name:
+            return
+        with self.problem.watch():
+            folder = self.desk.folder.find(name)
+            now = (name, (folder / FILE).stat().st_mtime)
+            if now != self.shown:
+                self.shown = now
+                self.answer.object = write_note(f"Reading {name} ...")
+                run_next(lambda: self._show_result(folder))
+
+    def _show_result(self, folder: Path) -> None:
+        self.found = None
+        sections: tuple[PageSection[Evidence], ...] = ()
+        with self.problem.watch():
+            found = lostmotion.load(folder)
+            self.answer.object = write_answer([typeset(one) for one in found.says])
+            if isinstance(found, DiagnosisResult):
+                self.found = found
+                self.answer.object += write_summary(found)
+                sections = tuple(one for one in diagnosis_page.SECTIONS if one.name not in ELSEWHERE)
+            self.prediction.show(self.found, folder, self.desk.registry)
+            self.missing.show(self.found)
+        titles = {str(one.title) if isinstance(one.title, str) else one.name: one.name for one in sections}
+        self.section.visible = bool(titles)
+        self.section.options, self.section.value = titles, titles.get("Ranking of the candidates")
+        self.same.object = write_command(
+            "lostmotion", "diagnose", "CASE.toml", "--out", self.desk.folder.name_of(folder)
+        )
+        self._draw_section()
+
+    def _draw_section(self) -> None:
+        self.drawn.object = ""
+        if self.found is None or not self.section.value:
+            return
+        with self.problem.watch():
+            chosen = [one for one in diagnosis_page.SECTIONS if one.name == self.section.value]
+            evidence = self.found.evidence
+            drawn = write_sections(chosen, evidence, evidence.result.units.angle)
+            self.drawn.object = drawn or write_note("This result has nothing to show here.")
+
+    def _compare(self, names: Sequence[str]) -> None:
+        """Show the results of the folder side by side."""
+        rows = []
+        for name in names[:MOST_EARLIER]:
+            with self.problem.watch():
+                content = load_json(self.desk.folder.find(name) / FILE, "run `lostmotion diagnose` again")
+                rows.append([name, *describe_result(content)])
+        head = ["Result", "Verdict", "Found", "Error before", "Error after"]
+        self.earlier.object = write_heading("Results in this folder") + write_table(head, rows) if rows else ""
+
+
+def write_summary(found: DiagnosisResult) -> str:
+    """Return the tables at the top of the report, what cannot be told apart, and the notes, as HTML."""
+    with style.use_style(found.result.units.angle):
+        tables = [make_mechanism_table(found.evidence), make_number_table(found.evidence)]
+    confused = opening.write_confusions(found.result)
+    parts = [write_grid(table) for table in tables if table.rows]
+    parts += [write_heading("Not told apart, and the next experiment"), write_list(confused)] if confused else []
+    parts += [write_heading("Notes"), write_list(found.notes)] if found.notes else []
+    return "".join(parts)
+
+
+def describe_result(content: Any) -> list[str]:
+    """Return verdict, findings and errors of free runs of a stored result, in words."""
+    found = ", ".join(str(one.get("mechanism", "")) for one in content.get("found", ()))
+    fit = content.get("fit", {})
+    errors = [fit.get(key, {}).get("heldout_nrmse") for key in ("before", "after")]
+    return [str(content.get("verdict", "")), found, *(percent(one) if one is not None else "" for one in errors)]

@@ -1,0 +1,34 @@
+"""Sections of the pages that commands write, as HTML of this page: they are drawn by the same functions."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Sequence
+from typing import TypeVar
+
+from lostmotion.report import style
+from lostmotion.report.pages import DrawnSection, Grid, PageSection, draw_sections
+from lostmotion.report.words import typeset
+from lostmotion_app.parts import write_heading, write_note, write_table
+
+E = TypeVar("E")
+
+
+def write_grid(grid: Grid, bars: Sequence[float] = ()) -> str:
+    """Return a table of a report as HTML."""
+    return write_table(grid.head, grid.rows, bars)
+
+
+def write_sections(sections: Sequence[PageSection[E]], evidence: E, angle: str) -> str:
+    """Return sections of a page as HTML: words, figure, caption and table of each; angles are in the unit `angle`."""
+    with style.use_style(angle):
+        return "".join(map(write_section, draw_sections(sections, evidence)))
+
+
+def write_section(one: DrawnSection) -> str:
+    """Return a section as HTML; its figure is markup of matplotlib, which escapes all text."""
+    figure = f'<div class="lm-figure">{one.markup}</div>' if one.markup else ""
+    caption = write_note(typeset(one.caption)) if one.caption else ""
+    words = f"<p>{html.escape(typeset(one.words))}</p>" if one.words else ""
+    table = write_grid(one.table) if one.table else ""
+    return f"{write_heading(one.title)}{words}{figure}{caption}{table}"

@@ -1,0 +1,224 @@
+"""The page without a browser: its folder, its curves, its jobs, and what its server refuses."""
+
+import json
+import re
+import signal
+import socket
+import subprocess
+import sys
+import time
+import urllib.error
+import urllib.request
+
+import click
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from lostmotion.cli import main
+from lostmotion.errors import CaseError, DataError
+from lostmotion.recording.outline import GivenRoles
+from lostmotion.registry import default
+
+pytest.importorskip("panel", reason="no page: Panel is absent (the extra `app`)")
+
+from lostmotion_app import command, jobs
+from lostmotion_app.curves import thin
+from lostmotion_app.desk import Desk
+from lostmotion_app.folder import WorkFolder
+from lostmotion_app.parts import write_table
+from lostmotion_app.screens.take_away import make_notebook
+
+SERVE = "from lostmotion_app.command import command; command()"
+PATIENCE = 120.0
+UPGRADE = {
+    "Upgrade": "websocket",
+    "Connection": "Upgrade",
+    "Sec-WebSocket-Key": "AAAAAAAAAAAAAAAAAAAAAA==",
+    "Sec-WebSocket-Version": "13",
+    "Sec-WebSocket-Protocol": "bokeh, token",
+}
+
+
+@pytest.fixture
+def folder(tmp_path):
+    t = np.arange(400) / 100.0
+    rows = np.stack([t, 5.0 * np.sin(9.0 * t), 1e-3 * np.sin(9.0 * t - 0.4)], axis=1)
+    place = tmp_path / "measured"
+    place.mkdir()
+    np.savetxt(place / "run1.csv", rows, delimiter=",", header="time [s],force [N],position [m]", comments="")
+    return WorkFolder(place.resolve())
+
+
+@pytest.mark.parametrize("name", ["../secret.csv", "/etc/hostname", "a/../../secret.csv", "link.csv", "\0"])
+def test_no_path_leads_out_of_the_folder(folder, name):
+    (folder.root.parent / "secret.csv").write_text("t,x\n0,1\n")
+    (folder.root / "link.csv").symlink_to(folder.root.parent / "secret.csv")
+    with pytest.raises(DataError):
+        folder.find(name)
+    assert folder.list_recordings() == ["run1.csv"]
+
+
+def test_an_uploaded_file_stays_in_the_folder_and_replaces_none(folder, monkeypatch):
+    assert folder.upload("../../other.csv", b"t,x\n0,1\n") == "other.csv"
+    assert (folder.root / "other.csv").read_bytes() == b"t,x\n0,1\n"
+    with pytest.raises(CaseError, match="exists already"):
+        folder.upload("other.csv", b"t,x\n0,2\n")
+    with pytest.raises(CaseError, match="no ending of a recording"):
+        folder.upload("run.sh", b"")
+    monkeypatch.setattr("lostmotion_app.folder.MOST_UPLOADED", 4)
+    with pytest.raises(CaseError, match="is the most"):
+        folder.upload("large.csv", b"12345")
+
+
+def test_thin_curves_keep_every_extreme_and_single_samples_when_enlarged():
+    x = np.arange(1_000_000.0)
+    y = np.sin(x / 3e4)
+    y[123_456], y[777_777] = 5.0, -7.0
+    at, values = thin(x, y, x[0], x[-1])
+    assert len(at) < 4000
+    assert (values.max(), values.min()) == (5.0, -7.0)
+    at, values = thin(x, y, 123_400.0, 123_500.0)
+    assert np.array_equal(values, y[123_399:123_501])
+    assert np.all(np.diff(at) == 1.0)
+
+
+def test_a_case_keeps_the_stretch_and_the_values_of_a_user(folder):
+    desk = Desk(folder, default(), recording="run1.csv")
+    told = desk.draft(GivenRoles(), {})
+    assert told.found[0].startswith("run1.csv: 400 rows at 100 Hz")
+    content = desk.content
+    content["recordings"][0]["t_end"] = 3.0
+    content["model"]["known"] = {"m": 2.0}
+    del content["model"]["estimate"]["m"]
+    desk.save(content)
+    desk.draft(GivenRoles(), {}, "linear_oscillator")
+    assert desk.content["recordings"][0]["t_end"] == 3.0
+    assert desk.content["model"]["known"] == {"m": 2.0}
+    desk.redraft("m*x'' + c*x' = force")
+    assert desk.content["model"]["equations"] == ["m*x'' + c*x' = force"]
+    assert desk.content["recordings"][0]["t_end"] == 3.0
+    assert (desk.place / desk.content["recordings"][0]["file"]).resolve() == folder.root / "run1.csv"
+
+
+def finish(job):
+    end = time.monotonic() + PATIENCE
+    while job.state == "running" and time.monotonic() < end:
+        time.sleep(0.05)
+    return job.state
+
+
+def test_a_job_runs_by_itself_and_is_found_again(tmp_path):
+    job = jobs.begin_job(tmp_path, "settings", ["settings", "--json"], lambda _: None)
+    assert finish(job) == "done"
+    (found,) = jobs.list_jobs(tmp_path, "settings")
+    assert found == job
+    assert json.loads("\n".join(found.output))
+    assert found.processor > 0.0
+
+
+def test_a_job_that_fails_tells_why(tmp_path):
+    job = jobs.begin_job(tmp_path, "check", ["check", "absent.toml", "--out", jobs.OUT], lambda _: None)
+    assert finish(job) == "failed"
+    assert "absent.toml cannot be read" in job.output[-1]
+
+
+def test_a_job_is_cancelled_as_with_ctrl_c_and_a_killed_one_is_seen(tmp_path):
+    code = "import time\nfrom lostmotion.hookspecs import hookimpl\ntime.sleep(100)\n"
+    (tmp_path / "slow.py").write_text(code, encoding="utf-8")
+    words = ["--plugin", str(tmp_path / "slow.py"), "plugins"]
+    begun = [jobs.begin_job(tmp_path, "plugins", words, lambda _: None) for _ in range(2)]
+    for job in begun:
+        end = time.monotonic() + PATIENCE
+        while not job._is_locked() and time.monotonic() < end:
+            time.sleep(0.05)
+        time.sleep(1.0)
+    begun[0].cancel()
+    assert finish(begun[0]) in ("cancelled", "failed")
+    assert begun[1].state == "running"
+    jobs.os.kill(json.loads((begun[1].folder / "status.json").read_text())["process"], signal.SIGKILL)
+    assert finish(begun[1]) == "killed"
+
+
+def test_texts_are_escaped_and_a_notebook_is_one():
+    assert "<script>" not in write_table(["<script>"], [["<script>alert(1)</script>"]])
+    cells = json.loads(make_notebook(["import lostmotion as lm", "", "print(1)"]))["cells"]
+    assert [cell["source"] for cell in cells] == ["import lostmotion as lm", "print(1)"]
+
+
+def test_without_panel_the_command_says_what_to_install(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "panel", None)
+    monkeypatch.delitem(sys.modules, "lostmotion_app.server", raising=False)
+    for name in [
+        name for name in sys.modules if name.startswith("lostmotion_app.") and name != "lostmotion_app.command"
+    ]:
+        monkeypatch.delitem(sys.modules, name)
+    done = CliRunner().invoke(command.command, [str(tmp_path), "--no-open"], obj=default())
+    assert "lostmotion[app]" in str(done.exception)
+
+
+def test_help_has_examples():
+    done = CliRunner().invoke(command.command, ["--help"])
+    assert done.exit_code == 0
+    assert "lostmotion app measurements" in done.output
+    assert isinstance(main, click.Group)
+
+
+@pytest.fixture(scope="module")
+def address(tmp_path_factory):
+    place = tmp_path_factory.mktemp("served")
+    process = subprocess.Popen(
+        [sys.executable, "-c", SERVE, str(place), "--no-open"], stdout=subprocess.PIPE, text=True
+    )
+    yield process.stdout.readline().strip()
+    process.kill()
+    process.wait(PATIENCE)
+
+
+def ask(url, **headers):
+    try:
+        request = urllib.request.Request(url, headers=headers)  # noqa: S310 - the address of the server below
+        with urllib.request.urlopen(request, timeout=PATIENCE) as answer:  # noqa: S310
+            return answer.status, answer.read().decode()
+    except urllib.error.HTTPError as err:
+        return err.code, err.read().decode()
+
+
+def test_a_request_without_the_token_is_refused(address):
+    base, token, *_ = re.fullmatch(r"(http://127\.0\.0\.1:\d+)/([\w-]{30,})(/page/open)", address).groups()
+    for path in (
+        "/",
+        "/page/open",
+        "/static/js/bokeh.min.js",
+        f"/{token[:-1]}x/page/open",
+        f"/{token}x/page/open",
+        "/ws",
+    ):
+        assert ask(base + path)[0] == 403, path
+    assert ask(f"{base}/{token}/../page/open")[0] == 403
+
+
+def test_the_page_loads_nothing_from_elsewhere(address):
+    status, text = ask(address)
+    assert status == 200
+    assert "Content-Security-Policy" in text
+    sources = re.findall(r'(?:src|href)="([^"]+)"', text)
+    assert sources
+    assert [one for one in sources if re.match(r"(https?:)?//", one)] == []
+
+
+def test_the_page_is_bound_to_this_machine_alone(address):
+    port = int(re.search(r":(\d+)/", address)[1])
+    with socket.socket() as other:
+        other.settimeout(2.0)
+        assert other.connect_ex(("127.0.0.2", port)) != 0
+
+
+def test_another_site_may_not_open_the_connection(address):
+    keys = {
+        "Upgrade": "websocket",
+        "Connection": "Upgrade",
+        "Sec-WebSocket-Key": "x" * 22 + "==",
+        "Sec-WebSocket-Version": "13",
+    }
+    assert ask(address + "/ws", Origin="http://example.org", **keys)[0] == 403

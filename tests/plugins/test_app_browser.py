@@ -1,0 +1,166 @@
+"""The page in a real browser: from a CSV file to a named cause, reload, cancel, a killed server, a narrow page."""
+
+import re
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+pytest.importorskip("panel", reason="no page: Panel is absent (the extra `app`)")
+sys.path.insert(0, str(Path(__file__).parent))
+
+from chromium import Chromium, find_browser
+
+if find_browser() is None:
+    pytest.skip("no browser: Chromium is absent", allow_module_level=True)
+
+SERVE = "from lostmotion_app.command import command; command()"
+LONG = 400.0
+
+
+class Server:
+    """The page of a folder in another process."""
+
+    def __init__(self, folder):
+        self.process = subprocess.Popen(
+            [sys.executable, "-c", SERVE, str(folder), "--no-open"], stdout=subprocess.PIPE, text=True
+        )
+        self.address = self.process.stdout.readline().strip()
+
+    def end(self, how=signal.SIGINT):
+        self.process.send_signal(how)
+        self.process.wait(60.0)
+
+
+@pytest.fixture
+def serve():
+    servers = []
+
+    def begin(folder):
+        servers.append(Server(folder))
+        return servers[-1]
+
+    yield begin
+    for server in servers:
+        if server.process.poll() is None:
+            server.end(signal.SIGKILL)
+
+
+def write_recording(folder, friction=2.0):
+    """Write the recording of an oscillator with dry friction, integrated in small steps."""
+    m, c, k, dt, steps = 1.0, 8.0, 4000.0, 1.0 / 200.0, 40
+    t, x, v, rows, rng = 0.0, 0.0, 0.0, [], np.random.default_rng(3)
+    for _ in range(1400):
+        drive = 20.0 * np.sin(37.0 * t) + 15.0 * np.sin(61.0 * t + 1.0)
+        rows.append((t, drive, x + 2e-6 * rng.standard_normal()))
+        for _ in range(steps):
+            push = 20.0 * np.sin(37.0 * t) + 15.0 * np.sin(61.0 * t + 1.0)
+            v += (push - c * v - k * x - friction * np.tanh(v / 1e-4)) / m * dt / steps
+            x += v * dt / steps
+            t += dt / steps
+    folder.mkdir(exist_ok=True)
+    head = "time [s],force [N],position [m]"
+    np.savetxt(folder / "rig.csv", np.array(rows), delimiter=",", header=head, comments="", fmt="%.9g")
+    return folder
+
+
+def test_it_asks_no_other_address_and_escapes_what_files_say(tmp_path, serve):
+    write_recording(tmp_path)
+    rows = "\n".join(f"{i / 100},{np.sin(i / 7):.6f},{np.cos(i / 7):.6f}" for i in range(300))
+    nasty = "<img src=q onerror=alert(1)>"
+    (tmp_path / "nasty.csv").write_text(f'time,"{nasty} position",force\n{rows}\n', encoding="utf-8")
+    (tmp_path / "empty.csv").write_text("", encoding="utf-8")
+    server = serve(tmp_path)
+    with Chromium(width=400, height=800, dark=True) as browser:
+        browser.open(server.address)
+        browser.wait_for("Recording")
+        browser.wait("location.search.includes('theme=dark')")
+        browser.choose("Recording", "nasty.csv")
+        browser.wait_for("What was read")
+        browser.wait_for(nasty)
+        assert browser.evaluate("all(document).filter((e) => e.tagName === 'IMG' && e.src.endsWith('/q')).length") == 0
+        browser.choose("Recording", "empty.csv")
+        browser.wait_for("empty.csv")
+        browser.wait("all(document).some((e) => seen(e) && e.classList.contains('lm-problem'))")
+        browser.choose("Recording", "rig.csv")
+        browser.wait_for("rig.csv: 1400 rows at 200 Hz")
+        assert browser.evaluate("document.documentElement.scrollWidth <= window.innerWidth + 1")
+        asked = [one for one in browser.requests if not one.startswith(("data:", "blob:", "about:"))]
+        port = re.search(r":(\d+)/", server.address)[1]
+        assert asked
+        assert [one for one in asked if not re.match(rf"(http|ws)://127\.0\.0\.1:{port}/", one)] == []
+        assert [one for one in browser.problems if "favicon" not in one] == []
+
+
+@pytest.mark.slow
+def test_the_whole_way_from_a_file_to_a_named_cause(tmp_path, serve):
+    """The server is killed and the page reloaded in the middle."""
+    write_recording(tmp_path)
+    server = serve(tmp_path)
+    with Chromium() as browser:
+        browser.open(server.address)
+        browser.choose("Recording", "rig.csv")
+        browser.wait_for("model: linear_oscillator")
+        browser.click("Model")
+        browser.wait_for("Error of free runs over")
+        browser.choose("m (kg)", "known")
+        browser.type("m: value", "1.0")
+        browser.click("Run")
+        browser.wait_for("a process of its own")
+        browser.click("Diagnose")
+        browser.wait_for("diagnose-1: running", LONG)
+        server.end(signal.SIGKILL)
+        again = serve(tmp_path)
+        browser.open(again.address + "?screen=Run&recording=rig.csv")
+        browser.wait_for("diagnose-1: ", LONG)
+        browser.wait_for("diagnose-1: done", LONG)
+        browser.click("Results")
+        browser.wait_for("Dry friction of", LONG)
+        browser.wait_for("with the terms that are ticked", LONG)
+        with_term = browser.wait("(words().match(/readings: ([0-9.e-]+)/) || [])[1]", LONG)
+        browser.evaluate("(all(document).find((e) => e.type === 'checkbox' && seen(e)).click(), true)")
+        browser.wait(f"(words().match(/readings: ([0-9.e-]+)/) || [])[1] !== '{with_term}'", LONG)
+        assert float(browser.evaluate("words().match(/readings: ([0-9.e-]+)/)[1]")) > 2.0 * float(with_term)
+        assert browser.problems == []
+
+
+@pytest.mark.slow
+def test_a_run_is_cancelled_and_gives_the_answer_so_far(tmp_path, serve):
+    write_recording(tmp_path)
+    server = serve(tmp_path)
+    with Chromium() as browser:
+        browser.open(server.address)
+        browser.choose("Recording", "rig.csv")
+        browser.wait_for("model: linear_oscillator")
+        browser.click("Run")
+        browser.wait_for("a process of its own")
+        browser.click("Diagnose")
+        browser.wait_for("weighing", LONG)
+        browser.wait_for("score tests", LONG)
+        browser.click("Cancel")
+        browser.wait_gone("diagnose-1: running", LONG)
+        assert re.search(r"diagnose-1: (done|ended before there was an answer)", browser.read())
+
+
+@pytest.mark.slow
+def test_by_keyboard_alone(tmp_path, serve):
+    """Tab reaches the list of recordings; a letter chooses one; the tabs of the screens take the arrow keys."""
+    write_recording(tmp_path)
+    server = serve(tmp_path)
+    with Chromium() as browser:
+        browser.open(server.address)
+        browser.wait_for("Recording")
+        for _ in range(30):
+            browser.press("Tab", 9)
+            time.sleep(0.02)
+            if browser.evaluate("focused(document).tagName") == "SELECT":
+                break
+        assert browser.evaluate("focused(document).tagName") == "SELECT"
+        browser.send("Input.dispatchKeyEvent", type="keyDown", key="r", code="KeyR", text="r")
+        browser.send("Input.dispatchKeyEvent", type="keyUp", key="r", code="KeyR")
+        browser.press("Tab", 9)
+        browser.wait_for("rig.csv: 1400 rows at 200 Hz")
