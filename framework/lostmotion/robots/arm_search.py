@@ -21,8 +21,8 @@ from lostmotion.robots.promises import Group, Screen, list_gear_promises, list_g
 Say = Callable[[str], None]
 Terms = frozenset[str]
 MOST_FITTED, MOST_SMALL, MOST_GEARS = 6, 3, 3
-"""The numbers of effects that are fitted beside a set: by promises at the fitted random force, by those at a small one,
-and of gears."""
+"""The numbers of effects that are fitted beside a set: by promises at the fitted random force, by those at a small one or
+with values of the model held, and of gears."""
 REACH = 3.0
 """Sets within this distance of the best score are extended."""
 SMALL = 0.1
@@ -101,7 +101,11 @@ class ArmSearch:
         temper, small = self.temper, self._make_small(target)
         promises = list_promises(self.screen, target, self.price, temper)
         usual, groups = promises[:MOST_FITTED], list_groups(promises, self.most - len(target.terms))
-        known = {p.effect.key for p in usual}
+        known = {p.effect.key for p in usual if p.gain > 0.0}
+        if target.choice[-1]:
+            held = list_promises(self.screen, self._hold_values(target), self.price, temper)
+            usual += [p for p in held[:MOST_SMALL] if p.effect.key not in known]
+            known |= {p.effect.key for p in usual}
         more = list_promises(self.screen, small, self.price, temper)[:MOST_SMALL] if small is not None else []
         low = target.at[: len(self.frame.arm.joints)] + math.log(SMALL)
         gears = list_gear_promises(self.screen, target, low, self.price, temper)[:MOST_GEARS]
@@ -121,19 +125,21 @@ class ArmSearch:
         for made in each(fit, wanted, self.jobs):
             self._keep(made)
 
-    def _make_small(self, target: ArmHypothesis) -> ArmHypothesis | None:
-        """Return the hypothesis with a small random force, and values of the model known within the tolerance.
+    def _hold_values(self, target: ArmHypothesis) -> ArmHypothesis:
+        """Return the hypothesis with values known within the tolerance: less well known ones may hide an effect."""
+        choice = (*target.choice[:-1], 0)
+        used, precision = find_precision(target.frame, target.expansion, choice)
+        return replace(target, choice=choice, used=used, precision=precision)
 
-        There slopes show of effects that look like noise, or that less well known values would take.
-        """
+    def _make_small(self, target: ArmHypothesis) -> ArmHypothesis | None:
+        """Return the hypothesis with a small random force, at which slopes of effects that look like noise show."""
         at = target.at.copy()
         at[: len(self.frame.arm.joints)] += math.log(SMALL)
         seen, kept = target.frame.expand(at)
         if not math.isfinite(float(kept.seen.log_likelihood)):
             return None
-        choice = (*target.choice[:-1], 0)
-        used, precision = find_precision(target.frame, seen, choice)
-        return replace(target, at=at, choice=choice, expansion=seen, kept=kept, used=used, precision=precision)
+        used, precision = find_precision(target.frame, seen, target.choice)
+        return replace(target, at=at, expansion=seen, kept=kept, used=used, precision=precision)
 
     def _fit_beside(self, target: ArmHypothesis, group: Group, shifts: tuple[float, ...]) -> ArmHypothesis | None:
         """Return the fitted set with further effects, in place of simpler ones that they contain."""
