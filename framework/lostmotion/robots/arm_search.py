@@ -21,8 +21,8 @@ from lostmotion.robots.promises import Group, Screen, list_gear_promises, list_g
 Say = Callable[[str], None]
 Terms = frozenset[str]
 MOST_FITTED, MOST_SMALL, MOST_GEARS = 6, 3, 3
-"""The numbers of effects that are fitted beside a set: by promises at the fitted random force, by those at a small one or
-with values of the model held, and of gears."""
+"""The numbers of effects that are fitted beside a set: by promises at the fitted random force, by those at a small one
+or with values of the model held, and of gears."""
 REACH = 3.0
 """Sets within this distance of the best score are extended."""
 SMALL = 0.1
