@@ -41,6 +41,7 @@ def test_a_multiple_of_the_drive_is_no_hum():
     omega = 2.0 * math.pi * 3.1
     errors = rng.standard_normal(SAMPLES) + 2.0 * np.cos(3.0 * omega * TIME)
     assert not list(find_lines(errors, 1.0 / RATE, omega))
+    assert not list(find_lines(errors, 1.0 / RATE, drives=np.sin(3.0 * omega * TIME)[:, None]))
     assert list(find_lines(errors, 1.0 / RATE))
 
 

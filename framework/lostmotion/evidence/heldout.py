@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from lostmotion.contracts import Array
 from lostmotion.evidence.discrepancy import JointFrame
 from lostmotion.evidence.expansion import Expansion
-from lostmotion.evidence.hypothesis import Hypothesis
+from lostmotion.evidence.hypothesis import Hypothesis, list_bounds
 from lostmotion.inference.fit import choose_first_steps
 from lostmotion.likelihood.observation import Observation
 
@@ -36,11 +36,13 @@ def _score_piece(found: Hypothesis, observation: Observation, begin: int) -> flo
     steps = choose_first_steps(replace(fitted, free=fitted.free[: frame.own]))
     first = begin * len(observation.sensors)
 
+    bounds = list_bounds(frame)
+
     def expand(step: Array) -> Expansion:
-        return cut_before(one.expand(found.at + step, steps, found.choice), first)
+        return cut_before(one.expand(np.clip(found.at + step, *bounds), steps, found.choice), first)
 
     def score(step: Array) -> float:
-        return _score_point(one, found, found.at + step, first)
+        return _score_point(one, found, np.clip(found.at + step, *bounds), first)
 
     levels = np.array([name.startswith("log_") for name in frame.names])
     return average_over_posterior(NormalPosterior(found.used, found.precision, levels), expand, score)

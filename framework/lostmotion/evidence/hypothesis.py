@@ -277,7 +277,7 @@ def compute_step(frame: JointFrame, expansion: Expansion, choice: Choice) -> tup
     free, at = frame.problem.free[: frame.own], expansion.at
     precision = _compute_precision(frame, expansion.precision, choice)
     gradient = _compute_pull(frame, expansion, precision)
-    low, high = _list_bounds(frame)
+    low, high = list_bounds(frame)
     pressed = ((at <= low) & (gradient < 0.0)) | ((at >= high) & (gradient > 0.0))
     step = solve_posterior(frame, expansion.curvature, choice, np.flatnonzero(pressed).tolist())
     for i, f in enumerate(free):
@@ -295,7 +295,7 @@ def _compute_pull(frame: JointFrame, expansion: Expansion, precision: Array) -> 
     return np.asarray(expansion.gradient - precision * (expansion.at - middle))
 
 
-def _list_bounds(frame: JointFrame) -> tuple[Array, Array]:
+def list_bounds(frame: JointFrame) -> tuple[Array, Array]:
     """Return the bounds (count,) of the coordinates; coefficients of smooth forces have none."""
     low, high = np.full(frame.count, -math.inf), np.full(frame.count, math.inf)
     free = frame.problem.free[: frame.own]

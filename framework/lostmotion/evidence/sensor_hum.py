@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
 from lostmotion.contracts import Array
@@ -52,44 +53,49 @@ def list_hums(sensor: int, nominal: Fit) -> Iterator[SensorHum]:
             np.reshape(part, observation.readings.shape)[:, sensor] for part in (seen.errors, seen.variances)
         )
         noise = float(np.sqrt(np.nanmedian(variances)))
-        for pace in find_lines(np.nan_to_num(errors / np.sqrt(variances)), observation.dt, observation.harmonic.omega):
+        standard = np.nan_to_num(errors / np.sqrt(variances))
+        for pace in find_lines(standard, observation.dt, observation.harmonic.omega, observation.inputs):
             for turn in (0.0, 0.5 * np.pi):
                 yield SensorHum(sensor, observation.name, pace, turn, noise)
 
 
-def find_lines(errors: Array, dt: float, harmonic: float = 0.0) -> Iterator[float]:
+def find_lines(errors: Array, dt: float, harmonic: float = 0.0, drives: Array | None = None) -> Iterator[float]:
     """Yield the angular frequencies (rad/s) of the strongest single lines in standardised errors (samples,).
 
     A line stands out of the median of its surroundings with a false-alarm rate of `FALSE_HUM` for a whole recording
-    (Fisher, Proc. R. Soc. A 125 (1929) 54-59); each is subtracted before the next one is looked for. Multiples of the
-    angular frequency `harmonic` of the drive are no hum: missing physics makes them.
+    (Fisher, Proc. R. Soc. A 125 (1929) 54-59); each is subtracted before the next one is looked for. Lines of the
+    `drives` (samples, count), and multiples of half the angular frequency `harmonic` of a drive, are no hum: missing
+    physics makes them.
     """
-    left, places = errors - np.mean(errors), np.arange(len(errors))
+    places = np.arange(len(errors))
+    taken = np.arange(len(errors) // 2 + 1) < NEAR
+    if harmonic:
+        half = harmonic * dt * len(errors) / (4.0 * math.pi)
+        taken |= np.abs(np.arange(len(taken)) - half * np.round(np.arange(len(taken)) / half)) < NEAR
+    for drive in [] if drives is None else drives.T:
+        for line in np.flatnonzero(_measure_lines(drive - np.mean(drive), taken) > 1.0):
+            taken |= np.abs(np.arange(len(taken)) - line) < NEAR
+    left = errors - np.mean(errors)
     for _ in range(MOST_LINES):
-        near = _find_line(left, harmonic * dt * len(errors) / (2.0 * math.pi))
-        if near is None:
+        told = _measure_lines(left, taken)
+        if np.max(told) < 1.0:
             return
-        pace = _refine_line(left, near)
+        pace = _refine_line(left, int(np.argmax(told)))
         yield pace / dt
         waves = np.column_stack([np.cos(pace * places), np.sin(pace * places)])
         left = left - waves @ np.linalg.lstsq(waves, left, rcond=None)[0]
 
 
-def _find_line(errors: Array, driven: float) -> int | None:
-    """Return the place in the spectrum of the strongest significant line; `driven` is that of the drive, 0 without."""
+def _measure_lines(signal: Array, taken: NDArray[np.bool_]) -> Array:
+    """Return the power of each line of a spectrum over that of a significant one; zero for those `taken`."""
     import pandas as pd
 
-    power = np.abs(np.fft.rfft(errors)) ** 2
-    bins = np.arange(len(power))
-    if driven:
-        power[np.abs(bins - driven * np.round(bins / driven)) < NEAR] = np.nan
-    power[: math.ceil(NEAR)] = np.nan
+    power = np.where(taken, np.nan, np.abs(np.fft.rfft(signal)) ** 2)
     around = pd.Series(power).rolling(SURROUNDINGS, center=True, min_periods=SURROUNDINGS // 4).median().to_numpy()
-    told = np.nan_to_num(power / around) * math.log(2.0)
     level = math.log(len(power) / FALSE_HUM)
     level += 0.5 * (level / math.log(2.0)) ** 2 / SURROUNDINGS  # the median of exponential numbers scatters as well
-    best = int(np.argmax(told))
-    return best if told[best] > level else None
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.asarray(np.nan_to_num(power / around) * math.log(2.0) / level)
 
 
 def _refine_line(errors: Array, near: int) -> float:
