@@ -57,6 +57,7 @@ class Course:
         part, recordings = self.budget.part(FIRST), nominal.problem.observations
         first = ExplanationSearch(bare, self.keys, (), part, share, until, self.say, whole.errors, recordings).run()
         whole.cancelled = first.cancelled
+        whole.use_errors(first.errors)
         if whole.cancelled:
             self.budget.end()
         self.say("the best explanations on all samples")

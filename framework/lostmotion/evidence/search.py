@@ -16,6 +16,7 @@ from lostmotion.evidence.discrepancy import LARGE, LENGTHS, SIZES, Choice, make_
 from lostmotion.evidence.effects import Promise
 from lostmotion.evidence.heldout import score_heldout
 from lostmotion.evidence.hypothesis import Hypothesis, fit_hypothesis
+from lostmotion.evidence.sensor_hum import keep_hums
 from lostmotion.inference.candidates import ScoreTest, add_term
 from lostmotion.inference.curves import add_all_curves
 from lostmotion.inference.fit import ROUGHLY, Fit, maximise, restart
@@ -90,6 +91,8 @@ class ExplanationSearch:
     def _run(self) -> None:
         """Climb, weigh what is near the best set, and extend it."""
         self.bare.climb(self.budget.part(CLIMB))
+        lead = self.bare.fits[self.bare.lead]
+        self.use_errors(keep_hums(self.errors, lead, self.recordings or lead.problem.observations))
         self.weigh(self.bare.fits[self.bare.lead])
         if frozenset() not in self.found:
             self._drop_all(self.best)
@@ -102,6 +105,10 @@ class ExplanationSearch:
                 break
             self.extended.add(target.terms)
             self._extend(target)
+
+    def use_errors(self, errors: tuple[ChannelError, ...]) -> None:
+        """Use these errors of channels from now on."""
+        self.errors = self.bare.errors = errors
 
     def drop_each(self) -> None:
         """Weigh the best set without each of its terms, until the best set stays the same."""

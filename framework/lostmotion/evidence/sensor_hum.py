@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,8 +15,11 @@ from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit
 from lostmotion.likelihood.observation import Observation
 
+T = TypeVar("T")
 FALSE_HUM = 0.01
 """The rate at which a line is found in a recording without hum."""
+BAND, FLOOR = 0.9995, 10.0
+"""The share of the variance of the motion within its band, above the noise: some medians of its spectrum."""
 MOST_LINES = 2
 """The largest number of lines of one sensor in a recording."""
 SURROUNDINGS, NEAR = 101, 2.0
@@ -54,24 +58,47 @@ def list_hums(sensor: int, nominal: Fit) -> Iterator[SensorHum]:
         )
         noise = float(np.sqrt(np.nanmedian(variances)))
         standard = np.nan_to_num(errors / np.sqrt(variances))
-        for pace in find_lines(standard, observation.dt, observation.harmonic.omega, observation.inputs):
+        motion = np.nan_to_num(observation.readings[:, sensor] - errors)
+        edge = _find_band(motion) / observation.dt
+        for pace in find_lines(standard, observation.dt, observation.harmonic.omega, observation.inputs, edge):
             for turn in (0.0, 0.5 * np.pi):
                 yield SensorHum(sensor, observation.name, pace, turn, noise)
 
 
-def find_lines(errors: Array, dt: float, harmonic: float = 0.0, drives: Array | None = None) -> Iterator[float]:
+def keep_hums(errors: Sequence[T], fit: Fit, recordings: Sequence[Observation]) -> tuple[T, ...]:
+    """Return errors of channels without the hums that a fit with terms does not show: physics made these lines."""
+    hums = [one for one in errors if isinstance(one, SensorHum)]
+    if not hums:
+        return tuple(errors)
+    there = replace(fit, problem=fit.problem.on(tuple(recordings)))
+    left = [one for sensor in {hum.sensor for hum in hums} for one in list_hums(sensor, there)]
+    duration = {o.name: len(o.time) * o.dt for o in recordings}
+
+    def is_left(hum: SensorHum) -> bool:
+        near = 2.0 * math.pi * NEAR / duration[hum.recording]
+        return any(
+            (one.sensor, one.recording) == (hum.sensor, hum.recording) and abs(one.pace - hum.pace) < near
+            for one in left
+        )
+
+    return tuple(one for one in errors if not isinstance(one, SensorHum) or is_left(one))
+
+
+def find_lines(
+    errors: Array, dt: float, harmonic: float = 0.0, drives: Array | None = None, edge: float = 0.0
+) -> Iterator[float]:
     """Yield the angular frequencies (rad/s) of the strongest single lines in standardised errors (samples,).
 
     A line stands out of the median of its surroundings with a false-alarm rate of `FALSE_HUM` for a whole recording
     (Fisher, Proc. R. Soc. A 125 (1929) 54-59); each is subtracted before the next one is looked for. Lines of the
-    `drives` (samples, count), and multiples of half the angular frequency `harmonic` of a drive, are no hum: missing
-    physics makes them.
+    `drives` (samples, count), multiples of the angular frequency `harmonic` of a drive, and those below the
+    angular frequency `edge` of the band of the motion are no hum: missing physics makes them.
     """
     places = np.arange(len(errors))
-    taken = np.arange(len(errors) // 2 + 1) < NEAR
+    taken = np.arange(len(errors) // 2 + 1) < NEAR + edge * dt * len(errors) / (2.0 * math.pi)
     if harmonic:
-        half = harmonic * dt * len(errors) / (4.0 * math.pi)
-        taken |= np.abs(np.arange(len(taken)) - half * np.round(np.arange(len(taken)) / half)) < NEAR
+        first = harmonic * dt * len(errors) / (2.0 * math.pi)
+        taken |= np.abs(np.arange(len(taken)) - first * np.round(np.arange(len(taken)) / first)) < NEAR
     for drive in [] if drives is None else drives.T:
         for line in np.flatnonzero(_measure_lines(drive - np.mean(drive), taken) > 1.0):
             taken |= np.abs(np.arange(len(taken)) - line) < NEAR
@@ -84,6 +111,13 @@ def find_lines(errors: Array, dt: float, harmonic: float = 0.0, drives: Array | 
         yield pace / dt
         waves = np.column_stack([np.cos(pace * places), np.sin(pace * places)])
         left = left - waves @ np.linalg.lstsq(waves, left, rcond=None)[0]
+
+
+def _find_band(motion: Array) -> float:
+    """Return the angular frequency (rad per sample) below which nearly all of the variance of a motion lies."""
+    power = np.abs(np.fft.rfft((motion - np.mean(motion)) * np.hanning(len(motion)))) ** 2
+    below = np.cumsum(np.maximum(power - FLOOR * np.median(power), 0.0))
+    return 2.0 * math.pi * int(np.searchsorted(below, BAND * below[-1])) / len(motion)
 
 
 def _measure_lines(signal: Array, taken: NDArray[np.bool_]) -> Array:
