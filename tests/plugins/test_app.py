@@ -1,5 +1,6 @@
 """The page without a browser: its folder, its curves, its jobs, and what its server refuses."""
 
+import http.client
 import json
 import re
 import signal
@@ -214,11 +215,13 @@ def test_the_page_is_bound_to_this_machine_alone(address):
         assert other.connect_ex(("127.0.0.2", port)) != 0
 
 
-def test_another_site_may_not_open_the_connection(address):
-    keys = {
-        "Upgrade": "websocket",
-        "Connection": "Upgrade",
-        "Sec-WebSocket-Key": "x" * 22 + "==",
-        "Sec-WebSocket-Version": "13",
-    }
-    assert ask(address + "/ws", Origin="http://example.org", **keys)[0] == 403
+@pytest.mark.parametrize(("host", "refused"), [("http://example.org", True), (None, False)])
+def test_another_site_may_not_open_the_connection(address, host, refused):
+    """The same request from the page's own address is not refused for where it comes from (403)."""
+    place, path = re.fullmatch(r"http://([\d.:]+)(/.*)", address).groups()
+    keys = {"Upgrade": "websocket", "Connection": "Upgrade", "Sec-WebSocket-Version": "13"}
+    keys |= {"Sec-WebSocket-Key": "x" * 22 + "==", "Origin": host or f"http://{place}"}
+    connection = http.client.HTTPConnection(place, timeout=PATIENCE)
+    connection.request("GET", path + "/ws", headers=keys)
+    assert (connection.getresponse().status == 403) is refused
+    connection.close()
