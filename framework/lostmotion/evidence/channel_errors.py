@@ -65,7 +65,7 @@ def list_channel_errors(nominal: Fit, recordings: Sequence[Observation]) -> tupl
     errors: list[ChannelError] = []
     for sensor in range(len(first.sensors)):
         errors += _list_sensor_errors(sensor, shown, usual)
-        errors += list_hums(sensor, nominal)
+    errors += list_hums(nominal)
     for column in range(first.inputs.shape[1]):
         if any(np.any(o.inputs[:, column]) for o in recordings):
             errors += [DriveError(column, False, usual.scale), DriveError(column, True, usual.late)]

@@ -49,29 +49,31 @@ class SensorHum:
         return replace(observation, readings=readings)
 
 
-def list_hums(sensor: int, nominal: Fit) -> Iterator[SensorHum]:
-    """Yield the two waves of the hum of one sensor in each recording that shows one."""
-    for observation in nominal.problem.observations:
-        seen = nominal.problem.on((observation,)).innovations(nominal.theta)
-        errors, variances = (
-            np.reshape(part, observation.readings.shape)[:, sensor] for part in (seen.errors, seen.variances)
-        )
-        noise = float(np.sqrt(np.nanmedian(variances)))
+def list_hums(fit: Fit) -> Iterator[SensorHum]:
+    """Yield the two waves of each line of hum that the one-step errors of a fit show, by recording and sensor."""
+    for observation in fit.problem.observations:
+        seen = fit.problem.on((observation,)).innovations(fit.theta)
+        errors, variances = (np.reshape(part, observation.readings.shape) for part in (seen.errors, seen.variances))
         standard = np.nan_to_num(errors / np.sqrt(variances))
-        motion = np.nan_to_num(observation.readings[:, sensor] - errors)
-        edge = _find_band(motion) / observation.dt
-        for pace in find_lines(standard, observation.dt, observation.harmonic.omega, observation.inputs, edge):
-            for turn in (0.0, 0.5 * np.pi):
-                yield SensorHum(sensor, observation.name, pace, turn, noise)
+        motion = np.nan_to_num(observation.readings - errors)
+        for sensor, noise in enumerate(np.sqrt(np.nanmedian(variances, axis=0)).tolist()):
+            lines = find_lines(
+                standard[:, sensor],
+                observation.dt,
+                observation.harmonic.omega,
+                observation.inputs,
+                _find_band(motion[:, sensor]) / observation.dt,
+            )
+            for pace in lines:
+                for turn in (0.0, 0.5 * np.pi):
+                    yield SensorHum(sensor, observation.name, pace, turn, noise)
 
 
 def keep_hums(errors: Sequence[T], fit: Fit, recordings: Sequence[Observation]) -> tuple[T, ...]:
     """Return errors of channels without the hums that a fit with terms does not show: physics made these lines."""
-    hums = [one for one in errors if isinstance(one, SensorHum)]
-    if not hums:
+    if not any(isinstance(one, SensorHum) for one in errors):
         return tuple(errors)
-    there = replace(fit, problem=fit.problem.on(tuple(recordings)))
-    left = [one for sensor in {hum.sensor for hum in hums} for one in list_hums(sensor, there)]
+    left = list(list_hums(replace(fit, problem=fit.problem.on(tuple(recordings)))))
     duration = {o.name: len(o.time) * o.dt for o in recordings}
 
     def is_left(hum: SensorHum) -> bool:
@@ -94,14 +96,15 @@ def find_lines(
     `drives` (samples, count), multiples of the angular frequency `harmonic` of a drive, and those below the
     angular frequency `edge` of the band of the motion are no hum: missing physics makes them.
     """
-    places = np.arange(len(errors))
-    taken = np.arange(len(errors) // 2 + 1) < NEAR + edge * dt * len(errors) / (2.0 * math.pi)
+    places, bins = np.arange(len(errors)), np.arange(len(errors) // 2 + 1)
+    per_pace = dt * len(errors) / (2.0 * math.pi)
+    taken = bins < NEAR + edge * per_pace
     if harmonic:
-        first = harmonic * dt * len(errors) / (2.0 * math.pi)
-        taken |= np.abs(np.arange(len(taken)) - first * np.round(np.arange(len(taken)) / first)) < NEAR
+        first = harmonic * per_pace
+        taken |= np.abs(bins - first * np.round(bins / first)) < NEAR
     for drive in [] if drives is None else drives.T:
         for line in np.flatnonzero(_measure_lines(drive - np.mean(drive), taken) > 1.0):
-            taken |= np.abs(np.arange(len(taken)) - line) < NEAR
+            taken |= np.abs(bins - line) < NEAR
     left = errors - np.mean(errors)
     for _ in range(MOST_LINES):
         told = _measure_lines(left, taken)
