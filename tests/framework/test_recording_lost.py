@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from lostmotion.errors import DataError
+from lostmotion.errors import CaseError, DataError
+from lostmotion.recording.load import Recording
 from lostmotion.recording.value_checks import check_sensor, fill_input
 
 N = 3000
@@ -77,3 +78,17 @@ def test_a_sensor_without_readings_is_refused() -> None:
         check_sensor(np.where(np.arange(N) == 4, np.inf, VALUES), "x", "a.csv")
     with pytest.raises(DataError, match="constant"):
         check_sensor(np.ones(N), "x", "a.csv")
+
+
+def test_huge_values_of_an_input_are_refused_before_lost_ones_are_filled() -> None:
+    values = np.where(np.arange(N) == 7, -8.5e307, VALUES)
+    values[3] = np.nan
+    with pytest.raises(DataError, match=r"force.* is -8\.5e\+307 at sample 7, which no sensor can show"):
+        Recording.from_arrays(
+            rate=1e3, inputs={"force": values}, sensors={"position": VALUES}, units={"force": "N", "position": "m"}
+        )
+
+
+def test_arrays_need_units() -> None:
+    with pytest.raises(CaseError, match="units is None"):
+        Recording.from_arrays(rate=1e3, sensors={"position": VALUES}, units=None)  # type: ignore[arg-type]

@@ -21,6 +21,7 @@ from lostmotion.recording.formats import read_table
 from lostmotion.recording.made import (
     COLUMNS,
     COMMON,
+    UNITS,
     RecordingLayout,
     RecordingSource,
     check_units,
@@ -116,7 +117,7 @@ class Recording:
         return f"<Recording {self.name!r}: {', '.join(channels)}; {length}{'; see .warnings' if self.notes else ''}>"
 
     @classmethod
-    @checked(**COMMON)
+    @checked(**COMMON | {"units": UNITS})
     def from_arrays(
         cls,
         time: ArrayLike | None = None,

@@ -34,10 +34,12 @@ Which = tuple[Mapping[str, str], Mapping[str, str]]
 PANEL = (7.2, 1.5)
 """Width of a figure and height of one of its panels, in inches."""
 
+UNITS = mapping(text, "{'force': 'N', 'position': 'mm'}")
+"""The rule of the units of arrays: each of them needs one."""
 COMMON: Mapping[str, Rule] = {
     "inputs": maybe(mapping(anything, "{'force': ...}")),
     "sensors": mapping(anything, "{'position': ...}"),
-    "units": maybe(mapping(text, "{'force': 'N', 'position': 'mm'}")),
+    "units": maybe(UNITS),
     "rate": maybe(positive),
     "noise": maybe(mapping(text, "{'position': 'white'}")),
     "hold": choice("smooth", "step"),

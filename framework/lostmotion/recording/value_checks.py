@@ -37,28 +37,28 @@ def check_values(values: Array, what: str, source: str, *, may_miss: bool) -> tu
     """Return notes on the samples (n,) of a channel; raise `DataError` where they cannot be used."""
     check_finite(values, what, source)
     notes = _check_missing(np.isnan(values), what, source, may_miss)
-    _check_range(values, what, source)
+    _check_moves(values, what, source)
     return notes
 
 
 def check_finite(values: Array, what: str, source: str) -> None:
-    """Raise `DataError` for samples (n,) that are infinite; NaN is accepted here."""
+    """Raise `DataError` for samples (n,) that are infinite or beyond any sensor; NaN is accepted here."""
     if np.isinf(values).any():
         where = int(np.argmax(np.isinf(values)))
         raise DataError(
             f"{source}: {what} is infinite at sample {where}: correct it, or cut it out with t_start, t_end"
         )
-
-
-def _check_range(values: Array, what: str, source: str) -> None:
-    """Raise `DataError` for readings beyond any sensor, and for a constant channel."""
-    seen = values[~np.isnan(values)]
-    if np.abs(seen).max() > LARGEST:
+    if (np.abs(values) > LARGEST).any():
         where = int(np.nanargmax(np.abs(values)))
         raise DataError(
             f"{source}: {what} is {values[where]:.3g} at sample {where}, which no sensor can show: correct or "
             "empty it, or cut it out with t_start, t_end"
         )
+
+
+def _check_moves(values: Array, what: str, source: str) -> None:
+    """Raise `DataError` for a constant channel."""
+    seen = values[~np.isnan(values)]
     if np.ptp(seen) <= 1e-12 * np.max(np.abs(seen)):
         raise DataError(
             f"{source}: {what} is constant ({seen[0]:.6g}) over {values.size} samples: check the sensor and the column"
@@ -80,7 +80,7 @@ def check_sensor(values: Array, what: str, source: str, *, dt: float | None = No
             f"{source}: {what} has {taken.size} readings in {values.size} rows, at least {FEWEST} are needed: record "
             "longer, or leave the sensor out of the case"
         )
-    _check_range(values, what, source)
+    _check_moves(values, what, source)
     return _note_missing(taken, values.size, what, dt)
 
 
