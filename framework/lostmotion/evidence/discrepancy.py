@@ -23,11 +23,12 @@ from numpy.typing import NDArray
 from lostmotion.contracts import Array
 from lostmotion.evidence.channel_errors import ChannelError
 from lostmotion.evidence.expansion import Curvature, Expansion, compute_log_evidence
-from lostmotion.evidence.slopes import CHANNEL_STEP, list_channel_slopes, list_force_slopes
+from lostmotion.evidence.slopes import list_force_slopes
 from lostmotion.inference.curves import compute_coefficient_size
 from lostmotion.inference.fit import list_stencil_points, make_stencil
 from lostmotion.inference.learned import OverPhase, OverPosition, OverTime, OverVelocity, compute_spread
 from lostmotion.likelihood.engine import Innovations
+from lostmotion.likelihood.point_groups import join_innovations
 from lostmotion.likelihood.problem import FreeParameter, Problem
 from lostmotion.likelihood.system import key_of
 from lostmotion.likelihood.tangents import Tangents, join_recordings, linearise_filter
@@ -41,8 +42,8 @@ LENGTHS = (0.15, 0.3, 0.6, 1.2)
 """Correlation lengths of a smooth force, in half widths of the range."""
 MOST_WAVES = 20
 """The largest number of waves of a smooth force: shorter waves have no weight at these correlation lengths."""
-NUDGE, KNOWN_STEP = 3e-4, 1e-3
-"""Finite-difference steps of a coefficient in units of the drive, and of the logarithm of a known value."""
+NUDGE, EXACT = 3e-4, 1e-7
+"""Finite-difference steps: of a coefficient in units of the drive; of logarithms and shares of what scales a model."""
 SWEEPS = 4
 """The largest number of passes in which each smooth force in turn gets its best size and length."""
 
@@ -150,23 +151,30 @@ class JointFrame:
     def expand(self, at: Array, steps: Array, choice: Choice) -> Expansion:
         """Return one-step errors and their derivatives at some coordinates; `steps` (own,) are those of own ones.
 
-        Own parameters and known values are changed by differences. The derivatives over forces and errors of channels
-        are those of the linearised filter (`Tangents`), or differences where a sensor needs them.
+        They are differences, and those over smooth forces are of the linearised filter (`Tangents`) where no sensor
+        needs differences. A change of unit of mass, length or force leaves the errors as they are: steps over what it
+        scales are so small that differences show this, or a recording would seem to tell the scales of its channels.
         """
         problem, n = self.bare(at, choice), len(self.problem.free)
         points, ends = self._make_stencil(at, steps, self.known.stop)
-        made = [linearise_filter(problem, points, i) for i in range(len(problem.observations))]
+        made = [
+            linearise_filter(problem, points, i, [error.correct(o, EXACT) for error in self.errors])
+            for i, o in enumerate(problem.observations)
+        ]
         linear = [one for one in made if one is not None]
         if len(linear) == len(made):
             seen = join_recordings([innovations for _, innovations in linear])
-            errors, variances = _compute_differences(*ends, seen)
+            errors, variances = _compute_differences(*ends, seen[: len(points)])
             rows = np.concatenate([self._list_slopes(one) for one, _ in linear], axis=1)
             errors, variances = np.vstack([errors, rows]), np.vstack([variances, np.zeros_like(rows)])
+            errors, variances = _add_channels(errors, variances, seen[0], seen[len(points) :])
         else:
             problem = self.place(at)
             points, ends = self._make_stencil(at, steps, n)
             seen = problem.filter_many(points)
-            errors, variances = self._add_channels(problem, at[:n], seen[0], _compute_differences(*ends, seen))
+            moved = [problem.on(tuple(e.correct(o, EXACT) for o in problem.observations)) for e in self.errors]
+            changed = join_innovations([other.filter_many(at[None, :n]) for other in moved]) if moved else seen[:0]
+            errors, variances = _add_channels(*_compute_differences(*ends, seen), seen[0], changed)
         middle, precision = np.zeros(self.count), np.zeros(self.count)
         for i, f in enumerate(problem.free):
             middle[i] = f.mean if math.isfinite(f.sd) else at[i]
@@ -178,11 +186,14 @@ class JointFrame:
     def _make_stencil(self, at: Array, steps: Array, width: int) -> tuple[Array, tuple[Array, Array, Array]]:
         """Return points at which the first `width` coordinates are changed, and these coordinates: at, up and down.
 
-        Differences over own coordinates are central.
+        Differences over own coordinates that are none of the model are central.
         """
         n = len(self.problem.free)
-        up, down = make_stencil(self.problem, at[:n], np.concatenate([steps, self._steps]))
-        down = np.where(np.arange(n) < self.own, down, at[:n])
+        tuned = np.concatenate([np.where(self._exact > 0.0, self._exact, steps), self._steps])
+        up, down = make_stencil(self.problem, at[:n], tuned)
+        central = np.arange(n) < self.own
+        central[: self.own] &= (self._exact == 0.0) | (up[: self.own] == at[: self.own])
+        down = np.where(central, down, at[:n])
         points = list_stencil_points(at[:n], up, down)
         ends = (at[:width], up[:width], down[:width])
         return np.vstack([points[: 1 + width], points[1 + n :]]), ends
@@ -197,27 +208,15 @@ class JointFrame:
         return replace(problem, active=problem.active - absent)
 
     def _list_slopes(self, filtered: Tangents) -> Array:
-        """Return the derivatives (coefficients and channel errors, readings) of the errors in one recording."""
+        """Return the derivatives (coefficients, readings) of the errors in one recording over smooth forces."""
         forces = [(force.key, force.columns.stop - force.columns.start) for force in self.forces]
-        rows = list_force_slopes(filtered, forces) + list_channel_slopes(filtered, self.errors)
+        rows = list_force_slopes(filtered, forces)
         return np.vstack(rows) if rows else np.zeros((0, filtered.spread.size))
-
-    def _add_channels(
-        self, problem: Problem, theta: Array, here: Innovations, rows: tuple[Array, Array]
-    ) -> tuple[Array, Array]:
-        """Return derivatives of errors and variances, those over the errors of channels by differences after `rows`."""
-        errors, variances = [rows[0]], [rows[1]]
-        for error in self.errors:
-            moved = tuple(error.correct(o, CHANNEL_STEP) for o in problem.observations)
-            changed = problem.on(moved).innovations(theta)
-            errors.append((changed.errors - here.errors)[None] / CHANNEL_STEP)
-            variances.append((changed.variances - here.variances)[None] / CHANNEL_STEP)
-        return np.vstack(errors), np.vstack(variances)
 
     @cached_property
     def _steps(self) -> Array:
         """The finite-difference steps of known values and of coefficients."""
-        found = np.full(len(self.problem.free) - self.own, KNOWN_STEP)
+        found = np.full(len(self.problem.free) - self.own, EXACT)
         for force in self.forces:
             found[force.columns.start - self.own : force.columns.stop - self.own] = NUDGE * float(
                 compute_coefficient_size(self._terms[force.key], self.problem)
@@ -225,8 +224,23 @@ class JointFrame:
         return found
 
     @cached_property
+    def _exact(self) -> Array:
+        """The small finite-difference steps of own parameters of the model (own,); zero for others."""
+        names = {p.name for p in self.problem.system.model.params}
+        own = self.problem.free[: self.own]
+        units = [1.0 if f.log else min(f.sd, f.high - f.low) if f.parameter in names else 0.0 for f in own]
+        return EXACT * np.array([unit * (f.parameter in names) for unit, f in zip(units, own, strict=True)])
+
+    @cached_property
     def _terms(self) -> dict[str, OverPosition]:
         return {key_of(t): t for t in self.problem.system.terms if isinstance(t, SMOOTH)}  # type: ignore[misc]
+
+
+def _add_channels(errors: Array, variances: Array, here: Innovations, changed: Innovations) -> tuple[Array, Array]:
+    """Return derivatives (n, readings) with those of changed recordings, zero where the filter diverged."""
+    told = changed.finite[:, None] / EXACT
+    more = ((changed.errors - here.errors) * told, (changed.variances - here.variances) * told)
+    return np.vstack([errors, more[0]]), np.vstack([variances, more[1]])
 
 
 def make_frame(

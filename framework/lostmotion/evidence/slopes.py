@@ -1,4 +1,4 @@
-"""Derivatives of the one-step errors of a recording over smooth forces and over errors of its channels."""
+"""Derivatives of the one-step errors of a recording over smooth forces."""
 
 from __future__ import annotations
 
@@ -8,15 +8,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from lostmotion.contracts import Array, place_of
-from lostmotion.evidence.channel_errors import ChannelError, DriveError
 from lostmotion.inference.curves import compute_coefficient_size
 from lostmotion.inference.learned import LearnedTerm, OverPhase, OverPosition, OverTime
 from lostmotion.inference.natural import find_term
 from lostmotion.likelihood.system import key_of
 from lostmotion.likelihood.tangents import Tangents
 
-CHANNEL_STEP = 1e-4
-"""The finite-difference step of each error of a channel."""
 PROBE = 1e-3
 """The force, in units of the drive, with which the effect of a unit force is measured."""
 
@@ -34,18 +31,6 @@ def list_force_slopes(filtered: Tangents, forces: Sequence[tuple[str, int]]) -> 
         rates, channels = directions[term.at]
         waves = term.basis(_find_places(filtered, key, term))[:, :count].T
         found.append(filtered.respond_to_forces(waves[:, :, None] * rates, waves[:, :, None] * channels))
-    return found
-
-
-def list_channel_slopes(filtered: Tangents, errors: Sequence[ChannelError]) -> list[Array]:
-    """Return the derivatives (1, readings) of one-step errors over the errors of channels."""
-    observation, found = filtered.observation, []
-    for error in errors:
-        changed = error.correct(observation, CHANNEL_STEP)
-        if isinstance(error, DriveError):
-            found.append(filtered.respond_to_input((changed.inputs - observation.inputs) / CHANNEL_STEP))
-        else:
-            found.append(filtered.respond_to_readings((changed.readings - observation.readings)[None] / CHANNEL_STEP))
     return found
 
 

@@ -81,6 +81,11 @@ class SensorNoises:
             found[:, s] += np.einsum("pa,pab,pb->p", self.shown[:, own], self.first[:, own, own], self.shown[:, own])
         return found
 
+    @classmethod
+    def join(cls, parts: Sequence[SensorNoises]) -> SensorNoises:
+        """Return the noise at the points of all parts."""
+        return cls(*(np.concatenate([getattr(p, f.name) for p in parts]) for f in fields(cls)))
+
     def select(self, rows: Any) -> SensorNoises:
         """Return some of the points."""
         return SensorNoises(*(getattr(self, f.name)[rows] for f in fields(self)))
@@ -121,6 +126,22 @@ class Points:
         arrays = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in ("drives", "noise")}
         kept = {name: array[rows] for name, array in arrays.items() if array is not None}
         return replace(self, noise=self.noise.select(rows), **kept)
+
+
+def join_points(parts: Sequence[Points], views: Sequence[Observation]) -> Points:
+    """Return the points of recordings that differ in inputs or readings only; `views` has that of each part."""
+    if len(parts) == 1:
+        return parts[0]
+    names = [f.name for f in fields(Points) if f.name not in ("drives", "which", "noise", "readings")]
+    arrays = {name: np.concatenate([getattr(p, name) for p in parts]) for name in names}
+    before = np.cumsum([0, *(len(p.drives) for p in parts)])
+    return Points(
+        **arrays,
+        noise=SensorNoises.join([p.noise for p in parts]),
+        drives=tuple(drive for p in parts for drive in p.drives),
+        which=np.concatenate([p.which + first for p, first in zip(parts, before, strict=False)]),
+        readings=np.stack([view.readings for p, view in zip(parts, views, strict=True) for _ in range(len(p))]),
+    )
 
 
 @dataclass(frozen=True)

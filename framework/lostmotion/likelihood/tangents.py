@@ -17,7 +17,7 @@ import numpy as np
 
 from lostmotion.contracts import Array, Interface
 from lostmotion.kernels.linear_response import respond
-from lostmotion.likelihood.engine import Innovations
+from lostmotion.likelihood.engine import Innovations, join_points
 from lostmotion.likelihood.kernel_calls import compute_each
 from lostmotion.likelihood.lanes import Lanes, make_kept
 from lostmotion.likelihood.observation import Observation
@@ -107,10 +107,13 @@ class Tangents:
         return self.observation.motion_at(place, self.states[:, :n], lever)
 
 
-def linearise_filter(problem: Problem, thetas: Array, index: int = 0) -> tuple[Tangents, Innovations] | None:
+def linearise_filter(
+    problem: Problem, thetas: Array, index: int = 0, changed: Sequence[Observation] = ()
+) -> tuple[Tangents, Innovations] | None:
     """Return the linearised filter of a recording at the first of some coordinates, and the innovations at all.
 
-    `thetas` are (points, n). None where a sensor is late, bent or changes, or where the filter diverged.
+    `thetas` are (points, n). The innovations of `changed` recordings, with other inputs or readings, at the first point
+    come last. None where a sensor is late, bent or changes, or where the filter diverged.
     """
     single = replace(problem.on((problem.observations[index],)), jobs=1)
     changing = single.active & {*single.system.bending_terms, *single.system.rescaling, *single.system.lagging_terms}
@@ -119,8 +122,10 @@ def linearise_filter(problem: Problem, thetas: Array, index: int = 0) -> tuple[T
     points, view = single.points(thetas), single.view()
     if np.any(points.lag != 0.0):
         return None
+    others = [single.on((other,)) for other in changed]
+    every = join_points([points, *(other.points(thetas[:1]) for other in others)], [view, *(o.view() for o in others)])
     kept = make_kept(single.dynamics, view.samples)
-    innovations = single.engine.filter_and_keep(single.dynamics, view, points, kept)
+    innovations = single.engine.filter_and_keep(single.dynamics, view, every, kept)
     if not innovations.finite[0]:
         return None
     seen, _, before, ahead, steps = kept

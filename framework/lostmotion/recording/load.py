@@ -117,7 +117,7 @@ class Recording:
         return f"<Recording {self.name!r}: {', '.join(channels)}; {length}{'; see .warnings' if self.notes else ''}>"
 
     @classmethod
-    @checked(**COMMON | {"units": UNITS})
+    @checked(**{**COMMON, "units": UNITS})
     def from_arrays(
         cls,
         time: ArrayLike | None = None,
