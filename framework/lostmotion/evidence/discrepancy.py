@@ -37,7 +37,8 @@ SMOOTH = (OverPosition, OverVelocity, OverTime, OverPhase)
 SIZES = (0.005, 0.015, 0.05, 0.15)
 """Standard deviations of a smooth force, in units of the drive, as real machines have."""
 LARGE = (*SIZES, 0.5, 1.5)
-"""Those of an unknown force, which is larger than the usual discrepancy."""
+"""Those of an unknown force, which is larger than the usual discrepancy. One over the phase of the drive has the usual
+sizes: a larger one beside a strong damping prescribes the motion, and seems to predict what the drive does not tell."""
 LENGTHS = (0.15, 0.3, 0.6, 1.2)
 """Correlation lengths of a smooth force, in half widths of the range."""
 MOST_WAVES = 20
@@ -256,7 +257,8 @@ def make_frame(
     forces = []
     for key, term in curves:
         size, count = compute_coefficient_size(term, problem), min(term.count, MOST_WAVES)
-        options = np.array([s * size * compute_spread(term, length)[:count] for s in sizes for length in LENGTHS])
+        shares = SIZES if isinstance(term, OverPhase) else sizes
+        options = np.array([s * size * compute_spread(term, length)[:count] for s in shares for length in LENGTHS])
         forces.append(SmoothForce(key, slice(len(frees), len(frees) + count), options))
         frees += [FreeParameter(f"{key}.v{i}", "", 0.0, -1e3 * size, 1e3 * size, linear=True) for i in range(count)]
     wide = replace(problem, free=tuple(frees), active=problem.active | {key for key, _ in curves})
