@@ -43,7 +43,7 @@ LENGTHS = (0.15, 0.3, 0.6, 1.2)
 """Correlation lengths of a smooth force, in half widths of the range."""
 MOST_WAVES = 20
 """The largest number of waves of a smooth force: shorter waves have no weight at these correlation lengths."""
-NUDGE, EXACT = 3e-4, 1e-7
+NUDGE, EXACT = 3e-4, 1e-6
 """Finite-difference steps: of a coefficient in units of the drive; of logarithms and shares of what scales a model."""
 SWEEPS = 4
 """The largest number of passes in which each smooth force in turn gets its best size and length."""
@@ -229,8 +229,8 @@ class JointFrame:
         """The small finite-difference steps of own parameters of the model (own,); zero for others."""
         names = {p.name for p in self.problem.system.model.params}
         own = self.problem.free[: self.own]
-        units = [1.0 if f.log else min(f.sd, f.high - f.low) if f.parameter in names else 0.0 for f in own]
-        return EXACT * np.array([unit * (f.parameter in names) for unit, f in zip(units, own, strict=True)])
+        units = np.array([1.0 if f.log else min(f.sd, f.high - f.low) for f in own])
+        return EXACT * units * [f.parameter in names for f in own]
 
     @cached_property
     def _terms(self) -> dict[str, OverPosition]:

@@ -38,7 +38,8 @@ from lostmotion.kernels.vector import (
 
 N = 2
 BEND_LIMIT, STEP_LIMIT, PACED_LIMIT, PACED_SHARE = 0.0023, 0.05, 1.05, 0.1
-TINY = 1e-14
+TINY = 1e-11
+"""The least reach of a difference of the force, for states of about one: rounding stays below a part in 1e4 of it."""
 GAUSS_POINT = 0.21132486540518712
 """The first of the two Gauss points on a step of length one."""
 
@@ -314,11 +315,22 @@ def propagate_covariance(work, o, taken, sources, h):  # type: ignore[no-untyped
 
 
 @jit
-def carry_step(work, noises, sources, many, paced, h, wide, place, keep, lanes):  # type: ignore[no-untyped-def]
+def follow_first(work, row, o):  # type: ignore[no-untyped-def]
+    """Write what the first point has in a row to all points of a vector."""
+    store(work, row, o, value(work, row, 0) + 0.0 * load(work, AT, o))
+
+
+@jit
+def carry_step(work, noises, sources, many, paced, h, wide, place, keep, led, lanes):  # type: ignore[no-untyped-def]
     """Carry states, covariances and noise of sensors over the step that was tried, at those points that accept it."""
     for o in range(0, lanes, WIDTH):
         multiply(work, F, A, A, o)
         taken = accept_step(work, o, place, wide, h, paced)
+        if led:
+            follow_first(work, AT, o)
+            follow_first(work, TRIAL_STEP, o)
+            follow_first(work, NEXT_STEP, o)
+            taken = load(work, AT, o) == place + wide
         if not any_lane(taken):
             continue
         move_states(work, o, taken, wide, h)
@@ -341,7 +353,7 @@ def carry_step(work, noises, sources, many, paced, h, wide, place, keep, lanes):
 
 
 @jit
-def choose_step(work, place, aligned, step, paced, lanes):  # type: ignore[no-untyped-def]
+def choose_step(work, place, aligned, step, paced, led, lanes):  # type: ignore[no-untyped-def]
     """Write the step of each point at `place`, limited by the last curvature of the force; return the longest."""
     for o in range(0, lanes, WIDTH):
         for a in range(N):
@@ -356,6 +368,8 @@ def choose_step(work, place, aligned, step, paced, lanes):  # type: ignore[no-un
             want = select(bent & (want == wide) & (load(work, ALIVE, o) > 0.5), 0.5 * wide, want)
             wide = wide // 2
         store(work, TRIAL_STEP, o, want)
+        if led:
+            follow_first(work, TRIAL_STEP, o)
     return find_widest(work, place, lanes)
 
 
@@ -369,8 +383,11 @@ def find_widest(work, place, lanes):  # type: ignore[no-untyped-def]
 
 
 @jit
-def cross_sample(derive, space, wires, work, noises, u, which, begin, k, nsub, dt, sources, many, keep, lanes):  # type: ignore[no-untyped-def]
-    """Carry all points over sample `k`, with the inputs in `u`; return nonzero if a law raised an error."""
+def cross_sample(derive, space, wires, work, noises, u, which, begin, k, nsub, dt, sources, many, keep, led, lanes):  # type: ignore[no-untyped-def]
+    """Carry all points over sample `k`, with the inputs in `u`; return nonzero if a law raised an error.
+
+    Points that are `led` take the steps of the first one: differences between them are derivatives of one rule.
+    """
     failed, place, step = 0, 0 * nsub, dt / nsub  # numba compiles a call anew for a literal
     for o in range(0, lanes, WIDTH):
         store(work, AT, o, 0.0)
@@ -382,11 +399,11 @@ def cross_sample(derive, space, wires, work, noises, u, which, begin, k, nsub, d
         if not waiting:
             place += aligned
             continue
-        wide = choose_step(work, place, aligned, step, wires[PACES], lanes)
+        wide = choose_step(work, place, aligned, step, wires[PACES], led, lanes)
         done = wide
         while wide > 0:
             failed |= try_step(derive, space, wires, work, u, which, begin, k, place, wide, nsub, dt, lanes)
-            carry_step(work, noises, sources, many, wires[PACES], wide * step, wide, place, keep, lanes)
+            carry_step(work, noises, sources, many, wires[PACES], wide * step, wide, place, keep, led, lanes)
             done = wide
             wide = find_widest(work, place, lanes)
         place += done

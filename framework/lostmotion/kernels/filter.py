@@ -254,7 +254,7 @@ def add_input_uncertainty(work, noise, sources, drawn, unsure, lanes):  # type: 
 
 
 @whole
-def run_filter(functions, blocks, wiring, inputs, drives, z, sensors, unsure, dt, nsub, written, kept, lanes):  # type: ignore[no-untyped-def]
+def run_filter(functions, blocks, wiring, inputs, drives, z, sensors, unsure, dt, nsub, written, kept, led, lanes):  # type: ignore[no-untyped-def]
     """Filter readings at `lanes` points; write their innovations; return nonzero if a law raised an error.
 
     `z` (sets, samples, sensors) are the readings, one set for all points or one for each (the last serves the rest).
@@ -270,7 +270,7 @@ def run_filter(functions, blocks, wiring, inputs, drives, z, sensors, unsure, dt
     variance that the measured input adds to a held force up to the next sample. The arrays in `written` are errors and
     variances (lanes, samples, sensors), and `reached` (lanes,), the number of samples that were computed. `kept` is
     what a smoother needs of the first point: states and covariances after and before each sample and the transition
-    matrices between, empty if not wanted.
+    matrices between, empty if not wanted. Points that are `led` take the steps of the first one.
     """
     derive, observe = functions[0], functions[1]
     errors, variances, reached = written
@@ -334,7 +334,7 @@ def run_filter(functions, blocks, wiring, inputs, drives, z, sensors, unsure, dt
             break
         add_input_uncertainty(work, noise, sources, drawn, unsure[k], lanes)
         failed |= cross_sample(
-            derive, space, wires, work, noises, u, which, begin, k, nsub, dt, sources, many, keep, lanes
+            derive, space, wires, work, noises, u, which, begin, k, nsub, dt, sources, many, keep, led, lanes
         )
         for s in range(z.shape[2]):
             if sensors[s, 3] > sensors[s, 2]:

@@ -25,6 +25,7 @@ from lostmotion.likelihood.kernel_calls import (
 )
 from lostmotion.likelihood.kernels import build_filter
 from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.point_groups import join_innovations
 from lostmotion.likelihood.work import add_work
 
 _NONE = (np.zeros((1, 1)), np.zeros((1, 1, 1)), np.zeros((1, 1)), np.zeros((1, 1, 1)), np.zeros((1, 1, 1)))
@@ -44,18 +45,29 @@ class Lanes(Engine):
 
     def filter(self, dynamics: Dynamics, observation: Observation, points: Points) -> Innovations:
         """Return one-step errors and their variances, (points, samples, sensors)."""
-        return self.filter_and_keep(dynamics, observation, points, None)
+        return self._filter(dynamics, observation, points, _NONE)
 
-    def filter_and_keep(
-        self, dynamics: Dynamics, observation: Observation, points: Points, kept: Kept | None
+    def filter_near(self, dynamics: Dynamics, observation: Observation, points: Points, kept: Kept) -> Innovations:
+        """Return the same for points near the first one, whose steps they take, for differences between them.
+
+        What a smoother needs of the first point is written into `kept` (`make_kept`).
+        """
+        most, parts = STRIDE - 1, []
+        for begin in range(1, max(len(points), 2), most):
+            rows = np.r_[0, begin : min(begin + most, len(points))]
+            found = self._filter(dynamics, observation, points.select(rows), kept if begin == 1 else _NONE, led=True)
+            parts.append(found if begin == 1 else found[1:])
+        return parts[0] if len(parts) == 1 else join_innovations(parts)
+
+    def _filter(
+        self, dynamics: Dynamics, observation: Observation, points: Points, kept: Kept, *, led: bool = False
     ) -> Innovations:
-        """Return the same as `filter`, and write what a smoother needs of the first point into `kept` (`make_kept`)."""
         shape = (len(points), observation.samples, len(observation.sensors))
         errors, variances, reached = np.zeros(shape), np.ones(shape), np.zeros(len(points), dtype=np.int64)
         for number, rows in enumerate(_group_points(points)):
             written = (errors[rows], variances[rows], reached[rows])
-            wanted = kept if kept is not None and number == 0 else _NONE
-            self._run_filter(dynamics, observation, points.select(rows), written, wanted)
+            wanted = kept if number == 0 else _NONE
+            self._run_filter(dynamics, observation, points.select(rows), written, wanted, led=led)
             if not isinstance(rows, slice):
                 errors[rows], variances[rows], reached[rows] = written
         return Innovations.of(errors, variances, reached)
@@ -71,7 +83,7 @@ class Lanes(Engine):
     ) -> tuple[Kept, Innovations]:
         """Return the input of a smoother at one point, and its innovations."""
         kept = make_kept(dynamics, observation.samples)
-        return kept, self.filter_and_keep(dynamics, observation, points.select(slice(0, 1)), kept)
+        return kept, self._filter(dynamics, observation, points.select(slice(0, 1)), kept)
 
     def simulate(
         self, dynamics: Dynamics, points: Points, start: Array, steps: int, kicks: Array | None = None
@@ -96,6 +108,8 @@ class Lanes(Engine):
         points: Points,
         written: tuple[Array, Array, NDArray[np.int64]],
         kept: Kept,
+        *,
+        led: bool,
     ) -> None:
         """Run the filter at up to `STRIDE` points, and write into the given arrays."""
         system, n = dynamics.system, dynamics.states + dynamics.forces
@@ -134,7 +148,7 @@ class Lanes(Engine):
         padded = _pad_arrays(written, lanes)
         failed = kernels["run_filter"](
             (made.derive, made.observe), blocks, wires, inputs, which, np.ascontiguousarray(readings),
-            numbers, find_input_variance(dynamics, observation), dt, nsub, padded, kept, lanes,
+            numbers, find_input_variance(dynamics, observation), dt, nsub, padded, kept, led, lanes,
         )  # fmt: skip
         add_work(len(points) * observation.samples * nsub * n)
         require_no_failure(failed, system, blocks[0], wires)

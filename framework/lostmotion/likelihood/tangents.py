@@ -62,18 +62,9 @@ class Tangents:
         columns = [self.problem.system.channel(s.channel)[0] for s in self.observation.sensors]
         wide = np.zeros((len(rates), *self.steps.shape[:2]))
         wide[:, :, : rates.shape[2]] = rates
-        return self._run(wide, -channels[:, :, columns] * self.gain)
-
-    def respond_to_readings(self, changes: Array) -> Array:
-        """Return the derivatives (count, samples * sensors) of errors over `changes` (count, samples, sensors)."""
-        still = np.zeros((len(changes), *self.steps.shape[:2]))
-        return self._run(still, np.nan_to_num(changes))
-
-    def _run(self, rates: Array, seen: Array) -> Array:
-        dt = self.observation.dt
-        told = (self.steps, self.ahead, self.slopes, self.spread, *self.noise, dt)
-        found = respond(*told, np.ascontiguousarray(rates), np.ascontiguousarray(seen))
-        return np.asarray(found.reshape(len(seen), -1))
+        seen = np.ascontiguousarray(-channels[:, :, columns] * self.gain)
+        told = (self.steps, self.ahead, self.slopes, self.spread, *self.noise, self.observation.dt)
+        return np.asarray(respond(*told, wide, seen).reshape(len(rates), -1))
 
     def compute_effects(self, fulls: Array, active: frozenset[str]) -> tuple[Array, Array]:
         """Return derivatives of states (sets, samples, n) and channels along the states, for some parameter vectors."""
@@ -125,7 +116,7 @@ def linearise_filter(
     others = [single.on((other,)) for other in changed]
     every = join_points([points, *(other.points(thetas[:1]) for other in others)], [view, *(o.view() for o in others)])
     kept = make_kept(single.dynamics, view.samples)
-    innovations = single.engine.filter_and_keep(single.dynamics, view, every, kept)
+    innovations = single.engine.filter_near(single.dynamics, view, every, kept)
     if not innovations.finite[0]:
         return None
     seen, _, before, ahead, steps = kept
