@@ -22,6 +22,7 @@ from lostmotion.inference.fit import choose_first_steps
 from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
 from lostmotion.kernels.linear_response import respond, respond_plainly
 from lostmotion.likelihood.engine import Innovations
+from lostmotion.likelihood.tangents import linearise_filter
 
 
 def rub(x, v, t):
@@ -149,6 +150,30 @@ def test_derivatives_of_the_linearised_filter_equal_differences(rubbing, monkeyp
     for block in fast.blocks.values():  # the shortest waves turn within a sample, and have little weight in the prior
         apart = np.linalg.norm((sizes * (fast.errors - slow.errors))[block])
         assert apart < 0.05 * np.linalg.norm((sizes * slow.errors)[block])
+
+
+def test_a_recording_does_not_tell_the_scales_of_its_channels(rubbing):
+    """A machine and its forces may be one per cent larger; its sensor, or the machine one per cent smaller."""
+    frame = make_frame(rubbing.nominal.problem, rubbing.nominal.theta, rubbing.errors)
+    found = frame.expand(frame.start, choose_first_steps(rubbing.nominal.problem), frame.none)
+    rows = dict(zip(frame.names, found.errors, strict=True))
+    sensor, drive = (f"channel error {i}" for i in (0, 3))
+    sizes = {name: np.linalg.norm(row) for name, row in rows.items()}
+    machine = rows["m"] + rows["c"] + rows["k"]
+    assert np.linalg.norm(machine + rows[drive] + 2.0 * rows["log_random_force"]) < 1e-4 * sizes[drive]
+    assert np.linalg.norm(rows[sensor] - machine) < 0.2 * sizes[sensor]  # its shape follows the random force
+
+
+def test_points_near_another_take_its_steps(rubbing):
+    """Errors are smooth along a parameter: their second differences fall with the square of the step."""
+    problem, theta = rubbing.nominal.problem, rubbing.nominal.theta
+
+    def bend(step):
+        points = theta + step * np.array([0.0, 1.0, -1.0])[:, None] * (np.arange(len(theta)) == 0)
+        _, seen = linearise_filter(problem, points)
+        return np.linalg.norm(seen.errors[1] + seen.errors[2] - 2.0 * seen.errors[0]) / step**2
+
+    assert bend(1e-3) == pytest.approx(bend(1e-2), rel=0.05)
 
 
 def test_a_correction_of_a_sensor_has_the_shape_of_its_predicted_readings(rubbing):
