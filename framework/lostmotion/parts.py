@@ -80,7 +80,8 @@ class Place:
     """A place where a force can act: `motion(y, u)` returns the relative position and velocity there (SI units).
 
     `y` holds the states and `u` the inputs. `holds` names parameters of the machine that belong to the place, such as
-    the gap, and `stiffness` and `play` those of its contact: terms that need them act nowhere else.
+    the gap, and `stiffness` and `play` those of its contact: terms that need them act nowhere else. A `relative` place
+    is between two bodies that have places of their own.
     Example: `Place("elbow", motion=lambda y, u: (y[1], y[3]))`.
     """
 
@@ -89,6 +90,7 @@ class Place:
     holds: tuple[str, ...] = ()
     stiffness: str | None = None
     play: str | None = None
+    relative: bool = False
 
     @property
     def bodies(self) -> tuple[str | int, ...]:

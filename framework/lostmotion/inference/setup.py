@@ -16,7 +16,6 @@ from lostmotion.inference.fit import Fit, maximise, raise_random_force, restart
 from lostmotion.inference.modes import StartingPoints, select_modes
 from lostmotion.inference.unseen import refit_without_position
 from lostmotion.kernels.threads import each
-from lostmotion.likelihood.drive import count_substeps
 from lostmotion.likelihood.noise_levels import (
     LEVELS_TRIED,
     compute_random_level,
@@ -251,7 +250,8 @@ def find_fastest_rate(problem: Problem, theta: Array) -> float:
 def choose_steps(problem: Problem, theta: Array, *, accuracy: float = COARSE) -> Problem:
     """Return the problem with the number of steps between samples for the stiffness along the recorded motion."""
     rate = find_fastest_rate(problem, theta)
-    steps = count_substeps(rate, max(t.dt for t in problem.observations), accuracy=accuracy)
+    dt, held = max(t.dt for t in problem.observations), all(t.held for t in problem.observations)
+    steps = problem.system.count_substeps(rate, dt, accuracy, active=problem.active, held=held)
     return replace(problem, nsub=max(steps, count_steps_for_sticking(problem, theta, creep=CREEP * accuracy / COARSE)))
 
 

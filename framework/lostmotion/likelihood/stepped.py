@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from lostmotion.contracts import Array, Dynamics, Machine, Place, Term, place_of
 from lostmotion.errors import ContractError
-from lostmotion.likelihood.drive import SILENT, Drive, DriveHarmonic, pad_inputs
+from lostmotion.likelihood.drive import SILENT, Drive, DriveHarmonic, count_substeps, pad_inputs
 from lostmotion.likelihood.place_frame import PlaceLaws, make_frame, pack_frame
 from lostmotion.likelihood.system import Motion, System
 from lostmotion.quantities import quantity_of
@@ -23,6 +23,8 @@ POSTURES = 8
 """Positions, up to half a turn from the given one, at which the inertia at a place is found; the smallest is used."""
 SLOWEST = 0.05
 """A motion that decays to less than this share within a step counts as one that decays to it."""
+COARSER = 5.0
+"""Steps are longer than those of equations by this factor: their error is that of held inputs, (rate * step)^2 / 24."""
 SPREAD = 8
 """States of a motion at which inertias are found."""
 
@@ -77,31 +79,32 @@ class MachineRows:
         """Return position and velocity (rows, places, 2) at each place."""
         return np.stack([place.move(x, u).T for place in self.machine.places], axis=1)
 
-    def push(self, times: Array, x: Array, own: Array, u: Array, free: Array) -> tuple[Array, Array]:
+    def push(self, times: Any, x: Array, own: Array, u: Array, free: Array) -> tuple[Array, Array]:
         """Return the forces (rows, places) of terms, and derivatives (rows, own states) of the states of terms.
 
-        `free` (rows, places) are further forces, which a sensor with states may show.
+        `times` is one (s) or (rows,). `free` (rows, places) are further forces, which a sensor with states may show.
         """
         if self.laws is None:
             return np.zeros((len(x), len(self.machine.places))), np.zeros_like(own)
         moved, unseen = self.move(x, u), np.zeros((len(x), len(self.machine.channels)))
+        times = np.full(len(x), times, dtype=float)
         force, rates = self.laws.evaluate(times, moved, own, np.concatenate([u, unseen], axis=1))
         if self.laws.senses:
             seen = self.observe(x, u, force + free)
             force, rates = self.laws.evaluate(times, moved, own, np.concatenate([u, seen], axis=1))
         return force, rates
 
-    def advance(self, times: Array, state: tuple[Array, Array, Array], inputs: Sequence[Array], h: float) -> Any:
+    def advance(self, times: Any, state: tuple[Array, Array, Array], inputs: Sequence[Array], h: float) -> Any:
         """Return the states of machine and terms, (rows, states) and (rows, own states), after `h` s.
 
         `state` are those before and the free forces (rows, places), `inputs` those at the beginning, on average and at
         the end, each (rows, inputs). The forces of terms are the mean of those at both ends (Heun).
         """
         (x, own, free), (early, mean, late) = state, inputs
+        if self.laws is None:
+            return self.step(x, mean, free, h), own
         force, rates = self.push(times, x, own, early, free)
         moved = self.step(x, mean, force + free, h)
-        if self.laws is None:
-            return moved, own
         further, later = self.push(times + h, moved, own + h * rates, late, free)
         return self.step(x, mean, 0.5 * (force + further) + free, h), own + 0.5 * h * (rates + later)
 
@@ -201,8 +204,19 @@ class SteppedSystem(System):
 
     @property
     def bodies(self) -> int:
-        """The number of places, on each of which a random force acts."""
-        return len(self.machine.places)
+        """The number of places of a body, on each of which a random force acts."""
+        return len(self.pushed)
+
+    @cached_property
+    def pushed(self) -> list[int]:
+        """The numbers of the places on which a random force acts: those that are not between two bodies."""
+        return [i for i, place in enumerate(self.machine.places) if not place.relative]
+
+    def spread_forces(self, forces: Array) -> Array:
+        """Return forces (rows, places) at all places, of random forces (rows, any) at the first of the pushed ones."""
+        free = np.zeros((len(forces), len(self.machine.places)))
+        free[:, self.pushed[: forces.shape[1]]] = forces
+        return free
 
     def holds_forces(self, channels: Iterable[str]) -> bool:
         """Return true: random forces are held over each sample, since nothing else can be told to a step."""
@@ -231,8 +245,7 @@ class SteppedSystem(System):
         """Return derivatives (sets, points, n) as differences over one step, and channels (sets, points, channels)."""
         n, m = len(self.machine.states), self.states(active)
         u = pad_inputs(inputs, len(self.machine.inputs))
-        x, own, free = states[:, :n], states[:, n:m], np.zeros((len(states), self.bodies))
-        free[:, : len(latent)] = states[:, list(latent)]
+        x, own, free = states[:, :n], states[:, n:m], self.spread_forces(states[:, list(latent)])
         when = np.zeros(len(states)) if times is None else np.asarray(times, dtype=float)
         some = np.unique(np.linspace(0, len(states) - 1, SPREAD).astype(int))
         rates, seen = np.zeros((len(packed), *states.shape)), np.zeros((len(packed), len(x), len(self.model.channels)))
@@ -265,7 +278,7 @@ class SteppedSystem(System):
         some = np.unique(np.linspace(0, len(x) - 1, SPREAD).astype(int))
         both = [
             self.make_rows(packed, active, x[some].T[None], repeat=len(x), muted=muted).push(
-                times, x, own, u, np.zeros((len(x), self.bodies))
+                times, x, own, u, np.zeros((len(x), len(self.machine.places)))
             )[0]
             for muted in (None, key)
         ]
@@ -280,6 +293,17 @@ class SteppedSystem(System):
             states[:, i] = positions if kind == "position" else velocities if kind == "velocity" else 0.0
         return states
 
+    def count_substeps(
+        self, rate: float, dt: float, accuracy: float, *, active: frozenset[str] = frozenset(), held: bool = False
+    ) -> int:
+        """Return the number of steps in a sample; one where nothing but held inputs acts on the machine.
+
+        The machine integrates itself: steps only resolve its inputs and the forces of terms.
+        """
+        if held and not active & {key for key, _ in self.frame.forces}:
+            return 1
+        return count_substeps(rate, dt, accuracy=COARSER * accuracy)
+
     def find_fastest_rate(
         self, full: Array, active: Iterable[str], states: Array, inputs: Array, dt: float = 1.0
     ) -> float:
@@ -289,7 +313,7 @@ class SteppedSystem(System):
         reach = 1e-6 * np.where(wide > 0.0, wide, np.max(wide, initial=1e-6))
         moved = states[None] + np.concatenate([np.zeros((1, n)), np.diag(reach)])[:, None]
         rows = MachineRows(self.machine, np.tile(full[: len(self.machine.params)], (points * (n + 1), 1)))
-        free = np.zeros((points * (n + 1), self.bodies))
+        free = np.zeros((points * (n + 1), len(self.machine.places)))
         ends = rows.step(moved.reshape(-1, n), np.tile(u, (n + 1, 1)), free, dt).reshape(moved.shape)
         jacobians = np.moveaxis((ends[1:] - ends[0]) / reach[:, None, None], 0, 2)
         if not np.isfinite(jacobians).all():
@@ -311,7 +335,7 @@ class SteppedSystem(System):
         states, count = np.full((len(start), steps, start.shape[1]), np.nan), len(start)
         whole = packed if len(packed) == count else np.repeat(packed, count, axis=0)
         rows = self.make_rows(whole, active, start[:, :n, None])
-        now, free = start.astype(float), np.zeros((count, self.bodies))
+        now, free = start.astype(float), np.zeros((count, len(self.machine.places)))
         for k in range(steps):
             now = now + kicks[:, k] if kicks is not None and k else now
             states[:, k] = now

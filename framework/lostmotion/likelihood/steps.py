@@ -44,7 +44,8 @@ class Steps(KeepingEngine):
     ) -> Innovations:
         """Return one-step errors and variances; write what a smoother needs of the first point into `kept`."""
         run = _Filter.of(running, observation, points)
-        run.run(kept)
+        with np.errstate(all="ignore"):  # a point that diverges is marked
+            run.run(kept)
         add_work(len(points) * observation.samples * running.nsub * run.size)
         return Innovations.of(run.errors, run.variances, run.reached)
 
@@ -132,10 +133,12 @@ class _Filter:
         return self.system.make_rows(packed, self.running.active, near, repeat=repeat)
 
     @cached_property
-    def cubics(self) -> Array:
-        """The inputs of each sample, (samples, drives, 4, inputs)."""
-        count = len(self.system.model.inputs)
-        return np.stack([drive.pad_inputs(count).cubics for drive in self.points.drives], axis=1)
+    def crossed(self) -> list[list[Array]]:
+        """The inputs at the beginning of each step, on average and at its end, each (samples, drives, inputs)."""
+        count, nsub, drives = len(self.system.model.inputs), self.running.nsub, self.points.drives
+        cubics = [drive.pad_inputs(count).cubics for drive in drives]
+        each = [[cross_inputs(c, j / nsub, 1.0 / nsub) for c in cubics] for j in range(nsub)]
+        return [[np.stack([one[i] for one in step], axis=1) for i in range(3)] for step in each]
 
     @cached_property
     def readings(self) -> Array:
@@ -189,43 +192,42 @@ class _Filter:
     def _split(self, states: Array) -> tuple[Array, Array, Array]:
         """Return machine states, term states and forces at each place, each (rows, any), of states (rows, size)."""
         n, m = len(self.system.model.states), self.running.states
-        free = np.zeros((len(states), self.system.bodies))
-        free[:, : self.running.forces] = states[:, m : self.size]
-        return states[:, :n], states[:, n:m], free
+        return states[:, :n], states[:, n:m], self.system.spread_forces(states[:, m : self.size])
 
-    def _inputs(self, k: int, share: float, width: float, repeat: int) -> tuple[Array, Array, Array]:
+    def _find_inputs(self, k: int, j: int, repeat: int) -> list[Array]:
         """Return the inputs at the beginning of a step, on average and at its end, each (points * repeat, inputs)."""
-        early, mean, late = cross_inputs(self.cubics[k], share, width)
+        rows, crossed = len(self.points) * repeat, [ends[k] for ends in self.crossed[j]]
+        if len(self.points.drives) == 1:
+            return [np.broadcast_to(u[0], (rows, u.shape[1])) for u in crossed]
         which = np.repeat(self.points.which, repeat)
-        return early[which], mean[which], late[which]
+        return [u[which] for u in crossed]
 
-    def _time(self, k: float, rows: int) -> Array:
-        return np.full(rows, self.points.drives[0].begin + k * self.observation.dt)
+    def _time(self, k: float) -> float:
+        return float(self.points.drives[0].begin + k * self.observation.dt)
 
     def _cross(self, k: int) -> Array:
         """Propagate over one sample; return the transition matrices (points, size, size)."""
-        count, across = len(self.points), np.tile(np.eye(self.size), (len(self.points), 1, 1))
-        for j in range(self.running.nsub):
-            step = self._step(k, j)
-            across = step @ across
+        across = self._step(k, 0)
+        for j in range(1, self.running.nsub):
+            across = self._step(k, j) @ across
         if self.running.random == "held":
             across[:, self._forces] = 0.0
         noise, own = self.points.noise, slice(self.size, None)
+        if self.state.shape[1] == self.size:
+            return across
         self.state[:, own] = np.einsum("pab,pb->pa", noise.transition, self.state[:, own])
         self.cov[:, own] = noise.transition @ self.cov[:, own]
         self.cov[:, :, own] = self.cov[:, :, own] @ noise.transition.transpose(0, 2, 1)
         self.cov[:, own, own] += noise.driving
-        return across.reshape(count, self.size, self.size)
+        return across
 
     def _step(self, k: int, j: int) -> Array:
         """Propagate over one step of a sample; return the slopes (points, size, size) of the new states."""
         nsub, size = self.running.nsub, self.size
         states, reach = self._spread()
         flat = states.reshape(-1, size)
-        inputs = self._inputs(k, j / nsub, 1.0 / nsub, 2 * size + 1)
-        moved = self.wide.advance(
-            self._time(k + j / nsub, len(flat)), self._split(flat), inputs, self.observation.dt / nsub
-        )
+        inputs, h = self._find_inputs(k, j, 2 * size + 1), self.observation.dt / nsub
+        moved = self.wide.advance(self._time(k + j / nsub), self._split(flat), inputs, h)
         ends = np.concatenate([*moved, self._decay(flat[:, self._forces], 2 * size + 1)], axis=1).reshape(states.shape)
         middle, up, down = ends[:, 0], ends[:, 1 : size + 1], ends[:, size + 1 :]
         slopes = ((up - down) / (2.0 * reach[:, :, None])).transpose(0, 2, 1)
@@ -249,7 +251,7 @@ class _Filter:
     def _observe(self, k: int, s: int, states: Array, rows: MachineRows, repeat: int) -> Array:
         """Return the channel of a sensor (rows,) at sample `k`, or before it where the sensor is late."""
         channel, _ = self.system.shown(self.observation.sensors[s], self.running.active)
-        (x, own, free), u, times = self._split(states), self._inputs(k, 0.0, 1.0, repeat), self._time(k, len(states))
+        (x, own, free), u, times = self._split(states), self._find_inputs(k, 0, repeat), self._time(k)
         lag = np.repeat(self.points.lag[:, s], repeat)[:, None]
         if lag.any():
             h = self.observation.dt / self.running.nsub
@@ -277,8 +279,8 @@ class _Filter:
         """Return the derivatives (points, size) of the states at sample `k`, as differences over a step."""
         states, h = self.state[:, : self.size], self.observation.dt / self.running.nsub
         x, own, free = self._split(states)
-        u = self._inputs(k, 0.0, 1.0, 1)[0]
-        later, further = self.single.advance(self._time(k, len(x)), (x, own, free), (u, u, u), h)
+        u = self._find_inputs(k, 0, 1)[0]
+        later, further = self.single.advance(self._time(k), (x, own, free), (u, u, u), h)
         return np.concatenate([(later - x) / h, (further - own) / h, 0.0 * states[:, self._forces]], axis=1)
 
     def _update(self, k: int, s: int, sensor: Sensor) -> None:
@@ -295,14 +297,15 @@ class _Filter:
         look[:, : self.size] = gain[:, None] * slopes
         own = slice(first, first + sensor.noise_states)
         look[:, own] = noise.shown[:, first - self.size : first - self.size + sensor.noise_states]
-        pull = np.einsum("pab,pb->pa", self.cov, look)
+        pull = (self.cov @ look[:, :, None])[:, :, 0]
         variance = np.sum(look * pull, axis=1) + noise.white[:, s] + gain**2 * loose
-        shown = gain * expected + self.points.offset[:, s] + np.sum((look * self.state)[:, own], axis=1)
+        shown = gain * expected + self.points.offset[:, s]
+        if sensor.noise_states:
+            shown = shown + np.sum((look * self.state)[:, own], axis=1)
         error = np.where(read, self.readings[:, k, s] - shown, 0.0)
-        with np.errstate(all="ignore"):
-            share = np.where(read, 1.0 / variance, 0.0)
+        share = np.where(read, 1.0 / variance, 0.0)
         self.state += pull * (share * error)[:, None]
         self.cov -= pull[:, :, None] * pull[:, None, :] * share[:, None, None]
-        places = range(self.size)
-        self.cov[:, places, places] = np.maximum(self.cov[:, places, places], 0.0)
+        diagonal = np.einsum("pii->pi", self.cov)  # a view: the rest is not copied
+        np.maximum(diagonal, 0.0, out=diagonal)
         self.errors[read, k, s], self.variances[read, k, s] = error[read], variance[read]

@@ -16,7 +16,7 @@ import numpy as np
 from lostmotion.contracts import Array, Assembly, DriveTerm, Input, Machine, Place, SensorTerm, place_of
 from lostmotion.errors import ContractError, nearest
 from lostmotion.likelihood.acting import Column, Recorded, apply_term, evaluate_order
-from lostmotion.likelihood.drive import SILENT, Drive, DriveHarmonic
+from lostmotion.likelihood.drive import SILENT, Drive, DriveHarmonic, count_substeps
 from lostmotion.likelihood.kernel_calls import compute_each, run_freely
 from lostmotion.likelihood.layout import ALWAYS, NUMB, Layout, Slot, key_of, onset_key
 from lostmotion.likelihood.sensors import Sensor, SensorChange
@@ -299,6 +299,15 @@ class System(Layout):
         position, velocity = self.model.first_body
         states[:, position], states[:, velocity] = positions, velocities
         return states
+
+    def count_substeps(
+        self, rate: float, dt: float, accuracy: float, *, active: frozenset[str] = frozenset(), held: bool = False
+    ) -> int:
+        """Return the number of steps in a sample of `dt` s, where the fastest rate of the motion is `rate` (1/s).
+
+        `accuracy` is the largest product of step and rate, and `held` says that inputs are constant over a sample.
+        """
+        return count_substeps(rate, dt, accuracy=accuracy)
 
     def find_fastest_rate(
         self, full: Array, active: Iterable[str], states: Array, inputs: Array, dt: float = 1.0

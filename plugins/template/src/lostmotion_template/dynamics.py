@@ -11,8 +11,9 @@ from lostmotion.contracts import Array, Dynamics, Param, Place
 from lostmotion.quantities import DAMPING, INERTIA
 
 GRAVITY = 9.81
-LENGTH, UPPER_CENTRE, FORE_CENTRE = 0.4, 0.2, 0.15
-UPPER_MASS, UPPER_INERTIA, FORE_INERTIA = 3.0, 0.05, 0.03
+LENGTH, UPPER_MASS, UPPER_CENTRE, UPPER_INERTIA = 0.4, 3.0, 0.2, 0.05
+FORE_CENTRE, GYRATION = 0.15, 0.19
+"""Centre of mass and radius of gyration (m) of the forearm about the elbow: with its inertia they give its mass."""
 
 
 @dataclass(frozen=True)
@@ -30,7 +31,7 @@ class TwoJointArm(Dynamics):
     inputs = ("shoulder_force", "elbow_force")
     channels = ("shoulder", "elbow", "shoulder.velocity", "elbow.velocity", "elbow.acceleration")
     params = (
-        Param("fore_mass", "mass of the forearm with its load", INERTIA, low=0.0, scale="log"),
+        Param("fore_inertia", "moment of inertia of the forearm about the elbow", INERTIA, low=0.0, scale="log"),
         Param("shoulder_damping", "viscous damping in the shoulder", DAMPING, low=0.0, scale="log"),
         Param("elbow_damping", "viscous damping in the elbow", DAMPING, low=0.0, scale="log"),
     )
@@ -55,8 +56,8 @@ class TwoJointArm(Dynamics):
 
 def compute_rates(x: Array, torque: Array, p: Array) -> Array:
     """Return the derivatives (rows, 4) of the states: M(q) a = torque - damping - c(q, v) - g(q)."""
-    mass, one, two, v1, v2 = p[:, 0], x[:, 0], x[:, 1], x[:, 2], x[:, 3]
-    far = FORE_INERTIA + mass * FORE_CENTRE**2
+    far, one, two, v1, v2 = p[:, 0], x[:, 0], x[:, 1], x[:, 2], x[:, 3]
+    mass = far / GYRATION**2
     near = UPPER_INERTIA + UPPER_MASS * UPPER_CENTRE**2 + mass * LENGTH**2
     bend, c, s = LENGTH * mass * FORE_CENTRE, np.cos(two), np.sin(two)
     m11, m12 = near + far + 2.0 * bend * c, far + bend * c
