@@ -61,5 +61,6 @@ def step_model(model: Model, fine: int = 1) -> ModelSteps:
     )
     members |= {"model": model, "fine": fine, "places": places, "__module__": __name__}
     members |= {"__annotations__": {"motion": Motion}, "first_body": model.first_body}
-    made: ModelSteps = dataclass(frozen=True)(type("ModelSteps", (ModelSteps,), members))()  # type: ignore[operator]
+    cls: Any = dataclass(frozen=True)(type("ModelSteps", (ModelSteps,), members))
+    made: ModelSteps = cls()
     return made

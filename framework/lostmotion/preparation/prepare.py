@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -69,16 +70,16 @@ def find_dynamics(text: str, folder: Path, registry: Registry) -> str:
     file, _, word = text.partition(":")
     if not file.endswith(".py"):
         return text
-    registry.add_file(folder / file)
-    here = [name for name in registry.names("dynamics") if registry.entry("dynamics", name).owner == str(folder / file)]
-    classes = {registry.load("dynamics", name).__name__: name for name in here}
+    path = os.path.normpath(folder / file)
+    registry.add_file(path)
+    here = [e for e in registry.entries() if (e.kind, e.owner) == ("dynamics", path)]
+    classes = {entry.target.rpartition(":")[2]: entry.name for entry in here}
     if not word and len(classes) == 1:
         return next(iter(classes.values()))
     if word not in classes:
         known = f"it has {', '.join(classes)}" if classes else "write a subclass of lostmotion.contracts.Dynamics in it"
-        raise CaseError(
-            f"dynamics = {text!r}: {file} has no class {word!r} of the kind Dynamics{nearest(word, classes)}: {known}"
-        )
+        near = nearest(word, classes)
+        raise CaseError(f"dynamics = {text!r}: {file} has no class {word!r} of the kind Dynamics{near}: {known}")
     return classes[word]
 
 

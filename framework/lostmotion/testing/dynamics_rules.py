@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -41,7 +42,8 @@ def _try_rows(machine: Dynamics) -> _Tried:
 
 
 def _differ(a: Array, b: Array) -> bool:
-    return not np.allclose(a, b, rtol=0.0, atol=CLOSE * max(float(np.max(np.abs(a), initial=0.0)), 1e-300))
+    largest = float(np.max(np.abs(a), initial=0.0))
+    return not (math.isfinite(largest) and np.allclose(a, b, rtol=0.0, atol=CLOSE * max(largest, 1e-300)))
 
 
 @rule("dynamics", declaration=True)
