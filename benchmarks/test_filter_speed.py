@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from lostmotion.likelihood.drive import Drive
-from lostmotion.likelihood.engine import Dynamics, Points, SensorNoises
+from lostmotion.likelihood.engine import Points, RunningSystem, SensorNoises
 from lostmotion.likelihood.lanes import Lanes
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.reference import Reference
@@ -42,7 +42,7 @@ def asked(samples, count):
         one, 0.0 * one, 0.0 * one, np.tile([truth[0], 0.1], (count, 1)),
         np.tile(np.diag([1e-8, 1e-2]), (count, 1, 1)), (drive,), number, number,
     )  # fmt: skip
-    return Dynamics(system, system.everything, SUBSTEPS), observation, points
+    return RunningSystem(system, system.everything, SUBSTEPS), observation, points
 
 
 @pytest.mark.parametrize("count", [1, 16, 32], ids=["1 point", "16 points", "32 points"])

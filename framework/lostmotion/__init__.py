@@ -21,10 +21,10 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from lostmotion.errors import LostMotionError
     from lostmotion.errors import LostMotionError as LostmotionError
-    from lostmotion.notebook.case import Case, model
+    from lostmotion.notebook.case import Case
     from lostmotion.notebook.distributions import HalfNormal, LogNormal, LogUniform, Normal, Uniform
     from lostmotion.notebook.doors import check, diagnose, identify, load
-    from lostmotion.notebook.models import simulate
+    from lostmotion.notebook.models import model, simulate
     from lostmotion.recording import Recording
     from lostmotion.settings import Settings
 
@@ -36,7 +36,7 @@ __all__ = [
 ]  # fmt: skip
 _TARGETS = {
     **{name: f"notebook.doors:{name}" for name in ("check", "diagnose", "identify", "load")},
-    **{name: f"notebook.case:{name}" for name in ("Case", "model")},
+    "Case": "notebook.case:Case",
     **{
         name: f"notebook.distributions:{name}"
         for name in ("HalfNormal", "LogNormal", "LogUniform", "Normal", "Uniform")
@@ -45,7 +45,7 @@ _TARGETS = {
     "LostmotionError": "errors:LostMotionError",
     "Recording": "recording:Recording",
     "Settings": "settings:Settings",
-    "simulate": "notebook.models:simulate",
+    **{name: f"notebook.models:{name}" for name in ("model", "simulate")},
 }
 _OFFERED = ("analyse", "denoise", "embed", "map", "quantify", "surrogate_test")
 """Names in `__all__` that a package offers by a hook: functions of the analysis of chaos."""

@@ -1,8 +1,9 @@
-"""The eight kinds of plugin. Subclass one of them directly, as a frozen dataclass, and name the class in a hook.
+"""The nine kinds of plugin. Subclass one of them directly, as a frozen dataclass, and name the class in a hook.
 
-`rhs`, `observe`, `force` and `rate` are scalar Python functions on NumPy arrays. The framework compiles them with numba
-into one kernel, so they may use arithmetic, branches and `math`, but no NumPy functions and no objects. A quantity that
-is *estimated* is an entry of `p`, not a field. `lostmotion plugins check NAME` tests all rules. Values are in SI units.
+`rhs` and `observe` of a `Model`, `force` and `rate` of a `Term` are scalar Python functions on NumPy arrays. The
+framework compiles them with numba into one kernel, so they may use arithmetic, branches and `math`, but no NumPy
+functions and no objects. `step` and `observe` of a `Dynamics` are called as they are. A quantity that is *estimated*
+is an entry of `p`, not a field. `lostmotion plugins check NAME` tests all rules. Values are in SI units.
 """
 
 from __future__ import annotations
@@ -10,40 +11,38 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar, Generic, Literal, Self
-
-import numpy as np
+from typing import Any, ClassVar, Literal, Self
 
 from lostmotion.defaults import RARE
 from lostmotion.errors import ContractError, nearest
+from lostmotion.methods import Denoiser, Embedder, Quantifier, Surrogate
 from lostmotion.noises import Noise, NoiseBlock, NoiseParameter, SensorScales
-from lostmotion.parts import PSEUDO_NEEDS, Array, Drive, Group, Input, Interface, Motion, Param, Values
-from lostmotion.quantities import Dimension
+from lostmotion.parts import PSEUDO_NEEDS, Array, Drive, Group, Input, Interface, Motion, Param, Place, Values
+from lostmotion.quantities import Dimension, quantity_of
 from lostmotion.recording.arrays import table_of_arrays
 from lostmotion.recording.table import Table
-from lostmotion.results import Embedding, Estimate
 from lostmotion.simulators import Simulator
 from lostmotion.subjects import Attractors, Data, Flow, Motions, Orbit, Series
 
 __all__ = [
-    "KINDS", "PSEUDO_NEEDS", "Array", "Assembly", "Attractors", "Data", "Denoiser", "Drive", "DriveTerm", "Embedder",
-    "Flow", "Group", "Input", "Interface", "Model", "Motion", "Motions", "Noise", "NoiseBlock",
-    "NoiseParameter", "Orbit", "Param", "Quantifier", "SensorScales", "SensorTerm", "Series", "Simulator",
+    "KINDS", "PSEUDO_NEEDS", "Array", "Assembly", "Attractors", "Data", "Denoiser", "Drive", "DriveTerm", "Dynamics",
+    "Embedder", "Flow", "Group", "Input", "Interface", "Machine", "Model", "Motion", "Motions", "Noise", "NoiseBlock",
+    "NoiseParameter", "Orbit", "Param", "Place", "Quantifier", "SensorScales", "SensorTerm", "Series", "Simulator",
     "Surrogate", "Table", "Term", "Values", "place_of", "table_of_arrays"]  # fmt: skip
 
-_NOWHERE = Interface("", -1, "", lambda y, u: (0.0, 0.0))
+_NOWHERE = Place("", lambda y, u: (0.0, 0.0))
+UNKNOWN_TO_STEPS = frozenset({"acceleration", "force_input", "shake_input"})
+"""Needs of a term that a machine without equations cannot tell."""
 
 
-class Model(ABC):
-    """A machine as a system of first-order equations under *measured* inputs.
+class Machine(ABC):
+    """What all machines declare: a `Model`, written as equations, and a `Dynamics`, which can only be stepped.
 
-    `states` names the entries of `y`, position and velocity of the first body in front. `inputs` names the entries of
-    `u`: "force", "second_force" and so on, "base_position" followed by "base_velocity", or "base_acceleration" (the
-    motion is then relative to the base, while an accelerometer shows both). An input that nothing drives is zero.
-    `channels` names the entries that `observe` writes; the last part of a name is its quantity ("second_position").
-    `params` names the entries of `p`, `interfaces` the places where terms may act, `groups` dimensionless numbers.
-    `motion` is "translation" (N, m) or "rotation" (N m, rad). Where the equations hold for both, it is a field, and
-    `motions` lists both. `paper` cites the source. `plugins/template` has a complete example.
+    `states` names the entries of the state, `inputs` those of `u`: "force", "second_force" and so on, "base_position"
+    followed by "base_velocity", or "base_acceleration". An input that nothing drives is zero. `channels` names what
+    sensors can show; the last part of a name is its quantity ("second_position"). `params` names the entries of `p`,
+    `groups` dimensionless numbers. `motion` is "translation" (N, m) or "rotation" (N m, rad). Where the machine may be
+    of both, it is a field, and `motions` lists both. `paper` cites the source.
     """
 
     name: ClassVar[str]
@@ -54,8 +53,90 @@ class Model(ABC):
     inputs: ClassVar[tuple[str, ...]]
     channels: ClassVar[tuple[str, ...]]
     params: ClassVar[tuple[Param, ...]]
-    interfaces: ClassVar[tuple[Interface, ...]]
     groups: ClassVar[tuple[Group, ...]] = ()
+
+    @property
+    @abstractmethod
+    def places(self) -> tuple[Place, ...]:
+        """The places where terms may act. The first is the one to which natural sizes refer."""
+
+    @property
+    def first_body(self) -> tuple[int, int]:
+        """The states that are position and velocity of the first body, to which natural sizes refer."""
+        position = next((i for i, name in enumerate(self.states) if quantity_of(name) == "position"), 0)
+        rate = self.find_rate(position)
+        return position, position if rate is None else rate
+
+    def find_rate(self, state: int) -> int | None:
+        """Return the state that is the velocity of another one, found by its name; None where there is none."""
+        name = self.states[state]
+        rates = (f"{name.removesuffix('position')}velocity", f"{name}.velocity", f"{name}_velocity")
+        return next((self.states.index(rate) for rate in rates if rate in self.states), None)
+
+    @property
+    def driven(self) -> tuple[str, ...]:
+        """The names of the inputs that a single drive sets: the first, and for a base position also its velocity."""
+        return self.inputs[: 2 if self.inputs[:1] == ("base_position",) else 1]
+
+    def turned(self, motion: str) -> Self:
+        """Return the machine for "translation" or "rotation"; raise `ContractError` where it does not support that."""
+        if motion not in (known := self.motions or (self.motion,)):
+            words = " or ".join(known)
+            raise ContractError(f"{self.name} is of {words}, not of {motion}: ask for {words}, or another model")
+        return self if motion == self.motion else replace(self, motion=motion)  # type: ignore[type-var]
+
+    def __add__(self, term: Term) -> Assembly:
+        return Assembly(self) + term
+
+
+class Dynamics(Machine):
+    """A machine that can be stepped, in NumPy: who integrates it, and how, is its own business.
+
+    `step` and `observe` get many rows at once, each an independent machine: `x` (rows, states), `u` (rows, inputs), `f`
+    (rows, places), the generalised forces of terms and of the unknown at `places`, and `p` (rows, params). None of them
+    may be changed. Rows do not depend on each other. The mass matrix belongs to the machine: a force at a place enters
+    `step` like a force of the machine itself. Results that are not finite mark a divergence. A state or channel that
+    ends in `.velocity` or `_velocity` is the rate of that before the ending. `plugins/template` has an arm of two
+    joints.
+    """
+
+    @abstractmethod
+    def step(self, x: Array, u: Array, f: Array, p: Array, dt: float) -> Array:
+        """Return the states (rows, states) after `dt` s, in SI units, with forces `f` and inputs `u` held meanwhile.
+
+        Any `dt` down to the smallest must be possible; without it nothing moves. `u` is the mean over `dt`.
+        """
+
+    @abstractmethod
+    def observe(self, x: Array, u: Array, f: Array, p: Array) -> Array:
+        """Return the channels (rows, channels) at states `x`, in SI units; an acceleration depends on `u` and `f`."""
+
+
+class Model(Machine):
+    """A machine as a system of first-order equations under *measured* inputs.
+
+    `states` names the entries of `y`, position and velocity of the first body in front. With a "base_acceleration" the
+    motion is relative to the base, while an accelerometer shows both. `channels` names the entries that `observe`
+    writes, `interfaces` the places where terms may act. `plugins/template` has a complete example.
+    """
+
+    interfaces: ClassVar[tuple[Interface, ...]]
+
+    @property
+    def places(self) -> tuple[Interface, ...]:
+        """The interfaces."""
+        return self.interfaces
+
+    @property
+    def first_body(self) -> tuple[int, int]:
+        """The first two states."""
+        return 0, 1
+
+    def find_rate(self, state: int) -> int | None:
+        """Return the state that is the velocity of another one; the next one where no name tells it."""
+        following = state + 1 if state + 1 < len(self.states) else None
+        found = super().find_rate(state)
+        return following if found is None else found
 
     @staticmethod
     @abstractmethod
@@ -78,21 +159,6 @@ class Model(ABC):
     def exact(cls, values: Mapping[str, float], drive: Drive, start: Array | None) -> Flow | None:
         """Return the closed-form flow under a `drive` from `start` (states,), or None; `values` maps all parameters."""
         return None
-
-    @property
-    def driven(self) -> tuple[str, ...]:
-        """The names of the inputs that a single drive sets: the first, and for a base position also its velocity."""
-        return self.inputs[: 2 if self.inputs[:1] == ("base_position",) else 1]
-
-    def turned(self, motion: str) -> Self:
-        """Return the model for "translation" or "rotation"; raise `ContractError` where it does not support that."""
-        if motion not in (known := self.motions or (self.motion,)):
-            words = " or ".join(known)
-            raise ContractError(f"{self.name} is of {words}, not of {motion}: ask for {words}, or another model")
-        return self if motion == self.motion else replace(self, motion=motion)  # type: ignore[type-var]
-
-    def __add__(self, term: Term) -> Assembly:
-        return Assembly(self) + term
 
 
 class Term(ABC):
@@ -170,7 +236,7 @@ class Term(ABC):
         """Return the null of each amplitude, by name: with these values the term has no effect."""
         return {q.name: q.null for q in self.params if q.null is not None}
 
-    def fits(self, model: Model) -> bool:
+    def fits(self, model: Machine) -> bool:
         """Return whether the term can act in `model`: its place, kind of motion and `needs` exist there."""
         try:
             return bool(place_of(model, self))
@@ -261,7 +327,7 @@ class SensorTerm(_NoForce):
 class Assembly:
     """A model plus named terms, `model + term + term`: the form in which machines are simulated, fitted and drawn."""
 
-    model: Model
+    model: Machine
     terms: tuple[Term, ...] = ()
 
     def __add__(self, term: Term) -> Assembly:
@@ -276,17 +342,18 @@ class Assembly:
         return " + ".join([self.model.name, *(t.name for t in self.terms)])
 
 
-def place_of(model: Model, term: Term) -> Interface:
-    """Return the interface of `model` at which `term` acts; raise `ContractError` that says what is missing there."""
+def place_of(model: Machine, term: Term) -> Place:
+    """Return the place of `model` at which `term` acts; raise `ContractError` that says what is missing there."""
     beside = model.inputs if term.acts == "drive" else (term.at,)
     named = {name: replace(_NOWHERE, name=name) for name in (term.acts, *beside)}
-    places = {i.name: i for i in model.interfaces} if term.acts == "motion" else named
+    places = {i.name: i for i in model.places} if term.acts == "motion" else named
     if term.at not in places:
         raise ContractError(
             f"{term.name} acts at {term.at!r}, but {model.name} has {', '.join(places)}{nearest(term.at, places)}"
         )
     place = places[term.at]
     known = {*place.holds, *PSEUDO_NEEDS} - (set() if place.stiffness else {"stiffness", "play"})
+    known -= UNKNOWN_TO_STEPS if isinstance(model, Dynamics) else set()
     if lacking := [n for n in term.needs if n not in known]:
         raise ContractError(f"{term.name} needs {', '.join(lacking)}, which {model.name} does not have at {term.at}")
     if model.motion not in term.motions:
@@ -294,73 +361,6 @@ def place_of(model: Model, term: Term) -> Interface:
     return place
 
 
-class Embedder(ABC):
-    """Chooses lag and dimension of the delay vectors of a series."""
-
-    name: ClassVar[str]
-    paper: ClassVar[str]
-
-    @abstractmethod
-    def choose(self, x: Array, *, dt: float) -> Embedding:
-        """Return lag (samples), dimension and Theiler window (samples) for `x` (n,) sampled every `dt` s.
-
-        Example: `results.Embedding(lag=6, dim=3, theiler=20)`. For an unsuitable series raise no error: set `status` to
-        one of `results.STATUSES`, and explain it in `says`.
-        """
-
-
-class Quantifier(ABC, Generic[Data]):
-    """Estimates one number in `unit`, from a `Series`, or from the `Flow` of a model where `reads = "flow"`."""
-
-    name: ClassVar[str]
-    paper: ClassVar[str]
-    unit: ClassVar[str]
-    reads: ClassVar[Literal["series", "flow"]] = "series"
-
-    @abstractmethod
-    def estimate(self, data: Data, *, rng: np.random.Generator) -> Estimate:
-        """Return value with its 95 % interval (low <= value <= high), status and curve; draw only from `rng`.
-
-        Example: `Estimate(value, low, high, "ok", unit=self.unit)` from `lostmotion.results`. For unsuitable data raise
-        no error: return `Estimate.refused(status, says, unit=self.unit)` with a sentence that explains it.
-        """
-
-
-class Surrogate(ABC):
-    """Draws random series that share the properties named in `preserves` with the recording.
-
-    `null` says under which hypothesis the recording is one more such draw. `preserves` names some of "mean",
-    "variance", "amplitudes" (sorted values), "spectrum", "cycles". A shuffle: `rng.permuted(x, axis=1)`.
-    """
-
-    name: ClassVar[str]
-    paper: ClassVar[str]
-    null: ClassVar[str]
-    preserves: ClassVar[frozenset[str]]
-
-    @abstractmethod
-    def draw(self, series: Series, *, draws: int, rng: np.random.Generator) -> Array:
-        """Return finite surrogates (draws, m) in the unit of `series.x`, m = n unless `piece` cuts off the ends."""
-
-    def piece(self, series: Series) -> slice:
-        """Return the part of the series from which surrogates are made; the recording is tested on the same part."""
-        return slice(0, series.n)
-
-
-class Denoiser(ABC):
-    """Removes measurement noise from a series without a model of the machine."""
-
-    name: ClassVar[str]
-    paper: ClassVar[str]
-
-    @abstractmethod
-    def clean(self, series: Series, *, noise: float, rng: np.random.Generator) -> Array:
-        """Return the cleaned series (n,), finite, in the unit of `series.x`; `noise` is the noise level (sd) in it.
-
-        Do not change `series.x`. A moving average: `return np.convolve(series.x, np.ones(3) / 3.0, mode="same")`.
-        """
-
-
 KINDS: Mapping[str, type[Any]] = {
-    c.__name__.lower(): c for c in (Model, Term, Embedder, Quantifier, Surrogate, Denoiser, Noise, Simulator)
+    c.__name__.lower(): c for c in (Model, Dynamics, Term, Embedder, Quantifier, Surrogate, Denoiser, Noise, Simulator)
 }

@@ -32,6 +32,12 @@ def lostmotion_models() -> Mapping[str, str]:
 
 
 @hookspec
+def lostmotion_dynamics() -> Mapping[str, str]:
+    """Return `{"name": "package.module:Class"}` for each `Dynamics`: a machine that is stepped."""
+    raise NotImplementedError
+
+
+@hookspec
 def lostmotion_terms() -> Mapping[str, str]:
     """Return `{"name": "package.module:Class"}` for each `Term`: a force or another effect."""
     raise NotImplementedError

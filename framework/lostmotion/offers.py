@@ -11,7 +11,7 @@ import pluggy
 from lostmotion import hookspecs
 from lostmotion.errors import nearest
 
-KINDS = ("model", "term", "embedder", "quantifier", "surrogate", "denoiser", "noise", "simulator")
+KINDS = ("model", "dynamics", "term", "embedder", "quantifier", "surrogate", "denoiser", "noise", "simulator")
 COMMAND, FUNCTION, RESULT, ROUTE, MEASURE = "command", "function", "result", "route", "measure"
 SECTION, READER = "section", "reader"
 _SAID = {
@@ -20,7 +20,7 @@ _SAID = {
 }
 """The kinds that are functions; a second text belongs to each of their names."""
 ALL_KINDS = (*KINDS, *_SAID)
-HOOKS = {f"lostmotion_{kind}s": kind for kind in ALL_KINDS}
+HOOKS = {f"lostmotion_{kind.removesuffix('s')}s": kind for kind in ALL_KINDS}
 FAILURES = (Exception, SystemExit)
 """The exceptions of third-party code during import and in hooks that are handled; Ctrl-C is not."""
 _TARGET = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -76,25 +76,60 @@ class Param:
 
 
 @dataclass(frozen=True)
-class Interface:
+class Place:
     """A place where a force can act: `motion(y, u)` returns the relative position and velocity there (SI units).
 
-    The force divided by the parameter `inertia` is added to `dydt[row]`. `against` is row and inertia of a second body,
-    which feels the opposite force, times the parameter `lever` where there is one (a gear ratio); `motion(y, u, lever)`
-    then takes its value too. `holds` names parameters of the model that belong to the place, such as the gap, and
-    `stiffness` and `play` those of its contact: terms that need them act nowhere else.
-    Example: `Interface("ground", row=1, inertia="m", motion=lambda y, u: (y[0], y[1]))`.
+    `y` holds the states and `u` the inputs. `holds` names parameters of the machine that belong to the place, such as
+    the gap, and `stiffness` and `play` those of its contact: terms that need them act nowhere else. A `relative` place
+    is between two bodies that have places of their own.
+    Example: `Place("elbow", motion=lambda y, u: (y[1], y[3]))`.
     """
 
     name: str
-    row: int
-    inertia: str
     motion: Callable[..., tuple[float, float]]
     holds: tuple[str, ...] = ()
     stiffness: str | None = None
     play: str | None = None
-    against: tuple[int, str] | None = None
-    lever: str | None = None
+    relative: bool = False
+
+    @property
+    def bodies(self) -> tuple[str | int, ...]:
+        """What a force at the place moves; places with the same bodies differ only in their motion."""
+        return (self.name,)
+
+    def move(self, states: Array, inputs: Array, lever: Values = ()) -> Array:
+        """Return relative position and velocity (2, rows) at `states` (rows, n) and `inputs` (rows, inputs).
+
+        `lever` is the value of the lever of the place, if it has one.
+        """
+        try:  # most motions are sums, which work on whole columns
+            found = np.array(self.motion(states.T, inputs.T, *lever), dtype=float)
+            if found.shape == (2, len(states)):
+                return found
+        except (TypeError, ValueError):
+            pass
+        rows = zip(states, inputs, strict=True)
+        return np.array([self.motion(y, u, *lever) for y, u in rows], dtype=float).reshape(-1, 2).T
+
+
+@dataclass(frozen=True)
+class Interface(Place):
+    """A place of a model that is written as equations: the force over the parameter `inertia` is added to `dydt[row]`.
+
+    `against` is row and inertia of a second body, which feels the opposite force, times the parameter `lever` where
+    there is one (a gear ratio); `motion(y, u, lever)` then takes its value too.
+    Example: `Interface("ground", row=1, inertia="m", motion=lambda y, u: (y[0], y[1]))`.
+    """
+
+    row: int = field(kw_only=True)
+    inertia: str = field(kw_only=True)
+    against: tuple[int, str] | None = field(default=None, kw_only=True)
+    lever: str | None = field(default=None, kw_only=True)
+
+    @property
+    def bodies(self) -> tuple[str | int, ...]:
+        """The rows of the bodies that a force at the place moves."""
+        return (self.row, *(self.against or ())[:1])
 
 
 class Group(NamedTuple):

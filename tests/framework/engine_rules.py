@@ -19,7 +19,7 @@ import numpy as np
 
 from lostmotion.contracts import Array, Interface, Model, Param, Term, Values
 from lostmotion.likelihood.drive import Drive
-from lostmotion.likelihood.engine import Dynamics, Engine, Innovations, Points, Random, SensorNoises
+from lostmotion.likelihood.engine import Engine, Innovations, Points, Random, RunningSystem, SensorNoises
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.reference import Reference
 from lostmotion.likelihood.sensors import Sensor
@@ -164,7 +164,7 @@ SENSORS = {
 RANDOM: tuple[Random, ...] = ("white", "held", "latent")
 VALUES = {"m": 1.0, "c": 1.5, "k": 900.0, "x0": 0.05, "stick.size": 0.4, "creep.stiffness": 20.0}
 
-Arguments = tuple[Dynamics, Observation, Points]
+Arguments = tuple[RunningSystem, Observation, Points]
 
 
 @cache
@@ -188,7 +188,7 @@ def make_arguments(
     z = np.stack(columns, axis=1)
     z[9] = np.nan
     z[20, 0] = np.nan
-    dynamics = Dynamics(system, system.everything, SUBSTEPS, random)
+    running = RunningSystem(system, system.everything, SUBSTEPS, random)
     scale = np.nanstd(z, axis=0) * np.ones((count, 1))
     near = full * (1.0 + 0.05 * rng.standard_normal((count, len(full))))
     zero = np.zeros(count, dtype=np.int64)
@@ -199,7 +199,7 @@ def make_arguments(
         np.tile([x[0], 0.5, 0.0], (count, 1)), np.tile(np.diag([1e-4, 1e-2, 1e-5]), (count, 1, 1)),
         (drive,), zero, zero,
     )  # fmt: skip
-    return dynamics, Observation("rig", z, drive.inputs, DT, sensors), points
+    return running, Observation("rig", z, drive.inputs, DT, sensors), points
 
 
 def _make_noise(sensors: tuple[Sensor, ...], scale: Array) -> SensorNoises:
@@ -248,8 +248,8 @@ def filter_agrees_with_matrices(engine: Engine) -> str:
 def smoother_agrees_with_matrices(engine: Engine) -> str:
     """Return filtered and smoothed states, with their covariances, as the engine `reference` does."""
     for what, given in _list_cases():
-        dynamics, observation, points = given
-        one = (dynamics, observation, points.select(slice(0, 1)))
+        running, observation, points = given
+        one = (running, observation, points.select(slice(0, 1)))
         found, wanted = engine.smooth(*one), Reference().smooth(*one)
         pairs = ((found.filtered, wanted.filtered, wanted.filtered_covariance),)
         for mine, theirs, covariance in (*pairs, (found.states, wanted.states, wanted.covariance)):
@@ -263,12 +263,12 @@ def smoother_agrees_with_matrices(engine: Engine) -> str:
 
 def free_run_agrees_with_matrices(engine: Engine) -> str:
     """Return the free motion by RK4 with the given steps from the start of each run, as `reference` does."""
-    dynamics, _, points = make_arguments(SENSORS["a state"], count=3)
+    running, _, points = make_arguments(SENSORS["a state"], count=3)
     points = replace(points, first=np.array([0, 4, 9]))
     start = np.tile([0.06, -0.1, 0.0], (3, 1))
     kicks = 0.01 * np.random.default_rng(4).standard_normal((3, 20, 3))
     for what, more in (("free motion", None), ("motion with kicks", kicks)):
-        found, wanted = (e.simulate(dynamics, points, start, 20, more) for e in (engine, Reference()))
+        found, wanted = (e.simulate(running, points, start, 20, more) for e in (engine, Reference()))
         if found.shape != wanted.shape or not np.allclose(found, wanted, rtol=1e-9, atol=1e-12):
             return f"its {what} differs from that of the matrices"
     return ""
@@ -277,40 +277,38 @@ def free_run_agrees_with_matrices(engine: Engine) -> str:
 def points_do_not_know_each_other(engine: Engine) -> str:
     """Make the result of a point independent of the number and order of points, to the last bit."""
     for sensors, random in ((SENSORS["a state"], "white"), (SENSORS["a nonlinear channel"], "held")):
-        dynamics, observation, points = make_arguments(sensors, random, MANY)  # type: ignore[arg-type]
-        together = engine.filter(dynamics, observation, points)
-        turned = engine.filter(dynamics, observation, points.select(slice(None, None, -1)))
+        running, observation, points = make_arguments(sensors, random, MANY)  # type: ignore[arg-type]
+        together = engine.filter(running, observation, points)
+        turned = engine.filter(running, observation, points.select(slice(None, None, -1)))
         if not _are_equal(together, turned[::-1]):
             return "the order of the points changes their results"
         for i in (0, MANY - 1):
-            if not _are_equal(
-                together[i : i + 1], engine.filter(dynamics, observation, points.select(slice(i, i + 1)))
-            ):
+            if not _are_equal(together[i : i + 1], engine.filter(running, observation, points.select(slice(i, i + 1)))):
                 return "the result of a point alone differs from its result among others"
     return ""
 
 
 def missing_readings_add_nothing(engine: Engine) -> str:
     """For a reading that is NaN, return the error 0 and the variance 1 / (2 pi), and continue."""
-    dynamics, observation, points = make_arguments(SENSORS["several sensors, two of them with noise of their own"])
-    found, lost = engine.filter(dynamics, observation, points), np.isnan(observation.readings)
+    running, observation, points = make_arguments(SENSORS["several sensors, two of them with noise of their own"])
+    found, lost = engine.filter(running, observation, points), np.isnan(observation.readings)
     if np.any(found.errors[:, lost] != 0.0) or not np.allclose(found.variances[:, lost], 0.5 / math.pi, rtol=1e-12):
         return "a missing reading changes the likelihood"
     nothing = replace(observation, readings=np.full(observation.readings.shape, np.nan))
-    empty = engine.filter(dynamics, nothing, points)
+    empty = engine.filter(running, nothing, points)
     good = empty.finite.all() and np.allclose(np.asarray(empty.log_likelihood), 0.0)
     return "" if good else "a recording without readings has a likelihood other than one"
 
 
 def divergence_is_a_status(engine: Engine) -> str:
     """For a point that diverges, return `finite` false for this point only, and raise no error."""
-    dynamics, observation, points = make_arguments(SENSORS["a state"], count=3)
+    running, observation, points = make_arguments(SENSORS["a state"], count=3)
     wild = points.params.copy()
     wild[1, :2] = 1e-30, math.nan
     with np.errstate(all="ignore"):
-        found = engine.filter(dynamics, observation, replace(points, params=wild))
-        wanted = engine.filter(dynamics, observation, points)
-        run = engine.simulate(dynamics, replace(points, params=wild), np.tile([0.06, 0.0, 0.0], (3, 1)), 5)
+        found = engine.filter(running, observation, replace(points, params=wild))
+        wanted = engine.filter(running, observation, points)
+        run = engine.simulate(running, replace(points, params=wild), np.tile([0.06, 0.0, 0.0], (3, 1)), 5)
     if list(found.finite) != [True, False, True]:
         return f"the second of three points diverges, and `finite` is {list(found.finite)}"
     if np.isfinite(np.asarray(found.log_likelihood)[1]) or np.isfinite(run[1, -1]).any():

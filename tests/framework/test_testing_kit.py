@@ -47,7 +47,7 @@ def test_a_class_that_needs_arguments_is_a_finding():
 
 
 def test_something_else_is_refused():
-    with pytest.raises(ContractError, match="no plugin: subclass one of Model, Term"):
+    with pytest.raises(ContractError, match="no plugin: subclass one of Model, Dynamics, Term"):
         testing.check(3)
 
 

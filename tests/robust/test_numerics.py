@@ -15,7 +15,7 @@ from test_units import CASE
 from lostmotion.cli import main
 from lostmotion.inference.fit import compute_sensitivity
 from lostmotion.likelihood.drive import Drive
-from lostmotion.likelihood.engine import Dynamics, Points, SensorNoises
+from lostmotion.likelihood.engine import Points, RunningSystem, SensorNoises
 from lostmotion.likelihood.lanes import Lanes
 from lostmotion.likelihood.noise_levels import LEAST
 from lostmotion.likelihood.observation import Observation
@@ -158,7 +158,7 @@ class Filter:
 
     def run(self, z, drive, y, cov):
         """Return variances, covariances behind the samples, and state and covariance of the machine before the last."""
-        dynamics = Dynamics(self.system, self.system.everything, 1, "latent" if self.pace else "white")
+        running = RunningSystem(self.system, self.system.everything, 1, "latent" if self.pace else "white")
         observation = Observation.of("long", z, drive.inputs, self.dt, "position")
         one, number = np.ones((1, 1)), np.zeros(1, dtype=np.int64)
         noise = SensorNoises.of([[NoiseBlock(white=self.r)]])
@@ -166,7 +166,7 @@ class Filter:
             self.full[None], np.array([self.q]), np.array([self.pace]), noise, one, 0.0 *
             one, 0.0 * one, y[None], cov[None], (drive,), number, number,
         )  # fmt: skip
-        kept, seen = Lanes().run_for_smoother(dynamics, observation, points)
+        kept, seen = Lanes().run_for_smoother(running, observation, points)
         assert seen.finite.all()
         return seen.variances[0, :, 0], kept[1], kept[2][-1, :2], kept[3][-1, :2, :2]
 

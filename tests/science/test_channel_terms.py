@@ -147,7 +147,7 @@ def test_the_correction_at_predictions_is_that_of_the_true_error():
     view, theta = problem.observations[0], maximise(problem, problem.start).theta
     corrections = problem._list_corrections(theta, 0)
     points = problem.points(theta[None], 0)
-    run = partial(problem.engine.filter, problem.dynamics)
+    run = partial(problem.engine.filter, problem.running)
     true = view.readings[:, 0] - (PositionRipple.bent(moved(), (0.0, RIPPLE, PITCH)) - moved())
     twice = correct_twice(run, view, [corrections], points)[0][0, :, 0]
     once = correct_readings(view, corrections)[0][:, 0]

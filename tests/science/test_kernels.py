@@ -10,7 +10,7 @@ import pytest
 from independent import Machine, lin_oscillator, recording
 
 from lostmotion.likelihood.drive import Drive
-from lostmotion.likelihood.engine import Dynamics, Points, SensorNoises, Smoothed
+from lostmotion.likelihood.engine import Points, RunningSystem, SensorNoises, Smoothed
 from lostmotion.likelihood.kernel_calls import compute_derivatives
 from lostmotion.likelihood.lanes import Lanes
 from lostmotion.likelihood.observation import Observation
@@ -51,8 +51,8 @@ def drive_of(model, columns, *, samples=SAMPLES):
 
 
 def seen_of(system, full, drive, sensors, random):
-    """Return dynamics, an observation with a lost reading, and points of which the first start is wrong on purpose."""
-    dynamics = Dynamics(system, system.everything, 4, random)
+    """Return running, an observation with a lost reading, and points of which the first start is wrong on purpose."""
+    running = RunningSystem(system, system.everything, 4, random)
     truth = system.simulate(full, system.everything, np.array([0.6 * full[system.index["x0"]], 0.1]), drive, 4)
     packed = system.pack(full[None], drive.dt / 4)
     _, channels = compute_derivatives(system, system.everything, packed, truth.states, drive.inputs)
@@ -61,7 +61,7 @@ def seen_of(system, full, drive, sensors, random):
     z[7] = np.nan
     z[11, -1] = np.nan
     observation = Observation("seen", z, drive.inputs, drive.dt, sensors)
-    return dynamics, observation, points_of(dynamics, full, drive, z, sensors)
+    return running, observation, points_of(running, full, drive, z, sensors)
 
 
 SENSORS = {
@@ -81,9 +81,9 @@ def noise_of(sensors, scale, count):
     return SensorNoises.of([row] * count)
 
 
-def points_of(dynamics, full, drive, z, sensors=SENSORS["position"], count=3):
+def points_of(running, full, drive, z, sensors=SENSORS["position"], count=3):
     """Return parameter points near `full`, with noise levels of about those of the readings (samples, sensors)."""
-    n, m = dynamics.states, z.shape[1]
+    n, m = running.states, z.shape[1]
     shape, scale = (count, m), np.nanstd(z, axis=0)
     tile = np.tile(np.diag(np.array([1e-5, 1e-2, 1.0, 1.0])[:n]), (count, 1, 1))
     near = full * (1.0 + 1e-3 * np.arange(count)[:, None])
@@ -149,12 +149,12 @@ def test_sliding_friction_with_an_elastic_part_is_smoothed():
     noise = 1e-2 * truth.std()
     z = truth + noise * np.random.default_rng(0).standard_normal(truth.shape)
     points = replace(
-        points_of(Dynamics(system, system.everything), full, drive, z, count=1),
+        points_of(RunningSystem(system, system.everything), full, drive, z, count=1),
         pace=np.array([77.0]), process=np.array([1e-8]), noise=SensorNoises.of([[NoiseBlock(white=noise**2)]]),
     )  # fmt: skip
     observation = Observation("seen", z, drive.inputs, drive.dt, (Sensor("position"),))
     for engine in (Lanes(), Reference()):
-        seen = engine.smooth(Dynamics(system, system.everything, 7, "latent"), observation, points)
+        seen = engine.smooth(RunningSystem(system, system.everything, 7, "latent"), observation, points)
         assert seen.states[:, 3].std() < 6e-4
 
 
@@ -163,8 +163,8 @@ def test_free_run_equals_its_slow_twin_and_that_of_matrices(name):
     model, term, values, columns = TWINS[name]
     system = System(model, (term,))
     full, drive, n = system.vector(values), drive_of(model, columns), system.states(system.everything)
-    dynamics = Dynamics(system, system.everything, 3)
-    asked = dynamics, points_of(dynamics, full, drive, np.zeros((1, 1))), np.full((3, n), 1e-3), SAMPLES
+    running = RunningSystem(system, system.everything, 3)
+    asked = running, points_of(running, full, drive, np.zeros((1, 1))), np.full((3, n), 1e-3), SAMPLES
     fast, slow, plain = (engine.simulate(*asked) for engine in (Lanes(), Lanes(compiled=False), Reference()))
     assert np.ptp(fast[0, :, 0]) > 0.0
     np.testing.assert_allclose(fast, slow, rtol=1e-12, atol=1e-15)

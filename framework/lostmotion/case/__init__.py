@@ -26,6 +26,9 @@ equations do not determine. Each coordinate is a channel (`x`, `x.velocity`, `x.
 `position`, `velocity`, `acceleration`) and a place for terms (`ground` for the first, else its name), as is each pair
 of coordinates that appears as a difference (`x1-x2`).
 
+Or it may contain `dynamics`: a machine in NumPy that is stepped, as the name of a plugin, or as "my_arm.py:MyArm", a
+class of the kind `Dynamics` in a file beside the case.
+
 `motion` is "translation" or "rotation". By default it follows from the units of the recordings. Units that contradict
 it are refused, as are lengths and angles in one case.
 

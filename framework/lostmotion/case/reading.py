@@ -23,7 +23,9 @@ RECORDING = (
     "file", "time", "rate", "start", "excitation", "response", "inputs", "sensors", "hold", "t_start", "t_end", "name",
 )  # fmt: skip
 TIME = ("column", "unit")
-MODEL = ("name", "equations", "units", "motion", "known", "estimate")
+MODEL = ("name", "dynamics", "equations", "units", "motion", "known", "estimate")
+MACHINES = ("name", "dynamics", "equations")
+"""The keys of which one names the machine."""
 SENSOR = ("noise", "offset")
 WRITTEN = "equations"
 """The name of a model that is given by equations."""
@@ -68,8 +70,9 @@ class CaseFile:
 
     `folder` is the folder of the case file, to which the files of `recordings` and `plugins` are relative. `truth`
     contains true values for the report only. `digest` is the SHA-256 of the case file. A case may have no recordings
-    or no levels; commands that need them raise an error. A model given by `equations` may have `units` of parameters
-    that the equations do not determine. `notes` are sentences on what was supposed.
+    or no levels; commands that need them raise an error. `kind` is "dynamics" for a machine that is stepped. A model
+    given by `equations` may have `units` of parameters that the equations do not determine. `notes` are sentences on
+    what was supposed.
     """
 
     title: str
@@ -88,6 +91,7 @@ class CaseFile:
     equations: tuple[str, ...] = ()
     units: Mapping[str, str] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    kind: Literal["model", "dynamics"] = "model"
 
 
 def load_case(path: Path) -> CaseFile:
@@ -97,7 +101,7 @@ def load_case(path: Path) -> CaseFile:
     model = top.table("model").only(MODEL)
     known = model.maybe_table("known").numbers()
     motion = cast(Motion, model.choice("motion", get_args(Motion))) if "motion" in model.values else None
-    name, equations = _read_model(model)
+    name, equations = _read_model(model, path.parent)
     units = {key: model.table("units").text(key) for key in model.maybe_table("units").values}
     estimate = _read_estimate(model, known)
     coordinate, recordings, notes = "", _read_recordings(top), top.texts("guessed") if "guessed" in top.values else ()
@@ -115,6 +119,7 @@ def load_case(path: Path) -> CaseFile:
         folder=path.parent,
         recordings=tuple(_rename_channels(spec, coordinate) for spec in recordings),
         model=name,
+        kind="dynamics" if "dynamics" in model.values else "model",
         known=known,
         estimate=estimate,
         truth=top.maybe_table("truth").numbers(),
@@ -130,16 +135,21 @@ def load_case(path: Path) -> CaseFile:
     )
 
 
-def _read_model(model: Fields) -> tuple[str, tuple[str, ...]]:
+def _read_model(model: Fields, folder: Path) -> tuple[str, tuple[str, ...]]:
     """Return the name of the model, and its equations if it is given by equations."""
-    if "name" in model.values and "equations" in model.values:
-        raise model.error("has both name and equations: give one of them")
-    if "name" not in model.values and "equations" not in model.values:
+    given = [key for key in MACHINES if key in model.values]
+    if len(given) > 1:
+        raise model.error(f"has both {given[0]} and {given[1]}: give one of them")
+    if not given:
         raise model.error("lacks 'name': add name = \"lin_backlash\", or equations = [\"m*x'' + c*x' + k*x = force\"]")
-    if "name" in model.values:
+    if given[0] != "equations":
         if "units" in model.values:
-            raise model.error("has units besides name: units belong to equations")
-        return model.text("name"), ()
+            raise model.error(f"has units besides {given[0]}: units belong to equations")
+        name = model.text(given[0])
+        file = name.partition(":")[0]
+        if given[0] == "dynamics" and file.endswith(".py") and not (folder / file).is_file():
+            raise model.error(f"names the file {file!r}, which does not exist beside it: write 'my_arm.py:MyArm'")
+        return name, ()
     value = model.values["equations"]
     equations = (model.text("equations"),) if isinstance(value, str) else model.texts("equations")
     if not equations:

@@ -141,7 +141,8 @@ def _print_sheet(sheet: PluginSheet) -> None:
             click.echo(click.wrap_text(text, 100, f"  {key:<11}", " " * 13))
     for place in sheet.interfaces or ():
         holds = f", holds {', '.join(place.holds)}" if place.holds else ""
-        click.echo(f"  {'interface':<11}{place.name}: acts on row {place.row} through {place.inertia}{holds}")
+        acts = "the step applies its force" if place.row is None else f"acts on row {place.row} through {place.inertia}"
+        click.echo(f"  {'interface':<11}{place.name}: {acts}{holds}")
     for parameter in sheet.parameters or ():
         click.echo(f"  {'parameter':<11}{_format_parameter(parameter)}")
         if parameter.prior is not None:

@@ -7,7 +7,7 @@ from dataclasses import MISSING, dataclass, fields, is_dataclass
 from typing import Any
 
 from lostmotion.codec import described
-from lostmotion.contracts import Param
+from lostmotion.contracts import Dynamics, Param
 from lostmotion.registry import Entry
 
 TEXT_FIELDS = ("physics", "formula", "null", "paper", "motion", "reads", "unit")
@@ -20,8 +20,8 @@ class PlaceSheet:
     """The description of a place of a model at which a force can act."""
 
     name: str = described("its name")
-    row: int = described("the row of the equations of motion on which the force acts")
-    inertia: str = described("the parameter that is the inertia there")
+    row: int | None = described("the row of the equations of motion on which the force acts; null without equations")
+    inertia: str | None = described("the parameter that is the inertia there; null without equations")
     holds: tuple[str, ...] = described("parameters that live at the place")
 
 
@@ -72,7 +72,8 @@ def make_sheet(entry: Entry, cls: type[Any]) -> PluginSheet:
     """Return the description of a plugin class."""
     motions = getattr(cls, "motions", None) or (getattr(cls, "motion", ""),)
     options = [f for f in fields(cls) if f.init and f.name != "at"] if is_dataclass(cls) else []
-    places = [PlaceSheet(i.name, i.row, i.inertia, tuple(i.holds)) for i in getattr(cls, "interfaces", None) or ()]
+    found = getattr(cls, "places", ()) if issubclass(cls, Dynamics) else getattr(cls, "interfaces", None) or ()
+    places = [PlaceSheet(i.name, getattr(i, "row", None), getattr(i, "inertia", None), tuple(i.holds)) for i in found]
     return PluginSheet(
         kind=entry.kind,
         name=entry.name,

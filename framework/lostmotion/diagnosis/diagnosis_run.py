@@ -34,7 +34,8 @@ from lostmotion.errors import ContractError
 from lostmotion.evidence.bare import name_terms
 from lostmotion.inference.profile import measure_stretches
 from lostmotion.kernels.threads import each, hold_linear_algebra
-from lostmotion.likelihood.system import System, key_of
+from lostmotion.likelihood.stepped import make_system
+from lostmotion.likelihood.system import key_of
 from lostmotion.preparation.prepare import Prepared, prepare
 from lostmotion.preparation.vetting import (
     catch_divergence,
@@ -119,7 +120,7 @@ def _run_search(
 
     If a third-party term fails, the search is repeated without it.
     """
-    system, rng = System(prepared.model, prepared.terms), np.random.default_rng(seed)
+    system, rng = make_system(prepared.model, prepared.terms), np.random.default_rng(seed)
     try:
         return work(prepared.case, prepared.observations, system, rng=rng), prepared, rng
     except ContractError as err:

@@ -188,6 +188,6 @@ def describe_place(problem: Problem, key: str) -> str:
     term, _ = find_term(problem, key)
     model, first = problem.system.model, problem.observations[0]
     counts = {"sensor": len(first.sensors), "drive": len(first.driven or ("",))}
-    several = counts.get(term.acts, len(model.interfaces)) > 1
+    several = counts.get(term.acts, len(model.places)) > 1
     place = place_of(model, term).name if term.acts == "motion" else term.at
     return f"{to_words(term.name)} at the {place}" if several else to_words(term.name)

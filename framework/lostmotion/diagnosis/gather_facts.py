@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from lostmotion.case import CaseFile
-from lostmotion.contracts import Array, Model, SensorTerm, Term
+from lostmotion.contracts import Array, Machine, SensorTerm, Term
 from lostmotion.diagnosis.facts import (
     AmplitudeChange,
     CandidateTerm,
@@ -268,10 +268,9 @@ def _list_complete(d: SearchResult, key: str) -> Iterator[float]:
             yield (d.after.values[slot.key] - float(first.time[0])) / (first.samples * first.dt)
 
 
-def list_other_places(model: Model) -> set[str]:
+def list_other_places(model: Machine) -> set[str]:
     """Return the names of the places where a force acts on another body than the first."""
-    first = model.interfaces[0]
-    return {place.name for place in model.interfaces if place.row != first.row or place.against != first.against}
+    return {place.name for place in model.places if place.bodies != model.places[0].bodies}
 
 
 def _acts_on_other_body(d: SearchResult) -> bool:

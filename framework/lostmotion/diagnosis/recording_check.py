@@ -21,7 +21,7 @@ from lostmotion.inference.random_force import compute_random_force_gain
 from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
 from lostmotion.inference.stretches import cut_stretches
 from lostmotion.kernels.threads import hold_linear_algebra
-from lostmotion.likelihood.system import System
+from lostmotion.likelihood.stepped import make_system
 from lostmotion.preparation.prepare import Prepared, prepare
 from lostmotion.preparation.vetting import catch_divergence
 from lostmotion.provenance import origin_of
@@ -66,7 +66,7 @@ def check_prepared(
     Raises `DataError` where the nominal model cannot follow the recordings.
     """
     rng, case = np.random.default_rng(seed), prepared.case
-    system = System(prepared.model, prepared.terms)
+    system = make_system(prepared.model, prepared.terms)
     check_motion(prepared.observations, system.model.motion)
     recordings = cut_rest(prepared.observations, settings.heldout)
     train, _ = split_heldout(recordings, settings.heldout)

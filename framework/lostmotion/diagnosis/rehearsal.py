@@ -67,13 +67,13 @@ class RehearsedModel:
 def simulate_recording(model: RehearsedModel, excitation: Excitation, rng: np.random.Generator) -> Array | None:
     """Return simulated readings (samples, sensors) of a model with its noise levels; None if it diverges."""
     problem, theta = model.pose(excitation), model.get_coordinates(excitation)
-    system, place, full = problem.system, problem.system.model.interfaces[0], problem.full(theta)
+    system, full = problem.system, problem.full(theta)
     intensity = problem.random_force(theta)
     drive = problem.drive(0, theta)
-    kick = math.sqrt(intensity * PIECE * drive.dt) / full[system.index[place.inertia]]
-    kicks = np.zeros((drive.samples, problem.dynamics.states))
+    kick = math.sqrt(intensity * PIECE * drive.dt) * system.kick(full, system.model.places[0])
+    kicks = np.zeros((drive.samples, problem.running.states))
     kicked = [min(start + PIECE, drive.samples - 1) for start in range(0, drive.samples - 1, PIECE)]
-    kicks[kicked, place.row] = kick * rng.standard_normal(len(kicked))
+    kicks[kicked, : len(kick)] = rng.standard_normal((len(kicked), 1)) * kick
     states = simulate_kicked(problem, theta, model.fit.problem.begun(model.fit.theta), kicks)
     if not np.all(np.isfinite(states)):
         return None

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from lostmotion.case import CaseFile
-from lostmotion.contracts import Array, Interface, Model, SensorTerm, Values, place_of
+from lostmotion.contracts import Array, Machine, SensorTerm, Values
 from lostmotion.diagnosis.compare import cut_heldout
 from lostmotion.diagnosis.moving import check_motion, cut_rest
 from lostmotion.diagnosis.scales import describe_wrong_scale
@@ -34,7 +34,6 @@ from lostmotion.inference.setup import choose_steps, make_problem, polish_fit, s
 from lostmotion.inference.shares import Covariate, Share, compute_shares, list_significant
 from lostmotion.inference.unexplained import CurveSearch, UnknownForce
 from lostmotion.kernels.threads import each
-from lostmotion.likelihood.kernel_calls import compute_derivatives
 from lostmotion.likelihood.latent import LatentForce, smooth_latent_force
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem
@@ -192,7 +191,7 @@ def choose_budget(problem: Problem) -> Budget:
     if problem.settings.select.budget:
         return Budget(seconds=problem.settings.select.budget)
     readings = problem.samples * len(problem.observations[0].sensors)
-    return Budget(steps=STEPS * (1.0 + readings * problem.dynamics.states / PER))
+    return Budget(steps=STEPS * (1.0 + readings * problem.running.states / PER))
 
 
 def explain_by(
@@ -303,11 +302,11 @@ def remove_terms(problem: Problem, theta: Array) -> tuple[Problem, Array]:
 def list_half_gaps(problem: Problem, theta: Array) -> dict[str, float]:
     """Return the half gap (m or rad) at each place of the model that has one."""
     full, system = problem.full(theta), problem.system
-    return {i.name: float(full[system.index[i.play]]) for i in system.model.interfaces if i.play}
+    return {i.name: float(full[system.index[i.play]]) for i in system.model.places if i.play}
 
 
 def locate(
-    model: Model,
+    model: Machine,
     observation: Observation,
     missing: LatentForce,
     *,
@@ -342,21 +341,14 @@ def compute_force(fit: Fit, observation: Observation, states: Array, key: str) -
     problem = fit.problem.on((observation,))
     system, drive, full = problem.system, problem.drive(0, fit.theta), problem.full(fit.theta)
     packed = system.pack(full[None], drive.dt / problem.nsub, drive.harmonic)
-    place, beside = _find_place(system, key), key in system.channel_terms
-    other = replace(problem, active=problem.active - {key}).drive(0, fit.theta) if beside else drive
-    times = drive.begin + np.arange(len(states)) * drive.dt
-    seen = states[:, : problem.dynamics.states]
-    inside = (system, problem.active, packed, seen)
-    with_term, _ = compute_derivatives(*inside, drive.inputs[: len(states)], times)
-    without, _ = compute_derivatives(*inside, other.inputs[: len(states)], times, muted=None if beside else key)
-    return np.asarray((with_term[:, place.row] - without[:, place.row]) * full[system.index[place.inertia]])
-
-
-def _find_place(system: System, key: str) -> Interface:
-    """Return the place where a term acts; for terms of channels this is the first place."""
-    forces = [term for known, term in system.forces if known == key and term.acts == "motion"]
-    found = [place_of(system.model, term) for term in forces]
-    return found[0] if found else system.model.interfaces[0]
+    times: Array = np.asarray(drive.begin + np.arange(len(states)) * drive.dt, dtype=float)
+    seen, inputs = states[:, : problem.running.states], drive.inputs[: len(states)]
+    if key not in system.channel_terms:
+        return system.compute_force(key, problem.active, packed, (seen, inputs, times))
+    other = replace(problem, active=problem.active - {key}).drive(0, fit.theta).inputs[: len(states)]
+    both = (system.compute_derivatives(problem.active, packed, seen, u, times)[0] for u in (inputs, other))
+    with_term, without = (system.accelerate(rates, system.model.places[0]) for rates in both)
+    return np.asarray((with_term - without) * system.own_inertia(full, system.model.places[0]))
 
 
 def list_physical_keys(fit: Fit) -> list[str]:

@@ -15,7 +15,7 @@ from lostmotion.likelihood.noise_levels import LEVELS_TRIED, compute_random_leve
 from lostmotion.likelihood.predict import choose_horizon, forecast_pieces
 from lostmotion.likelihood.problem import RANDOM, Problem
 from lostmotion.likelihood.sensors import Sensor
-from lostmotion.likelihood.system import System
+from lostmotion.likelihood.stepped import make_system
 from lostmotion.preparation.prepare import Prepared
 from lostmotion.settings import DEFAULT, Settings
 
@@ -51,7 +51,7 @@ class TriedModel:
         observation = prepared.observations[0]
         first = max(observation.samples - MOST, 0) if end else 0
         part = observation.part(first, min(first + MOST, observation.samples))
-        system = System(prepared.model, prepared.terms)
+        system = make_system(prepared.model, prepared.terms)
         problem = make_problem(system, prepared.case, (part,), jobs=1, settings=settings)
         levels = tuple(free for free in problem.free if not free.physical)
         return cls(replace(problem, free=levels))
@@ -81,7 +81,7 @@ class TriedModel:
         cycle = choose_horizon(observation, float("nan"), problem.scales.time).unit_time
         length = max(round((SEGMENT * cycle if every is None else every) / observation.dt), 2)
         theta = self._choose_level(problem)
-        states = problem.smooth(theta).filtered[:, : problem.dynamics.states]
+        states = problem.smooth(theta).filtered[:, : problem.running.states]
         predicted, restarts = forecast_pieces(problem, theta, states, first, length)
         off = predicted - observation.readings
         scale = np.nanstd(observation.readings[first:], axis=0)

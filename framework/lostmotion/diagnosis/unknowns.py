@@ -94,7 +94,7 @@ def _compare_with_library(d: SearchResult) -> tuple[tuple[LookAlike, ...], float
     if found is None:
         return (), None, ""
     terms = [find_term(problem, key)[0] for key in found.keys]
-    several = len(problem.system.model.interfaces) > 1
+    several = len(problem.system.model.places) > 1
     names = [to_words(term.name) + (f" at {term.at}" if several else "") for term in terms]
     alike = tuple(LookAlike(term.name, term.at) for term in terms)
     return alike, found.share, f", looks like {' and '.join(names)} ({percent(found.share)} of its variance)"

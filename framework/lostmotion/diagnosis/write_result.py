@@ -117,7 +117,7 @@ def label_model(fit: Fit) -> str:
 
 def count_bodies(d: SearchResult) -> int:
     """Return the number of bodies of the model on which a force may act."""
-    return len({place.row for place in d.after.problem.system.model.interfaces})
+    return len({place.bodies[0] for place in d.after.problem.system.model.places})
 
 
 def explains_scale(found: Sequence[Mechanism], left: float) -> bool:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq
 from scipy.stats import norm
 
-from lostmotion.contracts import Array, Term, place_of
+from lostmotion.contracts import Array, Term
 from lostmotion.evidence.effects import (
     TermEffect,
     differentiate_term,
@@ -213,8 +213,7 @@ def _measure_one(filtered: Tangents, key: str, term: Term, full: Array) -> float
     if term.acts == "drive":
         changed = replace(problem, active=active).drive_at(full, 0).inputs[: len(filtered.states)] - filtered.inputs
         return float(np.max(np.abs(changed[:, filtered.observation.lead]))) / max(filtered.observation.travel, 1e-300)
-    place = place_of(problem.system.model, term)
-    rates, _ = filtered.compute_effects(full[None], active)
-    moved = rates[0][:, place.row] - filtered.here[0][:, place.row]
-    force = moved * full[problem.system.index[place.inertia]]
+    observation, system = filtered.observation, problem.system
+    packed = system.pack(full[None], observation.dt / problem.nsub, observation.harmonic)
+    force = system.compute_force(key, active, packed, (filtered.states, filtered.inputs, observation.time))
     return float(np.max(np.abs(force))) / problem.scales.force

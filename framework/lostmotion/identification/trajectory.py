@@ -23,7 +23,8 @@ from lostmotion.inference.setup import (
     polish_modes,
     separate_levels,
 )
-from lostmotion.likelihood.system import System, key_of
+from lostmotion.likelihood.stepped import make_system
+from lostmotion.likelihood.system import key_of
 from lostmotion.preparation.prepare import Prepared
 from lostmotion.preparation.vetting import make_plugin
 from lostmotion.registry import Registry
@@ -81,7 +82,9 @@ def find_best_fits(
     """
     case = prepared.case
     bare = replace(case, estimate={k: v for k, v in case.estimate.items() if "." not in k})
-    problem = make_problem(System(prepared.model, terms), bare, prepared.observations, jobs=jobs, settings=settings)
+    problem = make_problem(
+        make_system(prepared.model, terms), bare, prepared.observations, jobs=jobs, settings=settings
+    )
     found = find_modes(problem, rng, sensor=SHARED if terms else case.sensor)
     return polish_modes([_add_terms(fit, terms, case) for fit in found])
 

@@ -11,7 +11,7 @@ from lostmotion.results import rounded
 def list_short_contacts(fit: Fit) -> list[str]:
     """Return a note for each contact that is so stiff that a bounce is shorter than a sample."""
     problem, notes = fit.problem, []
-    for place in problem.system.model.interfaces:
+    for place in problem.system.model.places:
         for i, observation in enumerate(problem.observations):
             full = problem.full(fit.theta, i)
             stiff = full[problem.system.index[place.stiffness]] if place.stiffness and place.play else 0.0

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from lostmotion.contracts import Array, Interface, place_of
+from lostmotion.contracts import Array, Place, place_of
 from lostmotion.inference.fit import Fit, Sensitivity, compute_robust_covariance, maximise, restart, solve_scaled
 from lostmotion.inference.learned import LearnedTerm, compute_spread
 from lostmotion.inference.natural import find_term
@@ -70,7 +70,7 @@ def add_all_curves(fit: Fit, until: float = 0.0) -> Fit:
         return fit
     driven = all(observation.harmonic.omega > 0.0 for observation in problem.observations)
     curves = list_all_curves(old.model, driven=driven)
-    system = System(old.model, (*old.terms, *curves))
+    system = replace(old, terms=(*old.terms, *curves))
     known = system.vector({key: problem.known[old.index[key]] for key in system.index if key in old.index})
     moved = smooth_motions(fit, [place_of(old.model, curve) for curve in curves])
     for curve in curves:
@@ -90,7 +90,7 @@ Motions = dict[str, list[Array]]
 """Position and velocity (2, samples) in each recording, by the names of places of a model."""
 
 
-def smooth_motions(fit: Fit, places: Sequence[Interface]) -> Motions:
+def smooth_motions(fit: Fit, places: Sequence[Place]) -> Motions:
     """Return the filtered motion at places of the model in each recording; each recording is filtered once."""
     problem, distinct = fit.problem, {place.name: place for place in places}
     found: Motions = {name: [] for name in distinct}
@@ -98,7 +98,7 @@ def smooth_motions(fit: Fit, places: Sequence[Interface]) -> Motions:
         single = replace(problem.on((observation,)), jobs=1)
         states, full = single.smooth(fit.theta).filtered, single.full(fit.theta)
         for name, place in distinct.items():
-            found[name].append(single.observations[0].motion_at(place, states, problem.system.lever(full, place)))
+            found[name].append(place.move(states, single.observations[0].inputs, problem.system.lever(full, place)))
     return found
 
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import chdtrc
 
-from lostmotion.contracts import Array, Model
+from lostmotion.contracts import Array, Machine
 from lostmotion.inference.odds import LikelihoodRatio, list_likely
 from lostmotion.inference.shares import Covariate, Share, list_significant
 from lostmotion.likelihood.latent import LatentForce
@@ -32,15 +32,15 @@ class Curve:
     high: Array
 
 
-def list_covariates(model: Model, observation: Observation, missing: LatentForce) -> dict[str, Array]:
+def list_covariates(model: Machine, observation: Observation, missing: LatentForce) -> dict[str, Array]:
     """Return position, velocity, phase (cycles, when there is a drive period) and time (s) of each sample.
 
     Where the model has further places than the ground, the relative motion there too: "position at base".
     """
     table = {"position": missing.position, "velocity": missing.velocity}
-    for place in model.interfaces:
-        if place.name != "ground" and len(model.interfaces) > 1:
-            moved = observation.motion_at(place, missing.states, missing.levers.get(place.name, ()))
+    for place in model.places:
+        if place.name != "ground" and len(model.places) > 1:
+            moved = place.move(missing.states, observation.inputs, missing.levers.get(place.name, ()))
             table[f"position at {place.name}"], table[f"velocity at {place.name}"] = moved
     period = observation.period
     if period:
@@ -84,7 +84,7 @@ def classify_parity(found: Curve, least: float = DEFAULT.locate.parity) -> str:
 
 
 def list_further_covariates(
-    model: Model, observation: Observation, missing: LatentForce, plays: Mapping[str, float] | None = None
+    model: Machine, observation: Observation, missing: LatentForce, plays: Mapping[str, float] | None = None
 ) -> dict[str, Covariate]:
     """Return further covariates of a force: sign of velocity, contact, history, at each place of the model.
 
@@ -92,13 +92,13 @@ def list_further_covariates(
     contribution beyond position and velocity counts.
     """
     found = {}
-    for place in model.interfaces:
+    for place in model.places:
         x, v = (
             (missing.position, missing.velocity)
             if place.name == "ground"
-            else observation.motion_at(place, missing.states, missing.levers.get(place.name, ()))
+            else place.move(missing.states, observation.inputs, missing.levers.get(place.name, ()))
         )
-        tail = "" if place.name == "ground" or len(model.interfaces) == 1 else f" at {place.name}"
+        tail = "" if place.name == "ground" or len(model.places) == 1 else f" at {place.name}"
         found[f"sign of velocity{tail}"] = Covariate((np.sign(v),), classes=True)
         play = (plays or {}).get(place.name, 0.0)
         if play > 0.0:

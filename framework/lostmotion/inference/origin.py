@@ -10,7 +10,6 @@ from lostmotion.contracts import Array, Term
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.natural import find_term
 from lostmotion.likelihood.initial import shows_place
-from lostmotion.likelihood.kernel_calls import compute_derivatives
 from lostmotion.quantities import quantity_of
 
 STATES, SAME = 32, 1e-9
@@ -52,7 +51,7 @@ def _is_free(fit: Fit, waves: list[str]) -> bool:
         at = [system.index[slot.key] for slot in find_term(problem, key)[1]]
         there[at] = find_term(problem, key)[0].shifted(tuple(full[at]), by)
     here, then = (
-        compute_derivatives(system, problem.active, system.pack(p[None], problem.observations[0].dt), y, inputs)[0]
+        system.compute_derivatives(problem.active, system.pack(p[None], problem.observations[0].dt), y, inputs)[0]
         for p, y in ((full, states), (there, moved))
     )
     return bool(np.allclose(here, then, rtol=SAME, atol=SAME * float(np.max(np.abs(here)))))

@@ -16,7 +16,6 @@ from lostmotion.inference.fit import Fit, maximise, raise_random_force, restart
 from lostmotion.inference.modes import StartingPoints, select_modes
 from lostmotion.inference.unseen import refit_without_position
 from lostmotion.kernels.threads import each
-from lostmotion.likelihood.drive import count_substeps
 from lostmotion.likelihood.noise_levels import (
     LEVELS_TRIED,
     compute_random_level,
@@ -27,6 +26,7 @@ from lostmotion.likelihood.noise_levels import (
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem, Scales
 from lostmotion.likelihood.space import OFFSET, RANDOM, FreeParameter, list_keys
+from lostmotion.likelihood.steps import choose_engine
 from lostmotion.likelihood.system import Slot, System
 from lostmotion.noises import NOISE
 from lostmotion.quantities import quantity_of, unit_of
@@ -97,7 +97,7 @@ def _compute_sizes(system: System, observations: Sequence[Observation], known: A
     rate, length = float(np.median(rates)), float(np.median(lengths))
     if quantity_of(observations[0].sensors[sensor].channel) == "force":
         return Scales(length, float(np.median([t.travel for t in observations])), 1.0 / rate)
-    inertia = known[system.index[system.model.interfaces[0].inertia]]
+    inertia = system.own_inertia(known, system.model.places[0])
     pushes = [_measure_push(system, t, inertia) for t in observations]
     force = float(np.sqrt(np.mean(np.square([varying for varying, _ in pushes]))))
     force = force or float(np.mean([peak for _, peak in pushes])) or inertia * length * rate**2
@@ -202,7 +202,7 @@ def _check_bounds(system: System, name: str, low: float, high: float) -> None:
     """Raise a `CaseError` for values of a parameter outside of its bounds, or for an inertia of zero."""
     slot = system.slot(name)
     param = slot.param
-    inertia = slot.term is None and slot.key in {place.inertia for place in system.model.interfaces}
+    inertia = slot.term is None and slot.key in system.inertia_keys
     if low < param.low or high > param.high or (inertia and low <= 0.0):
         found = f"{low:g}" if low == high else f"{low:g} to {high:g}"
         wanted = "more than 0" if inertia else f"from {param.low:g} to {param.high:g}"
@@ -225,7 +225,8 @@ def make_problem(
     scales = compute_scales(system, observations, known)
     names = [observation.name for observation in observations]
     frees = [f for name, prior in case.estimate.items() for f in make_case_parameters(system.slot(name), prior, names)]
-    problem = Problem(system, observations, scales, known, tuple(frees), jobs=jobs, settings=settings)
+    engine = choose_engine(system)
+    problem = Problem(system, observations, scales, known, tuple(frees), jobs=jobs, engine=engine, settings=settings)
     scales = replace(scales, usual=compute_usual_level(problem, find_fastest_rate(problem, problem.start)))
     problem = replace(
         problem, scales=scales, free=(*frees, *_make_offsets(problem, None), *make_noise_levels(observations, scales))
@@ -237,19 +238,20 @@ def find_fastest_rate(problem: Problem, theta: Array) -> float:
     """Return the fastest rate (1/s) of the linearised motion over the region that the recording covers."""
     system, scales, observation = problem.system, problem.scales, problem.observations[0]
     grid = np.linspace(-1.5, 1.5, 7)
-    states = np.zeros((len(grid) * 3, len(system.model.states)))
-    states[:, 0] = np.repeat(grid, 3) * scales.length
-    states[:, 1] = np.tile([-1.0, 0.03, 1.0], len(grid)) * scales.velocity
+    speeds = np.tile([-1.0, 0.03, 1.0], len(grid))
+    states = system.spread_states(np.repeat(grid, 3) * scales.length, speeds * scales.velocity)
     middle = np.repeat(np.mean(observation.inputs, axis=0)[None], len(states), axis=0)
     alike = all(f.recording is None or not f.physical for f in problem.free)
     fulls = [problem.full(theta, i) for i in range(1 if alike else len(problem.observations))]
-    return max(1.0 / scales.time, *(system.find_fastest_rate(full, problem.active, states, middle) for full in fulls))
+    dt, active = observation.dt, problem.active
+    return max(1.0 / scales.time, *(system.find_fastest_rate(full, active, states, middle, dt) for full in fulls))
 
 
 def choose_steps(problem: Problem, theta: Array, *, accuracy: float = COARSE) -> Problem:
     """Return the problem with the number of steps between samples for the stiffness along the recorded motion."""
     rate = find_fastest_rate(problem, theta)
-    steps = count_substeps(rate, max(t.dt for t in problem.observations), accuracy=accuracy)
+    dt, held = max(t.dt for t in problem.observations), all(t.held for t in problem.observations)
+    steps = problem.system.count_substeps(rate, dt, accuracy, active=problem.active, held=held)
     return replace(problem, nsub=max(steps, count_steps_for_sticking(problem, theta, creep=CREEP * accuracy / COARSE)))
 
 

@@ -21,7 +21,6 @@ from lostmotion.inference.natural import compute_size, find_term, list_tried_val
 from lostmotion.inference.resonance_scan import scan_resonances
 from lostmotion.inference.rounding import drop_rounding
 from lostmotion.inference.setup import choose_steps
-from lostmotion.likelihood.kernel_calls import compute_each
 from lostmotion.likelihood.latent import smooth_expected_force
 from lostmotion.likelihood.problem import Problem
 from lostmotion.likelihood.system import Slot
@@ -61,7 +60,7 @@ class SmoothedMotion:
     @property
     def travel(self) -> float:
         """The range of the first position (m or rad)."""
-        return float(np.ptp(self.states[:, 0]))
+        return float(np.ptp(self.states[:, self.problem.system.model.first_body[0]]))
 
     def compute_laws(self, key: str, tried: Sequence[Mapping[str, float]]) -> Array:
         """Return the accelerations (tried, samples) that a term with these parameters gives the body at its place.
@@ -74,14 +73,14 @@ class SmoothedMotion:
         for full, values in zip(fulls, tried, strict=True):
             full[[system.index[name] for name in values]] = list(values.values())
         if term.acts == "drive":
-            row, acting = system.model.interfaces[0].row, replace(problem, active=problem.active | {key})
+            place, acting = system.model.places[0], replace(problem, active=problem.active | {key})
             changed = (acting.drive_at(full, 0).inputs[: len(self.states)] for full in fulls)
-            driven = [self._rates(self._packed, frozenset(), inputs)[0, :, row] for inputs in changed]
-            return np.array(driven) - self._driven[0, :, row]
-        row = place_of(system.model, term).row
+            driven = [self._rates(self._packed, frozenset(), inputs)[0] for inputs in changed]
+            return system.accelerate(np.array(driven), place) - system.accelerate(self._driven[0], place)
+        place = place_of(system.model, term)
         packed = system.pack(fulls, observation.dt / problem.nsub, observation.harmonic)
         forced = self._rates(packed, frozenset({key}), observation.inputs)
-        return np.asarray(forced[:, :, row] - self._bare[0, :, row])
+        return system.accelerate(forced, place) - system.accelerate(self._bare[0], place)
 
     def compute_columns(self, key: str, shapes: Sequence[Mapping[str, float]]) -> Array:
         """Return the effect of each amplitude of a term alone at its typical size, (shapes, samples, amplitudes)."""
@@ -93,7 +92,7 @@ class SmoothedMotion:
 
     def _rates(self, packed: Array, active: frozenset[str], inputs: Array) -> Array:
         times = self.problem.observations[0].time
-        return compute_each(self.problem.system, active, packed, self.states, inputs, times)[0]
+        return self.problem.system.compute_each(active, packed, self.states, inputs, times)[0]
 
     @cached_property
     def _packed(self) -> Array:

@@ -14,7 +14,7 @@ from typing import ClassVar
 import numpy as np
 from scipy.signal import lfilter
 
-from lostmotion.contracts import Array, Model, Param, Values
+from lostmotion.contracts import Array, Machine, Param, Values
 from lostmotion.inference.learned import (
     COARSE,
     WIDER,
@@ -191,13 +191,13 @@ RICHER: tuple[type[LearnedTerm], ...] = (OverPlane, OverPositionAndPhase, OverHi
 """Tried where curves over one variable do not suffice."""
 
 
-def list_all_curves(model: Model, *, driven: bool) -> tuple[LearnedTerm, ...]:
+def list_all_curves(model: Machine, *, driven: bool) -> tuple[LearnedTerm, ...]:
     """Return every curve that can be learned in a model: of the motion at each place, of time and drive at the first.
 
     `driven` says that all recordings have a drive with one frequency.
     """
     moving: tuple[type[LearnedTerm], ...] = (*KINDS, OverPlane, OverHistory)
     timed: tuple[type[LearnedTerm], ...] = (*CLOCKS, OverPositionAndPhase)
-    own = [kind(at=place.name) for place in model.interfaces for kind in moving]
+    own = [kind(at=place.name) for place in model.places for kind in moving]
     clocks = [kind for kind in timed if driven or "omega" not in kind.needs]
-    return (*own, *(kind(at=model.interfaces[0].name) for kind in clocks))
+    return (*own, *(kind(at=model.places[0].name) for kind in clocks))

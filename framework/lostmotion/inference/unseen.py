@@ -48,13 +48,14 @@ def smooth_body_position(fit: Fit, observation: Observation) -> BodyPosition:
     the other parameters within their deviations. Infinite deviations where every smoother diverges.
     """
     problem = fit.problem.on((observation,))
+    first = problem.system.model.first_body[0]
     nodes = compute_nodes(fit)
     means, variances, weights = [], [], []
     for node in nodes:
         seen = problem.smooth(node.local.theta)
         if seen.innovations.finite.all():
-            means.append(seen.states[:, 0])
-            variances.append(np.maximum(seen.covariance[:, 0, 0], 0.0))
+            means.append(seen.states[:, first])
+            variances.append(np.maximum(seen.covariance[:, first, first], 0.0))
             weights.append(math.exp(node.weight - max(n.weight for n in nodes)))
     if not means:
         return BodyPosition(np.zeros(observation.samples), np.full(observation.samples, np.inf))
@@ -71,13 +72,14 @@ def smooth_body_position(fit: Fit, observation: Observation) -> BodyPosition:
 
 def _compute_parameter_variance(problem: Problem, local: LocalExpansion) -> Array:
     """Return the variance (samples,) that unknown parameters add to the position at one level of the random force."""
-    at = problem.smooth(local.theta).states[:, 0]
+    first = problem.system.model.first_body[0]
+    at = problem.smooth(local.theta).states[:, first]
     total = np.zeros_like(at)
     held = np.array([key == RANDOM for key in problem.keys])
     for way in compute_root(local.covariance).T:
         seen = problem.smooth(problem.clip(local.theta + np.where(held, 0.0, way)))
         if seen.innovations.finite.all():
-            total += (seen.states[:, 0] - at) ** 2
+            total += (seen.states[:, first] - at) ** 2
     return total
 
 
@@ -131,7 +133,7 @@ def refit_start_in_play(fit: Fit) -> Fit:
     near = refit_start(fit)
     if near.status == "diverged" or not lacks_position(fit.problem):
         return near
-    if not any(place.play for place in fit.problem.system.model.interfaces):
+    if not any(place.play for place in fit.problem.system.model.places):
         return near
     found = _find_start(near, _list_starts_in_play)
     far = refit_start(maximise(found, near.theta)) if found else near
@@ -169,12 +171,16 @@ def _list_starts_in_play(fit: Fit, index: int) -> list[tuple[Array, Array]]:
     problem, n = fit.problem, len(fit.problem.system.model.states)
     unit, now = (problem.scales.length, problem.scales.velocity), problem.points(fit.theta[None], index)
     mean, covariance = now.mean[0, :n], now.covariance[0, :n, :n].copy()
-    covariance[:2], covariance[:, :2] = 0.0, 0.0
-    covariance[0, 0], covariance[1, 1] = ((NARROW * size) ** 2 for size in unit)
+    body = list(problem.system.model.first_body)
+    covariance[body], covariance[:, body] = 0.0, 0.0
+    covariance[body, body] = [(NARROW * size) ** 2 for size in unit]
     seen = any(sensor.channel == "velocity" for sensor in problem.observations[index].sensors)
-    speeds = [mean[1]] if seen else unit[1] * SPEEDS
-    pairs = itertools.product(unit[0] * PLACES, speeds)
-    return [(np.array([place, speed, *mean[2:]]), covariance) for place, speed in pairs]
+    speeds = [mean[body[1]]] if seen else unit[1] * SPEEDS
+    pairs = list(itertools.product(unit[0] * PLACES, speeds))
+    starts = [mean.copy() for _ in pairs]
+    for start, pair in zip(starts, pairs, strict=True):
+        start[body] = pair
+    return [(start, covariance) for start in starts]
 
 
 def _find_start(fit: Fit, starts: Callable[[Fit, int], list[tuple[Array, Array]]]) -> Problem | None:
@@ -232,7 +238,7 @@ def reduce_random_force(fit: Fit) -> Fit:
     An accelerometer sees the random force of the moment. So a large one explains any readings, at any parameters, and a
     search stops at one of many maxima there.
     """
-    if fit.problem.dynamics.random != "held":
+    if fit.problem.running.random != "held":
         return fit
     at = [i for i, f in enumerate(fit.problem.free) if f.parameter == RANDOM]
     usual = fit.problem.scales.usual

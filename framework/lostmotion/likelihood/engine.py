@@ -13,7 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.contracts import Array
+from lostmotion.kernels.smooth import smooth
 from lostmotion.likelihood.drive import Drive
+from lostmotion.likelihood.kernel_calls import count_lanes
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.sensors import Sensor
 from lostmotion.likelihood.system import System
@@ -21,13 +23,17 @@ from lostmotion.noises import NoiseBlock
 
 Random = Literal["white", "held", "latent"]
 """How the random force acts: white; held over each sample, where a sensor sees it at once; or with a memory."""
+Kept = tuple[Array, Array, Array, Array, Array]
+"""The input of a smoother: states and covariances after and before each sample, and the transition matrices between."""
+TOGETHER = 16
+"""Points that are computed at once where there are enough for all cores; more are limited by memory."""
 RUNAWAY = 1e12
 """A filter has diverged where the rms of its standardised innovations exceeds this. Its errors and their differences
 are then meaningless, and the squares of their derivatives overflow."""
 
 
 @dataclass(frozen=True)
-class Dynamics:
+class RunningSystem:
     """A system with its active terms, integrated in at most `nsub` steps to a sample.
 
     A random force acts on each body; one with a memory (`latent`) on the first body alone. With `held` and `latent`
@@ -47,7 +53,7 @@ class Dynamics:
     @cached_property
     def forces(self) -> int:
         """The number of random forces that are states."""
-        return {"white": 0, "latent": 1, "held": len(self.system.blueprint.bodies)}[self.random]
+        return {"white": 0, "latent": 1, "held": self.system.bodies}[self.random]
 
 
 @dataclass(frozen=True)
@@ -200,22 +206,63 @@ class Engine(ABC):
     A point that diverges raises no error: `Innovations.of` marks it, as in `likelihood.reference`.
     """
 
+    def count_together(self, points: int, jobs: int) -> int:
+        """Return how many of some points are filtered in one call, where `jobs` cores share them."""
+        return min(count_lanes(-(-points // jobs)), TOGETHER)
+
     @abstractmethod
-    def filter(self, dynamics: Dynamics, observation: Observation, points: Points) -> Innovations:
+    def filter(self, running: RunningSystem, observation: Observation, points: Points) -> Innovations:
         """Return one-step errors and their variances, each (points, samples, sensors), in SI units and their squares.
 
         A missing reading (NaN) has the error 0 and the variance 1 / (2 pi), so that it adds nothing.
         """
 
     @abstractmethod
-    def smooth(self, dynamics: Dynamics, observation: Observation, points: Points) -> Smoothed:
+    def smooth(self, running: RunningSystem, observation: Observation, points: Points) -> Smoothed:
         """Return filtered and smoothed states (samples, n) of a single point, with covariances (samples, n, n)."""
 
     @abstractmethod
     def simulate(
-        self, dynamics: Dynamics, points: Points, start: Array, steps: int, kicks: Array | None = None
+        self, running: RunningSystem, points: Points, start: Array, steps: int, kicks: Array | None = None
     ) -> Array:
         """Return states (points, steps, n) of free runs from `start` (points, n), NaN after the last finite one.
 
         A run begins at sample `points.first` of its drive; `kicks` (points, steps, n) are added after the first state.
         """
+
+
+class KeepingEngine(Engine):
+    """An engine whose filter can keep, for one point, what a smoother and a linearisation need."""
+
+    @abstractmethod
+    def filter_and_keep(
+        self, running: RunningSystem, observation: Observation, points: Points, kept: Kept | None
+    ) -> Innovations:
+        """Return the same as `filter`, and write what a smoother needs of the first point into `kept` (`make_kept`).
+
+        The other points are near the first one then: an engine that adapts its steps takes those of the first one.
+        """
+
+    def filter(self, running: RunningSystem, observation: Observation, points: Points) -> Innovations:
+        """Return one-step errors and their variances, (points, samples, sensors)."""
+        return self.filter_and_keep(running, observation, points, None)
+
+    def run_for_smoother(
+        self, running: RunningSystem, observation: Observation, points: Points
+    ) -> tuple[Kept, Innovations]:
+        """Return the input of a smoother at one point, and its innovations."""
+        kept = make_kept(running, observation.samples)
+        return kept, self.filter_and_keep(running, observation, points.select(slice(0, 1)), kept)
+
+    def smooth(self, running: RunningSystem, observation: Observation, points: Points) -> Smoothed:
+        """Return filtered and smoothed states of one point, and their covariances."""
+        kept, innovations = self.run_for_smoother(running, observation, points)
+        states, covariance = smooth(*kept)
+        return Smoothed(kept[0], kept[1], states, covariance, innovations)
+
+
+def make_kept(running: RunningSystem, samples: int) -> Kept:
+    """Return the arrays in which a filter keeps what a smoother needs of one point."""
+    n = running.states + running.forces
+    square = (samples, n, n)
+    return np.zeros((samples, n)), np.zeros(square), np.zeros((samples, n)), np.zeros(square), np.zeros(square)

@@ -7,42 +7,41 @@ from dataclasses import replace
 import numpy as np
 
 from lostmotion.contracts import Array, SensorTerm
-from lostmotion.likelihood.engine import Dynamics
+from lostmotion.likelihood.engine import RunningSystem
 from lostmotion.likelihood.observation import Observation, find_static_equilibrium
 from lostmotion.likelihood.space import Scales
 from lostmotion.quantities import quantity_of
 
 
 def compute_initial(
-    dynamics: Dynamics, observation: Observation, scales: Scales, fulls: Array, *, gain: Array, offset: Array
+    running: RunningSystem, observation: Observation, scales: Scales, fulls: Array, *, gain: Array, offset: Array
 ) -> tuple[Array, Array]:
     """Return mean (points, n) and covariance (points, n, n) of the states of model and terms at the first sample.
 
     `fulls` (points, parameters), `gain` and `offset` (points, sensors). Where a force was measured, the position
     depends on the parameters: it is the one at which the model shows this force.
     """
-    model, n = dynamics.system.model, dynamics.states
+    model, n = running.system.model, running.states
     mean, cov = np.zeros((len(fulls), n)), np.zeros((len(fulls), n, n))
     for i, name in enumerate(model.states):
-        cov[:, i, i] = (scales.velocity if i == 1 or "velocity" in name else scales.length) ** 2
-    _begin_terms(dynamics, observation, scales, fulls, (mean, cov), gain=gain, offset=offset)
+        cov[:, i, i] = (scales.velocity if i == model.first_body[1] or "velocity" in name else scales.length) ** 2
+    _begin_terms(running, observation, scales, fulls, (mean, cov), gain=gain, offset=offset)
     if observation.begun is not None:
         known = slice(0, len(model.states))
         mean[:, known], cov[:, known, known] = observation.begun
         return mean, cov
     if all(sensor.channel.endswith("force") for sensor in observation.sensors):
-        return _begin_by_force(dynamics, observation, scales, fulls, (mean, cov), offset=offset[:, 0])
+        return _begin_by_force(running, observation, scales, fulls, (mean, cov), offset=offset[:, 0])
     for number, sensor in enumerate(observation.sensors):
         state = model.states.index(sensor.channel) if sensor.channel in model.states else -1
         if quantity_of(sensor.channel) == "position" and state >= 0 and not np.isnan(observation.first[number][0]):
-            _begin_at_reading(
-                observation, number, (state, scales.length), (mean, cov), gain[:, number], offset[:, number]
-            )
+            own = (state, model.find_rate(state), scales.length)
+            _begin_at_reading(observation, number, own, (mean, cov), gain[:, number], offset[:, number])
     return mean, cov
 
 
 def _begin_terms(
-    dynamics: Dynamics,
+    running: RunningSystem,
     observation: Observation,
     scales: Scales,
     fulls: Array,
@@ -55,10 +54,10 @@ def _begin_terms(
 
     A recording begins within the motion, where the force of a hysteresis is anything up to its yield force.
     """
-    (mean, cov), system = begun, dynamics.system
+    (mean, cov), system = begun, running.system
     places = {sensor.place: i for i, sensor in enumerate(observation.sensors)}
-    for (key, term), first in zip(system.forces, system.wiring(dynamics.active)[1], strict=True):
-        if key not in dynamics.active:
+    for (key, term), first in zip(system.forces, system.wiring(running.active)[1], strict=True):
+        if key not in running.active:
             continue
         for i, size in enumerate(term.begins):
             cov[:, first + i, first + i] = (
@@ -81,23 +80,23 @@ def shows_place(observation: Observation) -> bool:
 def _begin_at_reading(
     observation: Observation,
     number: int,
-    state: tuple[int, float],
+    state: tuple[int, int | None, float],
     begun: tuple[Array, Array],
     gain: Array,
     offset: Array,
 ) -> None:
-    """Initialise a position and the velocity after it from the first readings of a sensor."""
-    (mean, cov), (at, length) = begun, state
+    """Initialise a position and its velocity from the first readings of a sensor."""
+    (mean, cov), (at, rate, length) = begun, state
     place, speed = observation.first[number]
     mean[:, at] = (place - offset) / gain
     cov[:, at, at] = min((10.0 * observation.noises[number]) ** 2 + (1e-3 * length) ** 2, length**2)
-    if at + 1 < cov.shape[1]:
-        mean[:, at + 1] = speed / gain
-        cov[:, at + 1, at + 1] *= 0.25
+    if rate is not None:
+        mean[:, rate] = speed / gain
+        cov[:, rate, rate] *= 0.25
 
 
 def _begin_by_force(
-    dynamics: Dynamics,
+    running: RunningSystem,
     observation: Observation,
     scales: Scales,
     fulls: Array,
@@ -106,7 +105,7 @@ def _begin_by_force(
     offset: Array,
 ) -> tuple[Array, Array]:
     """Return mean and covariance where the first sensor shows a force: the body is where the model gives this force."""
-    model, (mean, cov) = dynamics.system.model, begun
+    model, (mean, cov) = running.system.equations, begun
     mean[:, :2] = observation.inputs[0, :2]
     cov[:, 1, 1] *= 0.25
     for point, full in enumerate(fulls):

@@ -11,9 +11,8 @@ from numpy.typing import NDArray
 
 from lostmotion.contracts import Array
 from lostmotion.kernels.inputs import DRAWN, DRIVES, SOURCES
-from lostmotion.kernels.smooth import smooth
 from lostmotion.kernels.vector import STRIDE
-from lostmotion.likelihood.engine import Dynamics, Engine, Innovations, Points, Smoothed
+from lostmotion.likelihood.engine import Innovations, KeepingEngine, Kept, Points, RunningSystem
 from lostmotion.likelihood.kernel_calls import (
     count_lanes,
     make_block,
@@ -30,12 +29,9 @@ from lostmotion.likelihood.work import add_work
 
 _NONE = (np.zeros((1, 1)), np.zeros((1, 1, 1)), np.zeros((1, 1)), np.zeros((1, 1, 1)), np.zeros((1, 1, 1)))
 
-Kept = tuple[Array, Array, Array, Array, Array]
-"""The input of a smoother: states and covariances after and before each sample, and the transition matrices between."""
-
 
 @dataclass(frozen=True)
-class Lanes(Engine):
+class Lanes(KeepingEngine):
     """Filters up to 32 points at once in vector lanes; `compiled=False` runs the same source as plain Python.
 
     Norgaard, Poulsen, Ravn, Automatica 36 (2000) 1627-1638, with steps halved where a force bends.
@@ -43,59 +39,46 @@ class Lanes(Engine):
 
     compiled: bool = True
 
-    def filter(self, dynamics: Dynamics, observation: Observation, points: Points) -> Innovations:
-        """Return one-step errors and their variances, (points, samples, sensors)."""
-        return self._filter(dynamics, observation, points, _NONE)
+    def filter_and_keep(
+        self, running: RunningSystem, observation: Observation, points: Points, kept: Kept | None
+    ) -> Innovations:
+        """Return one-step errors and their variances; write what a smoother needs of the first point into `kept`.
 
-    def filter_near(self, dynamics: Dynamics, observation: Observation, points: Points, kept: Kept) -> Innovations:
-        """Return the same for points near the first one, whose steps they take, for differences between them.
-
-        What a smoother needs of the first point is written into `kept` (`make_kept`).
+        Points whose first is kept take the steps of that one, for differences between them.
         """
+        if kept is None:
+            return self._filter(running, observation, points, _NONE)
         most, parts = STRIDE - 1, []
         for begin in range(1, max(len(points), 2), most):
             rows = np.r_[0, begin : min(begin + most, len(points))]
-            found = self._filter(dynamics, observation, points.select(rows), kept if begin == 1 else _NONE, led=True)
+            found = self._filter(running, observation, points.select(rows), kept if begin == 1 else _NONE, led=True)
             parts.append(found if begin == 1 else found[1:])
         return parts[0] if len(parts) == 1 else join_innovations(parts)
 
     def _filter(
-        self, dynamics: Dynamics, observation: Observation, points: Points, kept: Kept, *, led: bool = False
+        self, running: RunningSystem, observation: Observation, points: Points, kept: Kept, *, led: bool = False
     ) -> Innovations:
         shape = (len(points), observation.samples, len(observation.sensors))
         errors, variances, reached = np.zeros(shape), np.ones(shape), np.zeros(len(points), dtype=np.int64)
         for number, rows in enumerate(_group_points(points)):
             written = (errors[rows], variances[rows], reached[rows])
             wanted = kept if number == 0 else _NONE
-            self._run_filter(dynamics, observation, points.select(rows), written, wanted, led=led)
+            self._run_filter(running, observation, points.select(rows), written, wanted, led=led)
             if not isinstance(rows, slice):
                 errors[rows], variances[rows], reached[rows] = written
         return Innovations.of(errors, variances, reached)
 
-    def smooth(self, dynamics: Dynamics, observation: Observation, points: Points) -> Smoothed:
-        """Return filtered and smoothed states of one point, and their covariances."""
-        kept, innovations = self.run_for_smoother(dynamics, observation, points)
-        states, covariance = smooth(*kept)
-        return Smoothed(kept[0], kept[1], states, covariance, innovations)
-
-    def run_for_smoother(
-        self, dynamics: Dynamics, observation: Observation, points: Points
-    ) -> tuple[Kept, Innovations]:
-        """Return the input of a smoother at one point, and its innovations."""
-        kept = make_kept(dynamics, observation.samples)
-        return kept, self._filter(dynamics, observation, points.select(slice(0, 1)), kept)
-
     def simulate(
-        self, dynamics: Dynamics, points: Points, start: Array, steps: int, kicks: Array | None = None
+        self, running: RunningSystem, points: Points, start: Array, steps: int, kicks: Array | None = None
     ) -> Array:
         """Return the states (points, steps, n) of free runs from `start` (points, n), NaN after a divergence."""
-        states = np.empty((len(points), steps, dynamics.states))
+        states = np.empty((len(points), steps, running.states))
         for number, drive in enumerate(points.drives):
             rows = np.flatnonzero(points.which == number)
             if len(rows):
-                packed = dynamics.system.pack(points.params[rows], drive.dt / dynamics.nsub, drive.harmonic)
+                packed = running.system.pack(points.params[rows], drive.dt / running.nsub, drive.harmonic)
                 found = run_freely(
-                    dynamics.system, dynamics.active, packed, start[rows], drive, dynamics.nsub, points.first[rows],
+                    running.system, running.active, packed, start[rows], drive, running.nsub, points.first[rows],
                     steps, kicks=None if kicks is None else kicks[rows], compiled=self.compiled,
                 )  # fmt: skip
                 states[rows] = found[0]
@@ -103,7 +86,7 @@ class Lanes(Engine):
 
     def _run_filter(
         self,
-        dynamics: Dynamics,
+        running: RunningSystem,
         observation: Observation,
         points: Points,
         written: tuple[Array, Array, NDArray[np.int64]],
@@ -112,15 +95,15 @@ class Lanes(Engine):
         led: bool,
     ) -> None:
         """Run the filter at up to `STRIDE` points, and write into the given arrays."""
-        system, n = dynamics.system, dynamics.states + dynamics.forces
+        system, n = running.system, running.states + running.forces
         drives = [drive.pad_inputs(len(system.model.inputs)) for drive in points.drives]
-        harmonic, dt, nsub = drives[0].harmonic, observation.dt, count_fine_steps(dynamics.nsub)
-        numbers = _list_sensor_numbers(observation, dynamics, points)
-        forces = tuple(dynamics.states + i for i in range(dynamics.forces))
+        harmonic, dt, nsub = drives[0].harmonic, observation.dt, count_fine_steps(running.nsub)
+        numbers = _list_sensor_numbers(observation, running, points)
+        forces = tuple(running.states + i for i in range(running.forces))
         packed = system.pack(points.params, dt / nsub, harmonic)
         packed[:, system.blueprint.rows.pace - system.blueprint.rows.params] = points.pace
-        wires = make_model_wires(system, dynamics.active, forces, compiled=self.compiled)
-        noise, wires[SOURCES], wires[DRAWN] = _list_noise(dynamics, points, dt)
+        wires = make_model_wires(system, running.active, forces, compiled=self.compiled)
+        noise, wires[SOURCES], wires[DRAWN] = _list_noise(running, points, dt)
         used = np.unique(points.which)
         inputs = drives[used[0]].cubics if len(used) == 1 else np.concatenate([drives[i].cubics for i in used])
         wires[DRIVES] = len(used)
@@ -129,7 +112,7 @@ class Lanes(Engine):
         sensing = points.noise
         levels = np.stack([sensing.white, sensing.clock, points.gain, points.offset, points.lag], axis=2)
         kinds = np.concatenate([sensing.shown[..., None], sensing.transition, sensing.driving, sensing.first], axis=2)
-        mean, covariance = _compute_start(dynamics, points)
+        mean, covariance = _compute_start(running, points)
         kernels = build_filter(n, self.compiled)
         many = sensing.shown.shape[1]
         blocks = (
@@ -148,7 +131,7 @@ class Lanes(Engine):
         padded = _pad_arrays(written, lanes)
         failed = kernels["run_filter"](
             (made.derive, made.observe), blocks, wires, inputs, which, np.ascontiguousarray(readings),
-            numbers, find_input_variance(dynamics, observation), dt, nsub, padded, kept, led, lanes,
+            numbers, find_input_variance(running, observation), dt, nsub, padded, kept, led, lanes,
         )  # fmt: skip
         add_work(len(points) * observation.samples * nsub * n)
         require_no_failure(failed, system, blocks[0], wires)
@@ -157,16 +140,9 @@ class Lanes(Engine):
                 mine[:] = theirs[: len(mine)]
 
 
-def make_kept(dynamics: Dynamics, samples: int) -> Kept:
-    """Return the arrays in which a filter keeps what a smoother needs of one point."""
-    n = dynamics.states + dynamics.forces
-    square = (samples, n, n)
-    return np.zeros((samples, n)), np.zeros(square), np.zeros((samples, n)), np.zeros(square), np.zeros(square)
-
-
-def find_input_variance(dynamics: Dynamics, observation: Observation) -> Array:
+def find_input_variance(running: RunningSystem, observation: Observation) -> Array:
     """Return the variance (samples,) that interpolation of the measured force between samples adds to a held force."""
-    forced = dynamics.random == "held" and dynamics.system.model.inputs[observation.lead] == "force"
+    forced = running.random == "held" and running.system.model.inputs[observation.lead] == "force"
     return observation.input_variance if forced else np.zeros(observation.samples)
 
 
@@ -193,7 +169,7 @@ def _group_points(points: Points) -> Iterator[slice | NDArray[np.intp]]:
         yield from (rows[begin : begin + STRIDE] for begin in range(0, len(rows), STRIDE))
 
 
-def _list_sensor_numbers(observation: Observation, dynamics: Dynamics, points: Points) -> NDArray[np.int64]:
+def _list_sensor_numbers(observation: Observation, running: RunningSystem, points: Points) -> NDArray[np.int64]:
     """Return for each sensor its channel, directly shown state, the first of its noise states and that behind the last.
 
     Then whether the sensor is late, and whether its stamps jitter: the shape is (sensors, 6).
@@ -202,16 +178,16 @@ def _list_sensor_numbers(observation: Observation, dynamics: Dynamics, points: P
     for number, sensor in enumerate(observation.sensors):
         begin, end = end, end + sensor.noise_states
         late, jitters = bool(points.lag[0, number]), bool(np.any(points.noise.clock[:, number]))
-        rows.append((*dynamics.system.shown(sensor, dynamics.active), begin, end, late, jitters))
+        rows.append((*running.system.shown(sensor, running.active), begin, end, late, jitters))
     return np.array(rows, dtype=np.int64)
 
 
-def _list_noise(dynamics: Dynamics, points: Points, dt: float) -> tuple[Array, int, int]:
+def _list_noise(running: RunningSystem, points: Points, dt: float) -> tuple[Array, int, int]:
     """Return the states that the random force enters with its intensities, (points, rows), and how many of each."""
-    plan, n = dynamics.system.blueprint, dynamics.states
-    if dynamics.random == "latent":
+    plan, n = running.system.blueprint, running.states
+    if running.random == "latent":
         return np.column_stack([np.full(len(points), float(n)), points.process * points.pace**2]), 1, 0
-    if dynamics.random == "held":
+    if running.random == "held":
         rows = [(np.full(len(points), float(n + i)), points.process / dt) for i in range(len(plan.bodies))]
         return np.column_stack([column for row in rows for column in row]), 0, len(rows)
     rows = [
@@ -220,11 +196,11 @@ def _list_noise(dynamics: Dynamics, points: Points, dt: float) -> tuple[Array, i
     return np.column_stack([column for row in rows for column in row]), len(rows), 0
 
 
-def _compute_start(dynamics: Dynamics, points: Points) -> tuple[Array, Array]:
+def _compute_start(running: RunningSystem, points: Points) -> tuple[Array, Array]:
     """Return mean and covariance of all states at the first sample, random forces included."""
-    m, n = dynamics.states, dynamics.states + dynamics.forces
+    m, n = running.states, running.states + running.forces
     mean, covariance = np.zeros((len(points), n)), np.zeros((len(points), n, n))
     mean[:, :m], covariance[:, :m, :m] = points.mean, points.covariance
-    if dynamics.random == "latent":
+    if running.random == "latent":
         covariance[:, m, m] = 0.5 * points.process * points.pace
     return mean, covariance

@@ -28,7 +28,7 @@ class LatentForce:
 
     `share` is its prior standard deviation in units of the drive and `time` its correlation time in s, both chosen by
     the likelihood; `log_gain` is its gain in log-likelihood over a latent force of `SHARES[0]`. `levers` are those of
-    `System.lever` by place.
+    `System.lever` by place; `body` are the states that are position and velocity of the first body.
     """
 
     force: Array
@@ -38,16 +38,17 @@ class LatentForce:
     time: float
     log_gain: float
     levers: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
+    body: tuple[int, int] = (0, 1)
 
     @property
     def position(self) -> Array:
         """The smoothed position (samples,)."""
-        return self.states[:, 0]
+        return self.states[:, self.body[0]]
 
     @property
     def velocity(self) -> Array:
         """The smoothed velocity (samples,)."""
-        return self.states[:, 1]
+        return self.states[:, self.body[1]]
 
 
 def smooth_latent_force(problem: Problem, theta: Array, index: int = 0) -> LatentForce:
@@ -68,9 +69,10 @@ def smooth_latent_force(problem: Problem, theta: Array, index: int = 0) -> Laten
     sd = np.sqrt(np.maximum(seen.covariance[:, -1, -1], 0.0))
     share, pace = grid[best]
     gain = float(heights[best] - base)
-    full, places = single.full(theta), problem.system.model.interfaces
+    full, places = single.full(theta), problem.system.model.places
     levers = {place.name: problem.system.lever(full, place) for place in places}
-    return LatentForce(seen.states[:, -1], sd, seen.states[:, :-1], share, problem.scales.time / pace, gain, levers)
+    time, body = problem.scales.time / pace, problem.system.model.first_body
+    return LatentForce(seen.states[:, -1], sd, seen.states[:, :-1], share, time, gain, levers, body)
 
 
 def smooth_expected_force(problem: Problem, theta: Array, index: int = 0) -> tuple[Array, Array]:

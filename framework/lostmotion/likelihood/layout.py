@@ -11,11 +11,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lostmotion.contracts import Array, DriveTerm, Interface, Model, Param, SensorTerm, Term, place_of
+from lostmotion.contracts import Array, DriveTerm, Interface, Machine, Model, Param, Place, SensorTerm, Term, place_of
 from lostmotion.errors import ContractError, nearest
 from lostmotion.likelihood.compose import Functions, compile_functions, define_plain_functions
 from lostmotion.likelihood.drive import SILENT, DriveHarmonic
-from lostmotion.likelihood.plan import Blueprint, Place, compute_room, make_law
+from lostmotion.likelihood.plan import Blueprint, KernelPlace, compute_room, make_law
 from lostmotion.quantities import TIME
 
 ALWAYS = -1e9
@@ -49,8 +49,15 @@ class Slot:
 class Layout:
     """A model and its possible terms as numbers: the full vector of parameters, and the meaning of each entry."""
 
-    model: Model
+    model: Machine
     terms: tuple[Term, ...] = ()
+
+    @property
+    def equations(self) -> Model:
+        """The machine as a model that is written as equations; `ContractError` where it can only be stepped."""
+        if not isinstance(self.model, Model):
+            raise ContractError(f"{self.model.name} has a step and no equations: use a `Model` here")
+        return self.model
 
     @property
     def everything(self) -> frozenset[str]:
@@ -145,23 +152,35 @@ class Layout:
     @cached_property
     def inertias(self) -> tuple[int, ...]:
         """The indices of all inertias that forces move, each once."""
-        moved = [name for i in self.model.interfaces for name in (i.inertia, *(i.against or ())[1:])]
+        moved = [name for i in self.equations.interfaces for name in (i.inertia, *(i.against or ())[1:])]
         return tuple(dict.fromkeys(self.index[name] for name in moved))
 
-    def inertia(self, full: Array, place: Interface) -> Any:
+    def inertia(self, full: Array, place: Place) -> Any:
         """Return the inertia (kg or kg m^2) that a force at a place moves; of two bodies, 1 / (1/m1 + lever^2/m2).
 
         `full` is (parameters,) or (points, parameters).
         """
+        place = self._interface(place)
         moved = [place.inertia, *(place.against[1:] if place.against else ())]
         inverse = [1.0 / full[..., self.index[name]] for name in moved]
         for lever in self.lever(full, place):
             inverse[-1] = lever**2 * inverse[-1]
         return 1.0 / np.sum(inverse, axis=0)
 
-    def lever(self, full: Array, place: Interface) -> tuple[Any, ...]:
+    def own_inertia(self, full: Array, place: Place) -> Any:
+        """Return the inertia (kg or kg m^2) of the first body at a place; `full` is (parameters,)."""
+        return full[..., self.index[self._interface(place).inertia]]
+
+    @staticmethod
+    def _interface(place: Place) -> Interface:
+        if not isinstance(place, Interface):
+            raise ContractError(f"the place {place.name} of a model lacks row and inertia: make it an `Interface`")
+        return place
+
+    def lever(self, full: Array, place: Place) -> tuple[Any, ...]:
         """Return the lever of the second body of a place, as its `motion` takes it: nothing where there is none."""
-        return () if place.lever is None else (full[..., self.index[place.lever]],)
+        lever = place.lever if isinstance(place, Interface) else None
+        return () if lever is None else (full[..., self.index[lever]],)
 
     def wiring(self, active: Iterable[str]) -> tuple[NDArray[np.bool_], NDArray[np.int64]]:
         """Return the switches of the terms, and the index in `y` of the first state of each."""
@@ -184,10 +203,10 @@ class Layout:
     @cached_property
     def blueprint(self) -> Blueprint:
         """The description of the kernel of the model with all terms."""
-        model = self.model
+        model = self.equations
         index = {q.name: i for i, q in enumerate(model.params)}
         places = tuple(
-            Place(
+            KernelPlace(
                 i.row,
                 index[i.inertia],
                 i.motion,
@@ -221,7 +240,7 @@ class Layout:
         numbers[:, targets] = fulls[:, origins]
         for column, kind, i in needs:
             if kind in ("mobility", "inertia") and i not in moved:
-                moved[i] = self.inertia(fulls, self.model.interfaces[i])
+                moved[i] = self.inertia(fulls, self.model.places[i])
             if kind == "mobility":
                 numbers[:, column] = line * step / moved[i]
             else:
@@ -264,17 +283,17 @@ class Layout:
             if need in ("step", "finest", "omega", "amplitude"):
                 yield need, NUMB
             elif need in ("mobility", "inertia"):
-                yield need, self.model.interfaces.index(place)
+                yield need, self.model.places.index(place)
             elif need in ("acceleration", "force_input", "shake_input"):
                 yield "number", self._input_of(need, place)
             else:
                 name = contact.get(need, need)
                 yield ("own", self.index[name]) if name else ("number", 0)
 
-    def _input_of(self, need: str, place: Interface) -> int:
+    def _input_of(self, need: str, place: Place) -> int:
         """Return the index of the force on the body at a place, or of the base acceleration; -1 where there is none."""
-        inputs, first = self.model.inputs, self.model.interfaces[0].row
-        name = "base_acceleration" if need == "shake_input" else "force" if place.row == first else "second_force"
+        inputs, first = self.model.inputs, self.model.places[0].bodies[0]
+        name = "base_acceleration" if need == "shake_input" else "force" if place.bodies[0] == first else "second_force"
         return inputs.index(name) if name in inputs and need != "acceleration" else NUMB
 
 

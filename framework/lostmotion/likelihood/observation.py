@@ -13,7 +13,7 @@ from scipy.interpolate import Akima1DInterpolator, CubicSpline
 from scipy.ndimage import binary_dilation
 from scipy.optimize import brentq, minimize_scalar
 
-from lostmotion.contracts import Array, Interface, Model
+from lostmotion.contracts import Array, Machine, Model
 from lostmotion.errors import CaseError, nearest
 from lostmotion.likelihood.drive import SILENT, Drive, DriveHarmonic
 from lostmotion.likelihood.input_curve import InputCurve
@@ -96,19 +96,6 @@ class Observation:
     def time(self) -> Array:
         """The time of each sample from the start of the recording, in s."""
         return np.asarray((self.begin + np.arange(self.samples)) * self.dt, dtype=float)
-
-    def motion_at(self, place: Interface, states: Array, lever: tuple[float, ...] = ()) -> Array:
-        """Return relative position and velocity (2, samples) at a place of the model, along `states` (samples, n).
-
-        `lever` is what `System.lever` returns.
-        """
-        try:  # most motions are sums, which work on whole columns
-            found = np.array(place.motion(states.T, self.inputs.T, *lever), dtype=float)
-            if found.shape == (2, len(states)):
-                return found
-        except (TypeError, ValueError):
-            pass
-        return np.array([place.motion(y, u, *lever) for y, u in zip(states, self.inputs, strict=True)]).T
 
     def part(self, start: int, stop: int) -> Observation:
         """Return the samples from `start` up to `stop` as an observation of its own."""
@@ -280,7 +267,7 @@ def find_static_equilibrium(observation: Observation, model: Model, p: Array) ->
 
 
 def make_observation(
-    recording: Recording, model: Model, *, held: bool = False, make_noise: Callable[[str], Noise] = make_basic
+    recording: Recording, model: Machine, *, held: bool = False, make_noise: Callable[[str], Noise] = make_basic
 ) -> Observation:
     """Return the observation of a recording for `model`; the velocity of a measured base motion comes from a spline.
 
@@ -316,7 +303,7 @@ def find_slope_column(inputs: Sequence[str], lead: int) -> int | None:
     return list(inputs).index("base_velocity") if moved else None
 
 
-def _make_sensor(array: xr.DataArray, model: Model, recording: str, make_noise: Callable[[str], Noise]) -> Sensor:
+def _make_sensor(array: xr.DataArray, model: Machine, recording: str, make_noise: Callable[[str], Noise]) -> Sensor:
     """Return the sensor of an array of a recording; raise `CaseError` for a channel that the model lacks."""
     channel, name = str(array.attrs["of"]), str(array.attrs["sensor"])
     if channel not in model.channels:

@@ -20,7 +20,7 @@ ROOM = 16
 
 
 @dataclass(frozen=True)
-class Place:
+class KernelPlace:
     """A place where a force acts: the row of `dydt`, the index of the inertia in `p`, and the relative motion there.
 
     `against` is row and inertia of a body that feels the opposite force, times the parameter with index `lever`.
@@ -103,7 +103,7 @@ class Blueprint:
     params: int
     rhs: Callable[..., Any]
     observe: Callable[..., Any]
-    places: tuple[Place, ...]
+    places: tuple[KernelPlace, ...]
     laws: tuple[Law, ...]
     room: int = ROOM
     """States of laws and of latent forces that have a place in a block."""
@@ -114,7 +114,7 @@ class Blueprint:
         return replace(self, laws=())
 
     @cached_property
-    def bodies(self) -> tuple[Place, ...]:
+    def bodies(self) -> tuple[KernelPlace, ...]:
         """One place for each row on which forces act, the first one first."""
         return tuple({place.row: place for place in reversed(self.places)}.values())[::-1]
 

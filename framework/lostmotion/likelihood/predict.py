@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from lostmotion.contracts import Array
 from lostmotion.kernels.filter import UNREAD_VARIANCE
-from lostmotion.likelihood.kernel_calls import compute_derivatives
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem
 from lostmotion.settings import DEFAULT
@@ -66,7 +65,7 @@ def filter_recording(problem: Problem, theta: Array) -> Filtered:
     """Return the first recording of a problem, filtered at coordinates."""
     seen = problem.smooth(theta)
     errors, variances = (a[0] for a in (seen.innovations.errors, seen.innovations.variances))
-    return Filtered(seen.filtered[:, : problem.dynamics.states], errors, variances)
+    return Filtered(seen.filtered[:, : problem.running.states], errors, variances)
 
 
 def predict_freely(
@@ -97,9 +96,9 @@ def _simulate_runs(
     """Return the states (runs, steps, n) of free runs from `y0` (runs, n) at the sample numbers `starts`."""
     one = problem.points(theta[None], index).select(np.zeros(len(starts), dtype=np.int64))
     begun = replace(one, first=np.asarray(starts, dtype=np.int64))
-    dynamics = problem.dynamics
-    begin = np.ascontiguousarray(y0[:, : dynamics.states])
-    states: Array = problem.engine.simulate(dynamics, begun, begin, steps, kicks)
+    running = problem.running
+    begin = np.ascontiguousarray(y0[:, : running.states])
+    states: Array = problem.engine.simulate(running, begun, begin, steps, kicks)
     return states
 
 
@@ -147,7 +146,7 @@ def observe_states(
         packed = system.pack(problem.full(theta, index)[None], drive.dt / problem.nsub, drive.harmonic)
         times = drive.begin + (start + np.arange(len(states))) * drive.dt
         inputs = drive.inputs[start : start + len(states)]
-        shown = compute_derivatives(system, problem.active, packed, states, inputs, times)[1][:, channel]
+        shown = system.compute_derivatives(problem.active, packed, states, inputs, times)[1][:, channel]
     if lag:
         at = np.arange(len(shown)) - lag / observation.dt
         shown = np.interp(at, np.arange(len(shown)), shown, left=shown[0])
@@ -170,7 +169,7 @@ def compute_growth_rates(problem: Problem, theta: Array, y0: Array, index: int =
     observation = problem.observations[index]
     piece = max(int(problem.scales.time * 3.0 / observation.dt), 8)
     unit = np.ones(len(y0))
-    unit[0], unit[1] = problem.scales.length, problem.scales.velocity
+    unit[list(problem.system.model.first_body)] = problem.scales.length, problem.scales.velocity
     starts = np.arange(0, observation.samples - piece, piece)
     if not len(starts):
         return np.zeros(0)

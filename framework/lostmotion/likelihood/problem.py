@@ -15,9 +15,8 @@ from lostmotion.contracts import Array
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.bends import SensorCorrections, correct_twice, filter_corrected, list_corrections
 from lostmotion.likelihood.drive import Drive, pad_inputs
-from lostmotion.likelihood.engine import Dynamics, Engine, Innovations, Points, Random, SensorNoises, Smoothed
+from lostmotion.likelihood.engine import Engine, Innovations, Points, Random, RunningSystem, SensorNoises, Smoothed
 from lostmotion.likelihood.initial import compute_initial
-from lostmotion.likelihood.kernel_calls import count_lanes
 from lostmotion.likelihood.lanes import Lanes
 from lostmotion.likelihood.observation import Observation, shift_sensors
 from lostmotion.likelihood.point_groups import find_distinct, group_rows, join_innovations, realign
@@ -42,8 +41,6 @@ USUAL = 1e-3
 """The usual noise of a measured excitation as a share of the drive, which is no missing mechanism."""
 LATEST = 0.5
 """One of several sensors may be late by at most this many natural times of the motion (half a radian)."""
-TOGETHER = 16
-"""Points that are computed at once where there are enough for all cores; more are limited by memory."""
 
 
 @dataclass(frozen=True)
@@ -141,14 +138,14 @@ class Problem:
         return min(math.ceil(LATEST * self.scales.time / observation.dt), observation.samples // 20)
 
     @cached_property
-    def dynamics(self) -> Dynamics:
+    def running(self) -> RunningSystem:
         """The system with its active terms, as an engine sees it."""
         random: Random = "white"
         if self.coloured:
             random = "latent"
-        elif any(self.system.senses_force(s.channel) for o in self.observations for s in o.sensors):
+        elif self.system.holds_forces(s.channel for o in self.observations for s in o.sensors):
             random = "held"
-        return Dynamics(self.system, self.active, self.nsub, random)
+        return RunningSystem(self.system, self.active, self.nsub, random)
 
     @cached_property
     def _slots(self) -> tuple[tuple[int, FreeParameter], ...]:
@@ -211,7 +208,7 @@ class Problem:
         for index, coordinates in enumerate(self.coordinates):
             rows, inverse = find_distinct(thetas[:, coordinates.used])
             places.append(inverse)
-            share = min(count_lanes(-(-len(rows) // self.jobs)), TOGETHER)
+            share = self.engine.count_together(len(rows), self.jobs)
             alike = group_rows(rows, self._list_views(thetas[rows], index))
             tasks += [(index, some[k : k + share]) for some in alike for k in range(0, len(some), share)]
             if len(alike) > 1:  # the order of the tasks is another than that of the rows
@@ -241,7 +238,7 @@ class Problem:
             changing = self.active & {*self.system.bending_terms, *self.system.rescaling}
             corrections = [self._list_corrections(theta, index) for theta in thetas[rows]] if changing else []
             awake = self._drop_idle_lags(thetas[rows[0]], index)
-            run = partial(self.engine.filter, awake.dynamics)
+            run = partial(self.engine.filter, awake.running)
             found = filter_corrected(run, self._make_view(index, late), corrections, awake.points(thetas[rows], index))
             return realign(found, late) if any(late) else found
 
@@ -276,7 +273,7 @@ class Problem:
         gain, more, lag = self._compute_gauges(fulls, index)
         offset, lag = offset + more, lag - np.rint(lag / observation.dt) * observation.dt
         drives, which = self._make_drives(fulls, index)
-        begun = compute_initial(self.dynamics, observation, self.scales, fulls, gain=gain, offset=offset)
+        begun = compute_initial(self.running, observation, self.scales, fulls, gain=gain, offset=offset)
         process = np.exp(coordinates.at(thetas, RANDOM))
         first = np.zeros(len(thetas), dtype=np.int64)
         return Points(fulls, process, pace, noise, gain, offset, lag, *begun, drives, which, first)
@@ -372,9 +369,9 @@ class Problem:
         """Return the filtered and the smoothed states of a recording at the coordinates `theta`."""
         view = self._make_view(index, self.count_delays(theta[None], index)[0])
         points = self.points(theta[None], index)
-        run = partial(self.engine.filter, self.dynamics)
+        run = partial(self.engine.filter, self.running)
         readings, _ = correct_twice(run, view, [self._list_corrections(theta, index)], points)
-        return self.engine.smooth(self.dynamics, view, replace(points, readings=readings))
+        return self.engine.smooth(self.running, view, replace(points, readings=readings))
 
     def extend(self, more: Iterable[FreeParameter], active: Iterable[str]) -> Problem:
         """Return the problem with further free parameters and terms."""

@@ -15,7 +15,7 @@ from lostmotion.kernels.crossing import BEND_LIMIT, PACED_LIMIT, PACED_SHARE, ST
 from lostmotion.kernels.filter import INNER_POINT, INNER_WEIGHT, OUTER_POINT, OUTER_WEIGHT, UNREAD_VARIANCE
 from lostmotion.kernels.smooth import SURE
 from lostmotion.likelihood.drive import Drive
-from lostmotion.likelihood.engine import Dynamics, Engine, Innovations, Points, Smoothed
+from lostmotion.likelihood.engine import Engine, Innovations, Points, RunningSystem, Smoothed
 from lostmotion.likelihood.lanes import count_fine_steps, find_input_variance
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
@@ -27,15 +27,15 @@ GAUSS = (0.5 - math.sqrt(1.0 / 12.0), 0.5 + math.sqrt(1.0 / 12.0))
 class Reference(Engine):
     """The same filter as `lanes`, written with matrices and the Python functions of model and terms."""
 
-    def filter(self, dynamics: Dynamics, observation: Observation, points: Points) -> Innovations:
+    def filter(self, running: RunningSystem, observation: Observation, points: Points) -> Innovations:
         """Return one-step errors and their variances, (points, samples, sensors)."""
-        runs = [_Run.of(dynamics, observation, points.select(slice(i, i + 1))) for i in range(len(points))]
+        runs = [_Run.of(running, observation, points.select(slice(i, i + 1))) for i in range(len(points))]
         reached = np.array([run.filter() for run in runs], dtype=np.int64)
         return Innovations.of(np.array([r.errors for r in runs]), np.array([r.variances for r in runs]), reached)
 
-    def smooth(self, dynamics: Dynamics, observation: Observation, points: Points) -> Smoothed:
+    def smooth(self, running: RunningSystem, observation: Observation, points: Points) -> Smoothed:
         """Return filtered and smoothed states of one point, and their covariances (Rauch, Tung, Striebel 1965)."""
-        run = _Run.of(dynamics, observation, points)
+        run = _Run.of(running, observation, points)
         reached = np.array([run.filter()], dtype=np.int64)
         seen, ahead, steps = run.seen, run.ahead, run.steps
         states, covs = [seen[-1][0]], [seen[-1][1]]
@@ -49,21 +49,21 @@ class Reference(Engine):
         return Smoothed(filtered, covariance, np.array(states[::-1]), np.array(covs[::-1]), innovations)
 
     def simulate(
-        self, dynamics: Dynamics, points: Points, start: Array, steps: int, kicks: Array | None = None
+        self, running: RunningSystem, points: Points, start: Array, steps: int, kicks: Array | None = None
     ) -> Array:
         """Return the states (points, steps, n) of free runs by RK4, NaN after a divergence."""
-        states = np.full((len(points), steps, dynamics.states), np.nan)
+        states = np.full((len(points), steps, running.states), np.nan)
         for i in range(len(points)):
-            machine = _Machine.of(dynamics, points.select(slice(i, i + 1)), dynamics.nsub)
-            y, h = start[i].astype(float), machine.drive.dt / dynamics.nsub
+            machine = _Machine.of(running, points.select(slice(i, i + 1)), running.nsub)
+            y, h = start[i].astype(float), machine.drive.dt / running.nsub
             for k in range(steps):
                 if kicks is not None and k:
                     y = y + kicks[i, k]
                 states[i, k] = y
                 if k == steps - 1 or not np.isfinite(y).all():
                     break
-                for j in range(dynamics.nsub):
-                    y = machine.take_step(y, (int(points.first[i]) + k, j / dynamics.nsub, 1.0 / dynamics.nsub), h)
+                for j in range(running.nsub):
+                    y = machine.take_step(y, (int(points.first[i]) + k, j / running.nsub, 1.0 / running.nsub), h)
         states[~np.isfinite(states).all(axis=2)] = np.nan
         return states
 
@@ -73,17 +73,17 @@ class _Machine:
     """A system at one point as functions of the state; forces that are states come last."""
 
     system: System
-    dynamics: Dynamics
+    running: RunningSystem
     packed: Array
     drive: Drive
     pace: float
 
     @classmethod
-    def of(cls, dynamics: Dynamics, points: Points, nsub: int) -> _Machine:
+    def of(cls, running: RunningSystem, points: Points, nsub: int) -> _Machine:
         """Return the machine of a single point, with the parameters of its laws for this number of steps."""
-        drive = points.drives[points.which[0]].pad_inputs(len(dynamics.system.model.inputs))
-        packed = dynamics.system.pack(points.params, drive.dt / nsub, drive.harmonic)[0]
-        return cls(dynamics.system, dynamics, packed, drive, float(points.pace[0]))
+        drive = points.drives[points.which[0]].pad_inputs(len(running.system.model.inputs))
+        packed = running.system.pack(points.params, drive.dt / nsub, drive.harmonic)[0]
+        return cls(running.system, running, packed, drive, float(points.pace[0]))
 
     def input(self, k: int, share: float) -> Array:
         """Return the inputs at a share of the way through sample `k`."""
@@ -100,8 +100,8 @@ class _Machine:
     @cached_property
     def paced(self) -> NDArray[np.bool_]:
         """The states of laws that limit their own rate by the step."""
-        paced = np.zeros(self.dynamics.states + self.dynamics.forces, dtype=np.bool_)
-        for law, begin in zip(self.system.blueprint.laws, self.system.wiring(self.dynamics.active)[1], strict=True):
+        paced = np.zeros(self.running.states + self.running.forces, dtype=np.bool_)
+        for law, begin in zip(self.system.blueprint.laws, self.system.wiring(self.running.active)[1], strict=True):
             if begin and law.steps:
                 paced[begin : begin + law.states] = True
         return paced
@@ -110,8 +110,8 @@ class _Machine:
         """Return the derivatives of all states."""
         system, plan = self.system, self.system.blueprint
         dydt = np.zeros(len(y))
-        system.model.rhs(t, y, u, self.packed, dydt)
-        on, at = system.wiring(self.dynamics.active)
+        system.equations.rhs(t, y, u, self.packed, dydt)
+        on, at = system.wiring(self.running.active)
         onsets = self.packed[plan.rows.onset - plan.rows.params :]
         step, sensing = self.packed[plan.rows.step - plan.rows.params], []
         for i, (law, (_, term)) in enumerate(zip(plan.laws, system.forces, strict=True)):
@@ -134,20 +134,20 @@ class _Machine:
                     dydt[place.against[0]] -= push * math.prod(lever) / self.packed[place.against[1]]
                 if law.states:
                     term.rate(t, x, v, u, own, tuple(y[states]), dydt[states])
-        for i, body in enumerate(plan.bodies[: self.dynamics.forces]):
-            force = self.dynamics.states + i
+        for i, body in enumerate(plan.bodies[: self.running.forces]):
+            force = self.running.states + i
             dydt[body.row] += y[force] / self.packed[body.inertia]
             dydt[force] = -self.pace * y[force]
         for law, term, own, states in sensing:
             shown = np.zeros(len(system.model.channels))
-            system.model.observe(t, y, dydt, u, self.packed, shown)
+            system.equations.observe(t, y, dydt, u, self.packed, shown)
             term.rate(t, float(shown[law.channel]), 0.0, u, own, tuple(y[states]), dydt[states])
         return dydt
 
     def observe(self, y: Array, u: Array, t: float, channel: int) -> float:
         """Return the value of a channel."""
         shown = np.zeros(len(self.system.model.channels))
-        self.system.model.observe(t, y, self.compute_slope(y, u, t), u, self.packed, shown)
+        self.system.equations.observe(t, y, self.compute_slope(y, u, t), u, self.packed, shown)
         return float(shown[channel])
 
     def observe_late(self, y: Array, k: int, lag: float, channel: int) -> float:
@@ -191,16 +191,16 @@ class _Run:
     steps: list[Array] = field(default_factory=list)
 
     @classmethod
-    def of(cls, dynamics: Dynamics, observation: Observation, points: Points) -> _Run:
+    def of(cls, running: RunningSystem, observation: Observation, points: Points) -> _Run:
         """Return the filter at the first sample; noise states have the mean `noise` and the covariances `shared`."""
         if points.readings is not None:
             observation = replace(observation, readings=points.readings[0])
-        nsub, n, m = count_fine_steps(dynamics.nsub), dynamics.states, len(observation.sensors)
-        total = n + dynamics.forces
-        machine = _Machine.of(dynamics, points, nsub)
+        nsub, n, m = count_fine_steps(running.nsub), running.states, len(observation.sensors)
+        total = n + running.forces
+        machine = _Machine.of(running, points, nsub)
         y, cov = np.zeros(total), np.zeros((total, total))
         y[:n], cov[:n, :n] = points.mean[0], points.covariance[0]
-        if dynamics.random == "latent":
+        if running.random == "latent":
             cov[n, n] = 0.5 * points.process[0] * points.pace[0]
         first = points.noise.first[0]
         shared = np.concatenate([np.zeros((len(first), total)), first], axis=1)
@@ -227,22 +227,22 @@ class _Run:
 
     def _redraw_forces(self) -> None:
         """Reset the forces that are held over a sample to their prior."""
-        dynamics, dt = self.machine.dynamics, self.observation.dt
-        if dynamics.random == "held":
-            for force in range(dynamics.states, len(self.y)):
+        running, dt = self.machine.running, self.observation.dt
+        if running.random == "held":
+            for force in range(running.states, len(self.y)):
                 self.y[force], self.cov[force], self.cov[:, force] = 0.0, 0.0, 0.0
                 self.cov[force, force] = self.points.process[0] / dt
 
     def _add_input_variance(self, k: int) -> None:
         """Add the uncertainty of the measured input to the variance of the first held force."""
-        dynamics = self.machine.dynamics
-        if dynamics.random == "held":
-            self.cov[dynamics.states, dynamics.states] += find_input_variance(dynamics, self.observation)[k]
+        running = self.machine.running
+        if running.random == "held":
+            self.cov[running.states, running.states] += find_input_variance(running, self.observation)[k]
 
     def _predict_reading(self, k: int, sensor: int) -> tuple[float, Array, float]:
         """Return the expected value of a sensor's channel, its slopes over the states, and the variance of bends."""
         shown = self.observation.sensors[sensor]
-        channel, direct = self.machine.system.shown(shown, self.machine.dynamics.active)
+        channel, direct = self.machine.system.shown(shown, self.machine.running.active)
         lag = float(self.points.lag[0, sensor])
         if direct >= 0 and not lag:
             return float(self.y[direct]), np.eye(len(self.y))[direct], 0.0
@@ -298,8 +298,8 @@ class _Run:
                 wide //= 2
             across = self._step @ across
             place += wide
-        if self.machine.dynamics.random == "held":
-            across[self.machine.dynamics.states :] = 0.0
+        if self.machine.running.random == "held":
+            across[self.machine.running.states :] = 0.0
         self.steps.append(across)
         transition = self.points.noise.transition[0]
         self.noise, self.shared = transition @ self.noise, transition @ self.shared
@@ -368,10 +368,10 @@ class _Run:
 
     def _list_sources(self) -> Sequence[tuple[int, float]]:
         """Return the states that process noise enters, with its intensities."""
-        dynamics, process = self.machine.dynamics, float(self.points.process[0])
-        if dynamics.random == "held":
+        running, process = self.machine.running, float(self.points.process[0])
+        if running.random == "held":
             return ()
-        if dynamics.random == "latent":
-            return ((dynamics.states, process * self.machine.pace**2),)
-        bodies = dynamics.system.blueprint.bodies
+        if running.random == "latent":
+            return ((running.states, process * self.machine.pace**2),)
+        bodies = running.system.blueprint.bodies
         return [(body.row, process / self.points.params[0, body.inertia] ** 2) for body in bodies]

@@ -9,15 +9,15 @@ import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from lostmotion.contracts import Array, Assembly, DriveTerm, Input, Model, SensorTerm
+from lostmotion.contracts import Array, Assembly, DriveTerm, Input, Machine, Place, SensorTerm, place_of
 from lostmotion.errors import ContractError, nearest
 from lostmotion.likelihood.acting import Column, Recorded, apply_term, evaluate_order
-from lostmotion.likelihood.drive import SILENT, Drive, DriveHarmonic
-from lostmotion.likelihood.kernel_calls import compute_derivatives, run_freely
+from lostmotion.likelihood.drive import SILENT, Drive, DriveHarmonic, count_substeps
+from lostmotion.likelihood.kernel_calls import compute_each, run_freely
 from lostmotion.likelihood.layout import ALWAYS, NUMB, Layout, Slot, key_of, onset_key
 from lostmotion.likelihood.sensors import Sensor, SensorChange
 
@@ -48,9 +48,9 @@ class System(Layout):
     """A model and its possible terms; all terms are known to the kernel, `active` says which act."""
 
     @classmethod
-    def of(cls, assembly: Assembly | Model) -> System:
+    def of(cls, assembly: Assembly | Machine) -> System:
         """Return the system of a model or of `model + term + ...`."""
-        if isinstance(assembly, Model):
+        if not isinstance(assembly, Assembly):
             return cls(assembly)
         return cls(assembly.model, assembly.terms)
 
@@ -159,7 +159,7 @@ class System(Layout):
     @cached_property
     def _felt(self) -> frozenset[str]:
         """The channels that depend on the derivatives of states on which forces act."""
-        model, rng = self.model, np.random.default_rng(0)
+        model, rng = self.equations, np.random.default_rng(0)
         y, u = rng.random(len(model.states)), rng.random(max(len(model.inputs), 1))
         p, seen, pushed = rng.random(len(model.params)), np.zeros(len(model.channels)), np.zeros(len(model.channels))
         still, push = np.zeros(len(y)), np.zeros(len(y))
@@ -231,8 +231,90 @@ class System(Layout):
         bad = np.flatnonzero(~np.isfinite(seen).all(axis=1))
         return Motion(seen, int(bad[0]) if len(bad) else len(seen))
 
-    def find_fastest_rate(self, full: Array, active: Iterable[str], states: Array, inputs: Array) -> float:
+    def compute_each(
+        self,
+        active: frozenset[str],
+        packed: Array,
+        states: Array,
+        inputs: Array,
+        times: Any = None,
+        *,
+        muted: str | None = None,
+        latent: tuple[int, ...] = (),
+    ) -> tuple[Array, Array]:
+        """Return the derivatives (sets, points, n) of states (points, n), and the channels (sets, points, channels).
+
+        `packed` (sets, params) are parameters as `pack` returns them, `inputs` (points, inputs), `times` (points,) in
+        s, zero if not given. The force with the key `muted` is switched off, and its states stay; `latent` are the
+        numbers of states that are random forces.
+        """
+        return compute_each(self, active, packed, states, inputs, times, muted=muted, latent=latent)
+
+    def compute_derivatives(
+        self, active: frozenset[str], packed: Array, states: Array, inputs: Array, times: Any = None
+    ) -> tuple[Array, Array]:
+        """Return what `compute_each` returns for one set of parameters (1, params): (points, n), (points, channels)."""
+        rates, seen = self.compute_each(active, packed, states, inputs, times)
+        return rates[0], seen[0]
+
+    def accelerate(self, rates: Array, place: Place) -> Array:
+        """Return the acceleration (...) of the body at a place, from derivatives of the states (..., n)."""
+        return np.asarray(rates[..., self._interface(place).row])
+
+    def kick(self, full: Array, place: Place) -> Array:
+        """Return the change of the states (n,) of the model by one unit (N s or N m s) of impulse at a place."""
+        changed = np.zeros(len(self.model.states))
+        changed[self._interface(place).row] = 1.0 / self.own_inertia(full, place)
+        return changed
+
+    def compute_force(
+        self, key: str, active: frozenset[str], packed: Array, along: tuple[Array, Array, Array]
+    ) -> Array:
+        """Return the force (samples,) of a term at its place, `along` states (samples, n), inputs and times (samples,).
+
+        `packed` is (1, params), as `pack` returns it.
+        """
+        place = self._interface(place_of(self.model, dict(self.forces)[key]))
+        both = (self.compute_each(active, packed, *along, muted=muted)[0][0] for muted in (None, key))
+        with_term, without = (self.accelerate(rates, place) for rates in both)
+        return np.asarray((with_term - without) * packed[0, self.index[place.inertia]])
+
+    @property
+    def bodies(self) -> int:
+        """The number of bodies on which a random force acts."""
+        return len(self.blueprint.bodies)
+
+    def holds_forces(self, channels: Iterable[str]) -> bool:
+        """Return whether random forces are held over each sample: where a sensor of these channels shows them."""
+        return any(self.senses_force(name) for name in channels)
+
+    @property
+    def inertia_keys(self) -> frozenset[str]:
+        """The parameters that are an inertia at a place and have to be above zero."""
+        return frozenset(place.inertia for place in self.equations.interfaces)
+
+    def spread_states(self, positions: Array, velocities: Array) -> Array:
+        """Return states (points, n) with these positions and velocities (points,) of the first body, else zero."""
+        states = np.zeros((len(positions), len(self.model.states)))
+        position, velocity = self.model.first_body
+        states[:, position], states[:, velocity] = positions, velocities
+        return states
+
+    def count_substeps(
+        self, rate: float, dt: float, accuracy: float, *, active: frozenset[str] = frozenset(), held: bool = False
+    ) -> int:
+        """Return the number of steps in a sample of `dt` s, where the fastest rate of the motion is `rate` (1/s).
+
+        `accuracy` is the largest product of step and rate, and `held` says that inputs are constant over a sample.
+        """
+        return count_substeps(rate, dt, accuracy=accuracy)
+
+    def find_fastest_rate(
+        self, full: Array, active: Iterable[str], states: Array, inputs: Array, dt: float = 1.0
+    ) -> float:
         """Return the fastest rate (1/s) of the linearised motion over the given states (points, n) and inputs.
+
+        `dt` is the time (s) between two samples, over which a machine is stepped that has no equations.
 
         Infinite on overflow. A state that is the same at all points, such as that of a second body with unknown motion,
         is perturbed by as little as the one that varies least.
@@ -246,8 +328,8 @@ class System(Layout):
         for a in range(m):
             moved[a + 1, :, a] += spread[a]
         tiled = np.tile(inputs, (m + 1, 1))
-        rates, _ = compute_derivatives(
-            self, chosen, self.pack(full[None], 1.0), moved.reshape(-1, moved.shape[2]), tiled
+        rates, _ = self.compute_derivatives(
+            chosen, self.pack(full[None], 1.0), moved.reshape(-1, moved.shape[2]), tiled
         )
         rates = rates.reshape(moved.shape)[:, :, :m]
         with np.errstate(over="ignore", invalid="ignore"):

@@ -15,11 +15,9 @@ from functools import cached_property
 
 import numpy as np
 
-from lostmotion.contracts import Array, Interface
+from lostmotion.contracts import Array, Place
 from lostmotion.kernels.linear_response import respond
-from lostmotion.likelihood.engine import Innovations, join_points
-from lostmotion.likelihood.kernel_calls import compute_each
-from lostmotion.likelihood.lanes import Lanes, make_kept
+from lostmotion.likelihood.engine import Innovations, KeepingEngine, join_points, make_kept
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem
 
@@ -70,7 +68,7 @@ class Tangents:
         """Return derivatives of states (sets, samples, n) and channels along the states, for some parameter vectors."""
         system, observation = self.problem.system, self.observation
         packed = system.pack(fulls, observation.dt / self.problem.nsub, observation.harmonic)
-        return compute_each(system, active, packed, self.states, self.inputs, observation.time)
+        return system.compute_each(active, packed, self.states, self.inputs, observation.time)
 
     @cached_property
     def inputs(self) -> Array:
@@ -88,14 +86,14 @@ class Tangents:
         system, observation = self.problem.system, self.observation
         packed = system.pack(self.full[None], observation.dt / self.problem.nsub, observation.harmonic)
         moved = self.inputs + UNIT * change
-        rates, seen = compute_each(system, self.problem.active, packed, self.states, moved, observation.time)
+        rates, seen = system.compute_each(self.problem.active, packed, self.states, moved, observation.time)
         return self.respond_to_forces((rates - self.here[0]) / UNIT, (seen - self.here[1]) / UNIT)
 
-    def move(self, place: Interface) -> Array:
+    def move(self, place: Place) -> Array:
         """Return relative position and velocity (2, samples) at a place."""
         n = len(self.problem.system.model.states)
         lever = self.problem.system.lever(self.full, place)
-        return self.observation.motion_at(place, self.states[:, :n], lever)
+        return place.move(self.states[:, :n], self.observation.inputs, lever)
 
 
 def linearise_filter(
@@ -108,20 +106,20 @@ def linearise_filter(
     """
     single = replace(problem.on((problem.observations[index],)), jobs=1)
     changing = single.active & {*single.system.bending_terms, *single.system.rescaling, *single.system.lagging_terms}
-    if changing or not isinstance(single.engine, Lanes) or any(map(any, single.count_delays(thetas))):
+    if changing or not isinstance(single.engine, KeepingEngine) or any(map(any, single.count_delays(thetas))):
         return None
     points, view = single.points(thetas), single.view()
     if np.any(points.lag != 0.0):
         return None
     others = [single.on((other,)) for other in changed]
     every = join_points([points, *(other.points(thetas[:1]) for other in others)], [view, *(o.view() for o in others)])
-    kept = make_kept(single.dynamics, view.samples)
-    innovations = single.engine.filter_near(single.dynamics, view, every, kept)
+    kept = make_kept(single.running, view.samples)
+    innovations = single.engine.filter_and_keep(single.running, view, every, kept)
     if not innovations.finite[0]:
         return None
     seen, _, before, ahead, steps = kept
     single, full, gain = single.on((view,)), points.params[0], points.gain[0]
-    n = single.dynamics.states
+    n = single.running.states
     states, shown = seen.shape[1], points.noise.shown[0]
     slopes = np.zeros((*innovations.errors.shape[1:], states + len(shown)))
     slopes[:, :, :states] = _compute_slopes(single, full, before, ahead)
@@ -146,26 +144,26 @@ def join_recordings(parts: Sequence[Innovations]) -> Innovations:
 
 def _compute_slopes(problem: Problem, full: Array, states: Array, covariance: Array) -> Array:
     """Return the derivatives (samples, sensors, n) of the channels of the sensors over the states of the filter."""
-    dynamics, observation = problem.dynamics, problem.observations[0]
+    running, observation = problem.running, problem.observations[0]
     found = np.zeros((len(states), len(observation.sensors), states.shape[1]))
-    shown = [dynamics.system.shown(sensor, dynamics.active) for sensor in observation.sensors]
+    shown = [running.system.shown(sensor, running.active) for sensor in observation.sensors]
     for s, (_, direct) in enumerate(shown):
         if direct >= 0:
             found[:, s, direct] = 1.0
     others = [(s, channel) for s, (channel, direct) in enumerate(shown) if direct < 0]
     if not others:
         return found
-    packed = dynamics.system.pack(full[None], observation.dt / problem.nsub, observation.harmonic)
+    packed = running.system.pack(full[None], observation.dt / problem.nsub, observation.harmonic)
     inputs = problem.drive_at(full, 0).inputs[: len(states)]
-    forces = tuple(dynamics.states + i for i in range(dynamics.forces))
+    forces = tuple(running.states + i for i in range(running.forces))
     for c in range(states.shape[1]):
         reach = np.sqrt(np.maximum(covariance[:, c, c], 0.0)) + 1e-9 * (1e-300 + np.max(np.abs(states[:, c])))
         ends = []
         for side in (1.0, -1.0):
             moved = states.copy()
             moved[:, c] += side * reach
-            run = (dynamics.system, dynamics.active, packed, moved, inputs, observation.time)
-            ends.append(compute_each(*run, latent=forces)[1][0])
+            run = (running.active, packed, moved, inputs, observation.time)
+            ends.append(running.system.compute_each(*run, latent=forces)[1][0])
         for s, channel in others:
             found[:, s, c] = (ends[0][:, channel] - ends[1][:, channel]) / np.where(reach > 0.0, 2.0 * reach, 1.0)
     return found

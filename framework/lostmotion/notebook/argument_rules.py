@@ -7,7 +7,7 @@ from typing import Any
 
 from lostmotion.arguments import Rule, describe, flag, instance, mapping, maybe, number, path, positive, whole, words
 from lostmotion.case import Prior
-from lostmotion.contracts import Model
+from lostmotion.contracts import Machine
 from lostmotion.errors import CaseError
 from lostmotion.registry import Registry
 from lostmotion.robots.arm_model import RobotModel
@@ -15,7 +15,7 @@ from lostmotion.robots.arm_model import RobotModel
 
 def modelled(value: Any, name: str) -> Any:
     """Return a model, its class, its name or equations, or that of a robot; raise `CaseError` for anything else."""
-    if isinstance(value, (Model, RobotModel)) or (isinstance(value, type) and issubclass(value, Model)):
+    if isinstance(value, (Machine, RobotModel)) or (isinstance(value, type) and issubclass(value, Machine)):
         return value
     if isinstance(value, type) or not isinstance(value, (str, Sequence)) or not value:
         raise CaseError(f"{name} is {describe(value)}: expected a model, its name, or equations as text")

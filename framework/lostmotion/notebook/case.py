@@ -12,53 +12,28 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from lostmotion.arguments import Rule, checked, choice, describe, instance, list_texts, mapping, maybe, text, words
+from lostmotion.arguments import Rule, checked, describe, instance, list_texts, text
 from lostmotion.case import GUESSED, WRITTEN, CaseFile, Experiment, Prior, SensorSpec, check_same_sensors, dump_case
-from lostmotion.contracts import Model
+from lostmotion.contracts import Dynamics, Machine
 from lostmotion.equations import name_inputs
 from lostmotion.errors import CaseError, PluginError, nearest
 from lostmotion.notebook.argument_rules import KNOWN, PRIORS, TRIED, modelled
+from lostmotion.notebook.models import model
 from lostmotion.notebook.robot_objects import make_robot_case, make_robot_recording
 from lostmotion.preparation.prepare import Prepared, case_of, prepare_loaded
 from lostmotion.preparation.vetting import make_plugin
 from lostmotion.recording import Recording, load_recording
 from lostmotion.registry import Registry, default
+from lostmotion.registry.classes import kind_of
 from lostmotion.robots import is_robot_case
 from lostmotion.robots.arm_case import RobotCase, load_robot_case
-from lostmotion.robots.arm_model import RobotModel, make_robot_model
+from lostmotion.robots.arm_model import RobotModel
 from lostmotion.settings import DEFAULT, Settings, read
 from lostmotion.storage import folder_for, save_table
 from lostmotion.written import Written, is_equation, model_of
 
 if TYPE_CHECKING:
     from lostmotion.diagnosis.tried_model import TriedPrediction
-
-
-@checked(
-    text=maybe(words),
-    units=maybe(mapping(text, "{'k': 'N/m'}")),
-    motion=maybe(choice("translation", "rotation")),
-    params=words,
-)
-def model(text: str | Sequence[str] | None = None, **options: Any) -> Any:
-    """Return a model by its name, one made from equations of motion, or the simulation of a robot.
-
-    `lm.model("m*x'' + c*x' + k*x = force")`: `options` are fields of a model with a name, or `units` (SI, by
-    parameter), `motion` and `params` for equations. `lm.model(mujoco="arm.xml", joints=["shoulder"], torque="motor")`,
-    or `urdf=`, or `inverse=` a function of q, v, a, each (samples, joints), or "my_model.py:inverse": `joints` are
-    those that move, `torque` is the side of the gear where it was measured, "motor" or "link", `tolerance` the share
-    within which values of the model are known, `hold` "step" or "smooth". Raises `PluginError` for an unknown name and
-    `CaseError` for what cannot be read.
-    """
-    if text is None:
-        return make_robot_model(**options)
-    lines = (text,) if isinstance(text, str) else tuple(text)
-    if len(lines) == 1 and not is_equation(lines[0]):
-        found: Model = default().make("model", lines[0], **options)
-        return found
-    cls: Any = model_of(lines, **options)
-    made: Model = cls()
-    return made
 
 
 _RULES: Mapping[str, Rule] = {
@@ -91,7 +66,7 @@ class Case:
     """
 
     recordings: Recording | Sequence[Recording]
-    model: Model | type[Model] | RobotModel | str | Sequence[str]
+    model: Machine | type[Machine] | RobotModel | str | Sequence[str]
     known: Mapping[str, float] = field(default_factory=dict)
     estimate: Mapping[str, Prior] = field(default_factory=dict)
     title: str = "case"
@@ -133,20 +108,20 @@ class Case:
         """The case of a robot; None for any other case."""
         return self.file if isinstance(self.file, RobotCase) else None
 
-    def _make_model(self) -> Model:
+    def _make_model(self) -> Machine:
         """Return the model as an instance, from an instance, a class, a name or equations."""
         given = self.model
-        if isinstance(given, Model):
+        if isinstance(given, Machine):
             return given
         if isinstance(given, type):
             return given()
         lines: tuple[str, ...] = (given,) if isinstance(given, str) else tuple(given)  # type: ignore[arg-type]
         named = len(lines) == 1 and not is_equation(lines[0])
         more = {} if named else {"params": [key for key in (*self.known, *self.estimate) if "." not in key]}
-        made: Model = model(lines[0] if named else lines, **more)
+        made: Machine = model(lines[0] if named else lines, **more)
         return made
 
-    def _name_inputs(self, made: Model) -> tuple[Model, tuple[str, ...]]:
+    def _name_inputs(self, made: Machine) -> tuple[Machine, tuple[str, ...]]:
         """Return a model whose equations name the recorded inputs, and a sentence where they did not."""
         if not isinstance(made, Written):
             return made, ()
@@ -174,7 +149,7 @@ class Case:
             return cls(seen, robot.model, robot.known, robot.estimate, robot.title, file=robot)
         file = case_of(Path(path), known)
         loaded = tuple(load_recording(spec, file.folder, read(settings).recording) for spec in file.recordings)
-        made = make_plugin(known, "model", file.model)
+        made = make_plugin(known, file.kind, file.model)
         made = made.turned(file.motion) if file.motion else made
         return cls(
             loaded,
@@ -195,7 +170,7 @@ class Case:
         No file is written where the model cannot be named in a file.
         """
         place = Path(folder)
-        model = self._robot_table(self.robot, place) if self.robot is not None else self._model_table()
+        model = self._robot_table(self.robot, place) if self.robot is not None else self._model_table(place)
         place = folder_for(place)
         written = self._recordings if self.robot is None else (make_robot_recording(self.robot),)
         entries = [_write_recording(one, place) for one in written]
@@ -226,7 +201,7 @@ class Case:
         kept = {name: {k: v for k, v in table.items() if v is not None} for name, table in tables.items()}
         return {name: table for name, table in kept.items() if table}
 
-    def _model_table(self) -> dict[str, Any]:
+    def _model_table(self, folder: Path) -> dict[str, Any]:
         """Return the table `[model]`; raise `CaseError` for a model that no file defines."""
         made = self._model
         if isinstance(made, Written):
@@ -234,10 +209,13 @@ class Case:
             table |= {"units": dict(made.origin[1])} if made.origin[1] else {}
         else:
             try:
-                default().entry("model", made.name)
+                owner = default().entry(kind_of(made), made.name).owner
             except PluginError as err:
                 raise CaseError(f"no file defines {made.name}: write it into a file and name that in plugins") from err
             table = {"name": made.name, "motion": made.motion}
+            if isinstance(made, Dynamics):
+                source = f"{Path(os.path.relpath(owner, folder)).as_posix()}:{type(made).__name__}"
+                table = {"dynamics": source if owner.endswith(".py") else made.name, "motion": made.motion}
         return {**table, "known": dict(self.known), "estimate": {k: _format_prior(p) for k, p in self.estimate.items()}}
 
     @property
@@ -245,7 +223,7 @@ class Case:
         return tuple(self.recordings)  # type: ignore[arg-type]
 
     @property
-    def _model(self) -> Model:
+    def _model(self) -> Machine:
         return self.model  # type: ignore[return-value]
 
     def prepare(self, registry: Registry, terms: str | Sequence[str] = "all", settings: Settings = DEFAULT) -> Prepared:
@@ -254,7 +232,7 @@ class Case:
             raise CaseError("the case is that of a robot, whose parameters diagnose estimates: call lm.diagnose(case)")
         file = self.file or self._make_case_file()
         made = self._model
-        if isinstance(made, Written) or made.name not in registry.names("model"):
+        if isinstance(made, Written) or made.name not in registry.names(kind_of(made)):
             registry.add(
                 type(made) if isinstance(made, Written) else made, WRITTEN if isinstance(made, Written) else None
             )
@@ -298,6 +276,7 @@ class Case:
             folder=Path(),
             recordings=(),
             model=made.name,
+            kind="dynamics" if isinstance(made, Dynamics) else "model",
             known=dict(self.known),
             estimate=dict(self.estimate),
             truth=dict(self.truth),

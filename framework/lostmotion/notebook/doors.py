@@ -26,7 +26,7 @@ from lostmotion.arguments import (
     whole,
 )
 from lostmotion.case import GUESSED, Prior
-from lostmotion.contracts import Model
+from lostmotion.contracts import Machine
 from lostmotion.errors import CaseError, DataError
 from lostmotion.notebook.argument_rules import CASE
 from lostmotion.notebook.case import Case
@@ -46,7 +46,7 @@ from lostmotion.robots.arm_model import RobotModel
 from lostmotion.settings import DEFAULT, Settings, read
 from lostmotion.storage import load_json
 
-Modelled = Model | type[Model] | RobotModel | str | Sequence[str]
+Modelled = Machine | type[Machine] | RobotModel | str | Sequence[str]
 
 
 def load_any_diagnosis(folder: Path) -> DiagnosisResult | RobotResult:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from lostmotion.arguments import anything, checked, mapping, maybe, number, positive
-from lostmotion.contracts import Array, Assembly, Model, Term
+from lostmotion.contracts import Array, Assembly, Machine, Model, Term
 from lostmotion.diagnosis.outcome import Outcome
 from lostmotion.errors import CaseError, DataError, nearest
 from lostmotion.likelihood.sensors import Sensor
@@ -30,7 +30,7 @@ Signal = ArrayLike | Callable[[Array], Array]
 class FittedModel:
     """A model with its terms, the values (SI) of all parameters, and the sensors of the case."""
 
-    model: Model
+    model: Machine
     terms: tuple[Term, ...]
     values: Mapping[str, float]
     sensors: tuple[Sensor, ...]
@@ -107,7 +107,7 @@ def restore_fitted_model(machine: FittedMachine, registry: Registry) -> FittedMo
         cls: Any = model_of(machine.equations, units=machine.units, params=[*machine.values])
         made: Model = cls()
     else:
-        made = registry.make("model", machine.model)
+        made = registry.make("dynamics" if machine.model in registry.names("dynamics") else "model", machine.model)
     kept = (term for term in machine.terms if term.key not in machine.learned)
     terms = tuple(registry.make("term", term.name, at=term.at) for term in kept)
     sensors = tuple(Sensor(sensor.channel, sensor.name) for sensor in machine.sensors)
@@ -142,7 +142,7 @@ def _count_samples(signals: Mapping[str, Signal], duration: float | None, rate: 
     return samples
 
 
-def _make_inputs(model: Model, signals: Mapping[str, Signal], rate: float) -> list[Callable[[Array], Array]]:
+def _make_inputs(model: Machine, signals: Mapping[str, Signal], rate: float) -> list[Callable[[Array], Array]]:
     """Return each input of a model as a function of time (s): zero for inputs that are not given."""
     if unknown := [name for name in signals if name not in model.inputs]:
         raise CaseError(

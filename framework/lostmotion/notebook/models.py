@@ -1,14 +1,50 @@
-"""A model without a recording as a Python function: `lostmotion.simulate(...)`."""
+"""A model without a recording as Python functions: `lostmotion.model(...)` and `lostmotion.simulate(...)`."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
-from lostmotion.arguments import checked, choice, list_texts, maybe, positive, share, text, words
+from lostmotion.arguments import checked, choice, list_texts, mapping, maybe, positive, share, text, words
+from lostmotion.contracts import Machine
 from lostmotion.notebook.argument_rules import KNOWN, RUN
+from lostmotion.preparation.prepare import find_dynamics
 from lostmotion.registry import Registry, default
+from lostmotion.robots.arm_model import make_robot_model
 from lostmotion.simulation import simulated_machine as _simulate
+from lostmotion.written import is_equation, model_of
+
+
+@checked(
+    text=maybe(words),
+    units=maybe(mapping(text, "{'k': 'N/m'}")),
+    motion=maybe(choice("translation", "rotation")),
+    params=words,
+)
+def model(text: str | Sequence[str] | None = None, **options: Any) -> Any:
+    """Return a model by its name, one made from equations of motion, or the simulation of a robot.
+
+    `lm.model("m*x'' + c*x' + k*x = force")`: `options` are fields of a model with a name, or `units` (SI, by
+    parameter), `motion` and `params` for equations. `lm.model(mujoco="arm.xml", joints=["shoulder"], torque="motor")`,
+    or `urdf=`, or `inverse=` a function of q, v, a, each (samples, joints), or "my_model.py:inverse": `joints` are
+    those that move, `torque` is the side of the gear where it was measured, "motor" or "link", `tolerance` the share
+    within which values of the model are known, `hold` "step" or "smooth". `lm.model(dynamics="my_arm.py:MyArm")` is a
+    machine that is stepped, by its class in a file or its name. Raises `PluginError` for an unknown name and
+    `CaseError` for what cannot be read.
+    """
+    if text is None and "dynamics" in options:
+        name = find_dynamics(options.pop("dynamics"), Path(), default())
+        return default().make("dynamics", name, **options)
+    if text is None:
+        return make_robot_model(**options)
+    lines = (text,) if isinstance(text, str) else tuple(text)
+    if len(lines) == 1 and not is_equation(lines[0]):
+        found: Machine = default().make("model", lines[0], **options)
+        return found
+    cls: Any = model_of(lines, **options)
+    made: Machine = cls()
+    return made
 
 
 @checked(

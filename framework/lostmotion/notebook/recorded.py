@@ -8,7 +8,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from lostmotion.case import Prior
-from lostmotion.contracts import Model
+from lostmotion.contracts import Machine
 from lostmotion.errors import CaseError
 from lostmotion.notebook.case import Case
 from lostmotion.preparation.beginning import write_first_case
@@ -20,7 +20,7 @@ from lostmotion.settings import Settings
 
 def read_recorded_case(
     path: Path,
-    given: Model | type[Model] | RobotModel | str | Sequence[str] | None,
+    given: Machine | type[Machine] | RobotModel | str | Sequence[str] | None,
     known: Mapping[str, float],
     estimate: Mapping[str, Prior],
     registry: Registry,
@@ -30,7 +30,7 @@ def read_recorded_case(
 
     `known` and `estimate` replace guesses.
     """
-    if isinstance(given, (Model, RobotModel, type)):
+    if isinstance(given, (Machine, RobotModel, type)):
         raise CaseError("beside the file of a recording the model is a name or equations: make a Recording for others")
     words = given if isinstance(given, str) else ";".join(given or ())
     with TemporaryDirectory() as spare:

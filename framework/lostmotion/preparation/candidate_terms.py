@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from lostmotion.contracts import Model, Term
+from lostmotion.contracts import Machine, Term
 from lostmotion.defaults import AT_GROUND
 from lostmotion.likelihood.observation import Observation
 
 
 def candidates_of(
-    model: Model, terms: Sequence[type[Term]], observations: Sequence[Observation] = ()
+    model: Machine, terms: Sequence[type[Term]], observations: Sequence[Observation] = ()
 ) -> tuple[Term, ...]:
     """Return each term at each place of the model where it can act, given the drives of the recordings.
 
@@ -18,10 +18,9 @@ def candidates_of(
     """
     tried = [
         term(at=place.name)  # type: ignore[call-arg]
-        for place in model.interfaces
+        for place in model.places
         for term in terms
-        if term.acts == "motion"
-        and (term.name not in AT_GROUND or place.name == "ground" or len(model.interfaces) == 1)
+        if term.acts == "motion" and (term.name not in AT_GROUND or place.name == "ground" or len(model.places) == 1)
     ]
     tried += [
         term(at=at, **_channel_of(term, at, observations))  # type: ignore[call-arg]

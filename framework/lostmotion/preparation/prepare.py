@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from lostmotion.case import WRITTEN, CaseFile, check_same_sensors, load_case
-from lostmotion.contracts import Model, Term
-from lostmotion.errors import CaseError, ContractError
+from lostmotion.contracts import Machine, Term
+from lostmotion.errors import CaseError, ContractError, nearest
 from lostmotion.likelihood.observation import Observation, make_observation
 from lostmotion.likelihood.sensor_noise import has_clock_noise
 from lostmotion.noises import BASIC, Noise
@@ -32,7 +33,7 @@ class Prepared:
     case: CaseFile
     recordings: tuple[Recording, ...]
     observations: tuple[Observation, ...]
-    model: Model
+    model: Machine
     terms: tuple[Term, ...]
     origins: Mapping[str, str] = field(default_factory=dict)
     aside: tuple[str, ...] = ()
@@ -58,7 +59,28 @@ def case_of(path: Path, registry: Registry) -> CaseFile:
     if case.equations:
         named = {name for name in (*case.known, *case.estimate) if "." not in name}
         registry.add(model_of(case.equations, units=case.units, motion=case.motion, params=named), WRITTEN)
-    return case
+    return case if case.kind == "model" else replace(case, model=find_dynamics(case.model, case.folder, registry))
+
+
+def find_dynamics(text: str, folder: Path, registry: Registry) -> str:
+    """Return the name of a `Dynamics`, given as its name or as `file.py:Class`, after adding its file to the registry.
+
+    The file is relative to a folder. Raises `PluginError` or `CaseError` where there is no such class.
+    """
+    file, _, word = text.partition(":")
+    if not file.endswith(".py"):
+        return text
+    path = os.path.normpath(folder / file)
+    registry.add_file(path)
+    here = [e for e in registry.entries() if (e.kind, e.owner) == ("dynamics", path)]
+    classes = {entry.target.rpartition(":")[2]: entry.name for entry in here}
+    if not word and len(classes) == 1:
+        return next(iter(classes.values()))
+    if word not in classes:
+        known = f"it has {', '.join(classes)}" if classes else "write a subclass of lostmotion.contracts.Dynamics in it"
+        near = nearest(word, classes)
+        raise CaseError(f"dynamics = {text!r}: {file} has no class {word!r} of the kind Dynamics{near}: {known}")
+    return classes[word]
 
 
 def prepare(path: Path, registry: Registry, settings: Settings = DEFAULT) -> Prepared:
@@ -72,11 +94,11 @@ def prepare_case(case: CaseFile, registry: Registry, settings: Settings = DEFAUL
         raise CaseError("the case has no [[recordings]]: add one, with file, time or rate, excitation and response")
     check_same_sensors(tuple(spec.sensors for spec in case.recordings))
     recordings = tuple(load_recording(spec, case.folder, settings.recording) for spec in case.recordings)
-    return prepare_loaded(case, recordings, make_plugin(registry, "model", case.model), registry, settings)
+    return prepare_loaded(case, recordings, make_plugin(registry, case.kind, case.model), registry, settings)
 
 
 def prepare_loaded(
-    case: CaseFile, loaded: Sequence[Recording], model: Model, registry: Registry, settings: Settings = DEFAULT
+    case: CaseFile, loaded: Sequence[Recording], model: Machine, registry: Registry, settings: Settings = DEFAULT
 ) -> Prepared:
     """Return a case with recordings that are loaded already, a given model, and its terms."""
     recordings = tuple(thin_recording(one, settings.recording) for one in loaded)
@@ -110,7 +132,7 @@ def _refuse_clock_noise(observation: Observation) -> None:
             )
 
 
-def resolve_motion(model: Model, case: CaseFile, recordings: Sequence[Recording]) -> Model:
+def resolve_motion(model: Machine, case: CaseFile, recordings: Sequence[Recording]) -> Machine:
     """Return the model in translation or in rotation, according to the case or to the units of the recordings.
 
     `CaseError` is raised where units do not fit each other or the model.

@@ -26,7 +26,8 @@ def _find_misfits(cls: type[Any]) -> Iterator[str]:
     yield from _check_attributes(cls, LISTS, _is_texts, "a tuple of texts")
     if hasattr(cls, "params") and not (getattr(cls, "motions", ()) or hasattr(cls, "motion")):
         yield "neither motion nor motions: write 'translation' or 'rotation', or both"
-    for key, kind in (("params", contracts.Param), ("further", contracts.Param), ("interfaces", contracts.Interface)):
+    lists = {"params": contracts.Param, "further": contracts.Param, "interfaces": contracts.Interface}
+    for key, kind in (lists | ({"places": contracts.Place} if issubclass(cls, contracts.Dynamics) else {})).items():
         entries = getattr(cls, key, ())
         if not isinstance(entries, tuple) or not all(isinstance(entry, kind) for entry in entries):
             yield f"{key} = {_shorten(entries)}: write a tuple of {kind.__name__}"

@@ -12,11 +12,11 @@ from pathlib import Path
 
 import numpy as np
 
-from lostmotion.contracts import Array, Assembly, Model, SensorTerm, Term
+from lostmotion.contracts import Array, Assembly, Machine, SensorTerm, Term
 from lostmotion.errors import CaseError, DataError, nearest
 from lostmotion.likelihood.drive import SILENT, Drive, DriveHarmonic
-from lostmotion.likelihood.kernel_calls import compute_derivatives
 from lostmotion.likelihood.observation import Observation, find_harmonic
+from lostmotion.likelihood.stepped import make_system
 from lostmotion.likelihood.system import Clock, Slot, System, key_of
 from lostmotion.preparation.vetting import make_plugin
 from lostmotion.provenance import provenance
@@ -92,7 +92,7 @@ def run_free_motion(
 
     Raises `CaseError` where the motion diverges or needs too many steps.
     """
-    system = System.of(assembly)
+    system = make_system(assembly.model, assembly.terms)
     full, y0 = _make_parameters(system, values), _make_initial(assembly.model, initial)
     times = np.arange(samples) / rate
     inputs = np.stack([column(times) for column in columns], axis=1)
@@ -103,7 +103,7 @@ def run_free_motion(
     motion = system.moved(full, y0, acting, Clock(1.0 / rate, nsub, samples), harmonic)
     acts = np.stack([column(times) for column in acting], axis=1)
     packed = system.pack(full[None], 1.0 / (rate * nsub), harmonic)
-    _, seen = compute_derivatives(system, system.everything, packed, motion.states, acts, times)
+    _, seen = system.compute_derivatives(system.everything, packed, motion.states, acts, times)
     channels = dict(zip(assembly.model.channels, seen.T, strict=True))
     if motion.finite < samples or not all(np.abs(x).max() < HUGE for x in channels.values()):
         raise CaseError(
@@ -131,7 +131,7 @@ def assembly_of(
 
     `motion` is "translation" or "rotation"; by default the model is not changed.
     """
-    made: Model = make_plugin(registry, "model", model)
+    made: Machine = make_plugin(registry, "model", model)
     assembly, values = Assembly(made.turned(motion) if motion else made), {}
     for text in terms:
         head, _, rest = text.partition(":")
@@ -174,9 +174,8 @@ def _make_parameters(system: System, values: Mapping[str, float]) -> Array:
     if lacking:
         names = ", ".join(f"{slot.key} ({slot.param.meaning}, {slot.unit})" for slot in lacking)
         raise CaseError(f"{system.model.name} lacks {names}: add --set {lacking[0].key}=...")
-    inertias = {place.inertia for place in system.model.interfaces}
     for slot in system.slots:
-        _require_bounds(slot, given.get(slot.key), slot.key in inertias)
+        _require_bounds(slot, given.get(slot.key), slot.key in system.inertia_keys)
     return system.vector(given)
 
 
@@ -193,7 +192,7 @@ def _require_bounds(slot: Slot, value: float | None, inertia: bool) -> None:
     raise CaseError(f"{slot.key} ({q.meaning}) is {value:g}: expected a value {wanted} {slot.unit}")
 
 
-def _make_initial(model: Model, initial: Mapping[str, float]) -> Array:
+def _make_initial(model: Machine, initial: Mapping[str, float]) -> Array:
     """Return the initial state, zero where no value is given."""
     states = model.states
     for name in initial:
@@ -252,7 +251,7 @@ def _choose_substeps(system: System, full: Array, y0: Array, recorded: Array, dt
     n, samples = len(system.model.states), len(recorded)
     motion = system.simulate(full, system.everything, y0, Drive.held(recorded, dt), FEWEST)
     picked = np.unique(np.linspace(0, max(motion.finite - 1, 0), PROBES).astype(int))
-    rate = system.find_fastest_rate(full, system.everything, motion.states[picked, :n], recorded[picked])
+    rate = system.find_fastest_rate(full, system.everything, motion.states[picked, :n], recorded[picked], dt)
     asked = rate * dt / ACCURACY
     if not asked * samples <= LARGEST:
         after = f"diverged after {motion.finite * dt:.4g} s, or " * (motion.finite < samples)
@@ -288,7 +287,7 @@ def _make_table(plan: Plan, columns: Mapping[str, Array], nsub: int) -> Simulate
     return SimulatedTable(columns, {name: _unit_of(name, model) for name in columns}, attrs, nsub)
 
 
-def _unit_of(name: str, model: Model) -> str:
+def _unit_of(name: str, model: Machine) -> str:
     """Return the SI unit of a column, or "1" for an unknown one."""
     try:
         return "s" if name == "time" else unit_of(name, model.motion)

@@ -16,14 +16,22 @@ from typing import TYPE_CHECKING, Any
 
 from lostmotion.contracts import KINDS
 from lostmotion.errors import ContractError
-from lostmotion.testing import method_rules, model_rules, noise_rules, shared_rules, simulator_rules, term_rules
+from lostmotion.testing import (
+    dynamics_rules,
+    method_rules,
+    model_rules,
+    noise_rules,
+    shared_rules,
+    simulator_rules,
+    term_rules,
+)
 from lostmotion.testing.rules import Finding, Rule, format_error, known_of, rules_for
 
 if TYPE_CHECKING:
     import pytest
 
 __all__ = ["Finding", "Rule", "assert_conforms", "check", "kind_of", "parametrize", "rules_for"]
-_KITS = (shared_rules, model_rules, term_rules, method_rules, noise_rules, simulator_rules)
+_KITS = (shared_rules, model_rules, dynamics_rules, term_rules, method_rules, noise_rules, simulator_rules)
 """The modules that define rules; a rule is registered when its module is imported."""
 _BUILDING = "is_built_without_arguments"
 _STALE, _HIDES = "it is fulfilled, and `known_failures` lists it", "Remove it there: it would hide the next failure."

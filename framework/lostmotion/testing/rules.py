@@ -166,7 +166,9 @@ def known_failures_are_named(component: Any) -> str:
 def attributes_are_complete(component: Any) -> str:
     """Define every class variable of the contract with its type: a tuple of one word is `("position",)`."""
     wanted = {"ClassVar[tuple": tuple, "ClassVar[frozenset": frozenset, "ClassVar[str": str, "ClassVar[Literal": str}
-    for name, note in inspect.get_annotations(_contract_of(component)).items():
+    contract = _contract_of(component)
+    notes = {name: note for base in contract.__mro__[::-1] for name, note in inspect.get_annotations(base).items()}
+    for name, note in notes.items():
         if not hasattr(component, name):
             return f"{name} is missing"
         for start, kind in wanted.items():
@@ -179,7 +181,7 @@ def attributes_are_complete(component: Any) -> str:
 def methods_have_the_arguments_of_the_contract(component: Any) -> str:
     """Copy the line with `def` from the contract: the framework passes exactly these arguments in this order."""
     base = _contract_of(component)
-    methods = {name for name in base.__abstractmethods__ if not isinstance(vars(base).get(name), property)}
+    methods = {name for name in base.__abstractmethods__ if not isinstance(getattr(base, name), property)}
     for name in sorted(methods | (set(vars(base)) & {"rate"})):
         wanted, own = _argument_names(base, name), _argument_names(type(component), name)
         if own != wanted:

@@ -20,7 +20,7 @@ def find_repeated(words: Any) -> list[str]:
     return [word for word, count in Counter(words).items() if count > 1]
 
 
-@rule("model", "term", declaration=True)
+@rule("model", "dynamics", "term", declaration=True)
 def params_are_unique(component: Any) -> str:
     """Give each parameter a unique name and unique aliases: a case file uses either of them."""
     again = find_repeated(word for q in component.params for word in {q.name, *q.aliases})
@@ -28,7 +28,7 @@ def params_are_unique(component: Any) -> str:
     return f"{join_words(again)} occurs twice" if again else (f"{bad[0]!r} is not an identifier" if bad else "")
 
 
-@rule("model", "term", declaration=True)
+@rule("model", "dynamics", "term", declaration=True)
 def bounds_are_ordered(component: Any) -> str:
     """Give physical bounds with `low` below `high`; with the scale "log", `low` is 0 or more."""
     for q in component.params:
@@ -41,14 +41,14 @@ def bounds_are_ordered(component: Any) -> str:
     return ""
 
 
-@rule("model", "term", declaration=True)
+@rule("model", "dynamics", "term", declaration=True)
 def dimensions_are_dimensions(component: Any) -> str:
     """Give each parameter a `Dimension` from lostmotion.quantities, such as DAMPING, which determines its unit."""
     bad = [q.name for q in component.params if not isinstance(q.dimension, Dimension)]
     return f"the dimension of {bad[0]} is not a Dimension" if bad else ""
 
 
-@rule("model", "term", declaration=True, courtesy=True)
+@rule("model", "dynamics", "term", declaration=True, courtesy=True)
 def params_have_meanings(component: Any) -> str:
     """Describe each parameter in a few words: reports and `lostmotion plugins show` print them."""
     bad = [q.name for q in component.params if not q.meaning.strip()]
@@ -67,7 +67,7 @@ def functions_are_static(component: Any) -> str:
     return f"{bad[0]} is not a static method" if bad else ""
 
 
-@rule("model", "term", declaration=True)
+@rule("model", "dynamics", "term", declaration=True)
 def states_are_named(component: Any) -> str:
     """Name each state once, with an identifier: results and reports use these names."""
     again, bad = (

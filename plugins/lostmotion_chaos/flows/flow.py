@@ -88,7 +88,7 @@ def _make_exact(system: System, values: Mapping[str, float], beat: Harmonic, sta
     if system.terms:
         return None
     full = dict(zip(system.index, _make_parameters(system, values).tolist(), strict=True))
-    return system.model.exact(full, (beat.amplitude, beat.omega, beat.phase), _make_start(system, start))
+    return system.equations.exact(full, (beat.amplitude, beat.omega, beat.phase), _make_start(system, start))
 
 
 def make_stepped_flow(
@@ -109,7 +109,7 @@ def make_stepped_flow(
 def _make_parameters(system: System, values: Mapping[str, float]) -> Array:
     """Return the parameter vector, or raise a `ContractError` that names a missing parameter or one out of bounds."""
     given = {system.slot(name).key: float(value) for name, value in values.items()}
-    inertias = {place.inertia for place in system.model.interfaces}
+    inertias = system.inertia_keys
     for slot in system.slots:
         q, value = slot.param, given.get(slot.key)
         if value is None:

@@ -6,13 +6,13 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar
 
-from lostmotion.contracts import Array, Model, Param, Term, Values
+from lostmotion.contracts import Array, Machine, Param, Term, Values
 from lostmotion.quantities import FREQUENCY, INERTIA, LENGTH, NUMBER, SPEED, TIME
 
 
-def _is_single_body(at: str, model: Model) -> bool:
+def _is_single_body(at: str, model: Machine) -> bool:
     """Return whether a place belongs to one body; a place between two bodies has no mass of its own."""
-    return any(place.name == at and place.against is None for place in model.interfaces)
+    return any(place.name == at and len(place.bodies) == 1 for place in model.places)
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ class HiddenMode(Term):
     begins = (LENGTH, SPEED)
     needs = ("inertia", "shake_input")
 
-    def fits(self, model: Model) -> bool:
+    def fits(self, model: Machine) -> bool:
         """Return whether the term can act in `model`: at a body, and not between two."""
         return _is_single_body(self.at, model) and super().fits(model)
 
@@ -82,7 +82,7 @@ class InertiaChange(Term):
     )  # fmt: skip
     needs = ("inertia", "acceleration", "shake_input")
 
-    def fits(self, model: Model) -> bool:
+    def fits(self, model: Machine) -> bool:
         """Return whether the term can act in `model`: at a body, and not between two."""
         return _is_single_body(self.at, model) and super().fits(model)
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
-from lostmotion.contracts import Array, Model, Param, Term, Values
+from lostmotion.contracts import Array, Machine, Param, Term, Values
 from lostmotion.quantities import FORCE, LENGTH, NUMBER, TIME
 from lostmotion_plugins.laws import resist_sliding, subtract_gap
 from lostmotion_plugins.terms.friction import NEGLIGIBLE_SHARE
@@ -67,9 +67,9 @@ class LoadDependentFriction(Term):
     params = (Param("coefficient", "friction over the load", NUMBER, low=0.0, null=0.0, typical=0.1),)
     needs = ("contact", "play", "force_input", "mobility")
 
-    def fits(self, model: Model) -> bool:
+    def fits(self, model: Machine) -> bool:
         """Return whether the term can act in `model`: the place has a contact with play, or the model a force input."""
-        contact = any(place.name == self.at and place.play for place in model.interfaces)
+        contact = any(place.name == self.at and place.play for place in model.places)
         return (contact or "force" in model.inputs) and super().fits(model)
 
     @staticmethod

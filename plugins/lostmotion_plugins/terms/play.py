@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from lostmotion.contracts import Array, Model, Param, Term, Values
+from lostmotion.contracts import Array, Machine, Param, Term, Values
 from lostmotion.quantities import LENGTH, NUMBER, STIFFNESS
 
 _SIDES = ("at both ends", "on the positive side", "on the negative side")
@@ -26,9 +26,9 @@ class Backlash(Term):
     params = (Param("gap", "half of the play", LENGTH, low=0.0, null=0.0, typical=0.5, scan=(0.02, 4.0)),)
     needs = ("stiffness",)
 
-    def fits(self, model: Model) -> bool:
+    def fits(self, model: Machine) -> bool:
         """Return whether the term can act in `model`: its place has a spring without play."""
-        tight = any(place.name == self.at and place.play is None for place in model.interfaces)
+        tight = any(place.name == self.at and place.play is None for place in model.places)
         return tight and super().fits(model)
 
     @staticmethod

@@ -66,7 +66,7 @@ def score_case(out: Path, registry: Registry, number: int) -> JudgedCase:
     try:
         prepared = prepare(place / "case.toml", registry)
         best = compute_bound(prepared, truth.machine, truth.effects, answer)
-        places = len(prepared.model.interfaces)
+        places = len(prepared.model.places)
     except PlaceError:
         raise
     except (LostMotionError, ArithmeticError, ValueError) as err:

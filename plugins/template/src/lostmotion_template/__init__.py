@@ -12,6 +12,12 @@ def lostmotion_models() -> dict[str, str]:
 
 
 @hookimpl
+def lostmotion_dynamics() -> dict[str, str]:
+    """Return the machines of this package that are stepped, which a case names: `dynamics = "two_joint_arm"`."""
+    return {"two_joint_arm": f"{_HERE}.dynamics:TwoJointArm"}
+
+
+@hookimpl
 def lostmotion_terms() -> dict[str, str]:
     """Return the terms of this package."""
     return {"maxwell_element": f"{_HERE}.terms:MaxwellElement"}
