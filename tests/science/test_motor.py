@@ -73,13 +73,14 @@ def test_friction_of_a_motor_is_named_with_its_size(
     samples = 1000 if model == "current_motor" else 500
     found = diagnose(run_motor(FRICTION, samples=samples), model, drive, sensors, **known)
     friction = next(one for one in found.found if one.mechanism == "coulomb_friction")
-    assert friction.parameters["force"].median == pytest.approx(FRICTION, rel=0.02)
+    assert friction.parameters["force"].median == pytest.approx(FRICTION, rel=0.03)
     after = found.parameters_after
     assert after["J"].median == pytest.approx(J, rel=0.05)  # known values may be wrong by 1 % each
     truth = {"J": J, "c": C, "K": K, "R": R}
     for name in {"J", "c", "K", "R"} & set(after):
-        # between samples a recorded current is interpolated, which its ripple at a reversal is not
-        slack = 0.01 * truth[name] if model == "current_motor" else 0.0
+        # a recorded current is interpolated between samples, which its ripple at a reversal is not; the error of the
+        # scale of a sensor has the shape of predictions by the nominal model
+        slack = {"current_motor": 0.01, "dc_motor": 0.02}[model] * truth[name]
         assert after[name].low - slack <= truth[name] <= after[name].high + slack, name
 
 

@@ -104,7 +104,7 @@ def test_a_drive_that_saturates_completely_is_among_the_draws(share, complete):
     assert found.terms == {"drive_saturation"}
     shares = found.draw(["drive_saturation.share"], 2000, np.random.default_rng(4))[:, 0]
     assert complete[0] <= np.mean(shares == 1.0) <= complete[1]
-    low, high = np.quantile(shares, [0.025, 0.975])
+    low, high = np.quantile(shares, [0.005, 0.995])
     assert low <= share <= high
 
 

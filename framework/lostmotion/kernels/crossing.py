@@ -315,21 +315,14 @@ def propagate_covariance(work, o, taken, sources, h):  # type: ignore[no-untyped
 
 
 @jit
-def follow_first(work, row, o):  # type: ignore[no-untyped-def]
-    """Write what the first point has in a row to all points of a vector."""
-    store(work, row, o, value(work, row, 0) + 0.0 * load(work, AT, o))
-
-
-@jit
 def carry_step(work, noises, sources, many, paced, h, wide, place, keep, led, lanes):  # type: ignore[no-untyped-def]
     """Carry states, covariances and noise of sensors over the step that was tried, at those points that accept it."""
     for o in range(0, lanes, WIDTH):
         multiply(work, F, A, A, o)
         taken = accept_step(work, o, place, wide, h, paced)
         if led:
-            follow_first(work, AT, o)
-            follow_first(work, TRIAL_STEP, o)
-            follow_first(work, NEXT_STEP, o)
+            for row in range(AT, NEXT_STEP + 1):
+                store(work, row, o, value(work, row, 0) + 0.0 * load(work, row, o))
             taken = load(work, AT, o) == place + wide
         if not any_lane(taken):
             continue
@@ -369,7 +362,7 @@ def choose_step(work, place, aligned, step, paced, led, lanes):  # type: ignore[
             wide = wide // 2
         store(work, TRIAL_STEP, o, want)
         if led:
-            follow_first(work, TRIAL_STEP, o)
+            store(work, TRIAL_STEP, o, value(work, TRIAL_STEP, 0) + 0.0 * want)
     return find_widest(work, place, lanes)
 
 
@@ -384,10 +377,7 @@ def find_widest(work, place, lanes):  # type: ignore[no-untyped-def]
 
 @jit
 def cross_sample(derive, space, wires, work, noises, u, which, begin, k, nsub, dt, sources, many, keep, led, lanes):  # type: ignore[no-untyped-def]
-    """Carry all points over sample `k`, with the inputs in `u`; return nonzero if a law raised an error.
-
-    Points that are `led` take the steps of the first one: differences between them are derivatives of one rule.
-    """
+    """Carry all points over sample `k`, with the inputs in `u`; return nonzero if a law raised an error."""
     failed, place, step = 0, 0 * nsub, dt / nsub  # numba compiles a call anew for a literal
     for o in range(0, lanes, WIDTH):
         store(work, AT, o, 0.0)

@@ -270,7 +270,8 @@ def run_filter(functions, blocks, wiring, inputs, drives, z, sensors, unsure, dt
     variance that the measured input adds to a held force up to the next sample. The arrays in `written` are errors and
     variances (lanes, samples, sensors), and `reached` (lanes,), the number of samples that were computed. `kept` is
     what a smoother needs of the first point: states and covariances after and before each sample and the transition
-    matrices between, empty if not wanted. Points that are `led` take the steps of the first one.
+    matrices between, empty if not wanted. Points that are `led` take the steps of the first
+    one, so that differences between them are derivatives of one rule.
     """
     derive, observe = functions[0], functions[1]
     errors, variances, reached = written
