@@ -114,7 +114,7 @@ def run(*args):
 
 @pytest.mark.slow
 def test_a_file_beside_the_case_is_identified_on_the_command_line(folder):
-    done = run("identify", folder / "case.toml", "--out", folder / "out", "--ess", 100, "--max-steps", 200, "--quiet")
+    done = run("identify", folder / "case.toml", "--out", folder / "out", "--ess", 100, "--max-steps", 700, "--quiet")
     assert done.exit_code == 0, done.output
     result = json.loads((folder / "out" / "identification.json").read_text(encoding="utf-8"))
     rows = result["parameters"]
