@@ -58,7 +58,12 @@ class Machine(ABC):
     @property
     @abstractmethod
     def places(self) -> tuple[Place, ...]:
-        """The places where terms may act. The first is the one to which natural sizes refer."""
+        """The places where terms may act."""
+
+    @property
+    def first_place(self) -> Place:
+        """The place to which natural sizes refer, and the terms of a drive."""
+        return self.places[0]
 
     @property
     def first_body(self) -> tuple[int, int]:
@@ -126,6 +131,11 @@ class Model(Machine):
     def places(self) -> tuple[Interface, ...]:
         """The interfaces."""
         return self.interfaces
+
+    @property
+    def first_place(self) -> Interface:
+        """The first of the interfaces."""
+        return self.interfaces[0]
 
     @property
     def first_body(self) -> tuple[int, int]:

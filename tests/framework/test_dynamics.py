@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
 import lostmotion as lm
@@ -114,7 +115,7 @@ def run(*args):
 
 @pytest.mark.slow
 def test_a_file_beside_the_case_is_identified_on_the_command_line(folder):
-    done = run("identify", folder / "case.toml", "--out", folder / "out", "--ess", 100, "--max-steps", 200, "--quiet")
+    done = run("identify", folder / "case.toml", "--out", folder / "out", "--ess", 100, "--max-steps", 700, "--quiet")
     assert done.exit_code == 0, done.output
     result = json.loads((folder / "out" / "identification.json").read_text(encoding="utf-8"))
     rows = result["parameters"]
@@ -287,3 +288,36 @@ def test_a_term_that_asks_for_what_steps_cannot_tell_has_no_place():
 def test_a_model_is_no_dynamics():
     with pytest.raises(ContractError, match="wagon has a step and no equations"):
         _ = make_system(Wagon(), ()).blueprint
+
+
+def rub(_, y, force, friction):
+    """Return the derivatives of the cart with dry friction (N), which a smooth step over 2 mm/s stands for."""
+    held = TRUE["c"] * y[1] + TRUE["k"] * y[0] + friction * np.tanh(y[1] / 2e-3)
+    return [y[1], (force - held) / TRUE["m"]]
+
+
+@pytest.mark.slow
+def test_a_diagnosis_names_the_friction_that_a_stepped_machine_lacks(folder):
+    t, y, states = np.arange(300) * DT, np.zeros(2), []
+    force = 3.0 * np.sin(2.0 * t) + 2.0 * np.sin(3.3 * t + 1.0)
+    for u in force:
+        states.append(y)
+        y = solve_ivp(rub, (0.0, DT), y, args=(u, 0.5), method="LSODA", rtol=1e-8, atol=1e-10).y[:, -1]
+    seen = np.array(states)[:, 0] + 1e-3 * np.random.default_rng(0).standard_normal(300)
+    recording = lm.Recording.from_arrays(
+        sensors={"position": seen}, inputs={"force": force}, rate=1.0 / DT, units={"position": "m", "force": "N"},
+        hold="step",
+    )  # fmt: skip
+    priors = {"m": lm.LogUniform(0.3, 3.0), "c": lm.LogUniform(0.05, 3.0), "k": lm.LogUniform(1.0, 20.0)}
+    case = lm.Case(recording, lm.model(dynamics=str(folder / "my_cart.py:Cart")), estimate=priors)
+    found = lm.diagnose(case, terms=("coulomb_friction", "cubic_stiffness", "viscous_damping"), progress=False)
+    (named,) = [one for one in found.found if one.state == "named"]
+    assert (named.mechanism, named.at) == ("coulomb_friction", "ground")
+    low, high = (getattr(named.parameters["force"], end) for end in ("low", "high"))
+    assert low - 0.5 * (high - low) < 0.5 < high + 0.5 * (high - low)
+    found.save(folder / "found")
+    stored = lm.load(folder / "found").model
+    assert stored.values["coulomb_friction.force"] == pytest.approx(0.5, rel=0.05)
+    moved = stored.simulate({"force": force}, rate=1.0 / DT).sensors[0].values
+    gap = np.std(moved - np.array(states)[:, 0])  # an array is smooth between samples, and was held: half a sample
+    assert gap < 0.08 * np.std(moved)

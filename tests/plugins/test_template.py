@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 TEMPLATE = Path(__file__).parents[2] / "plugins" / "template"
-NAMES = ("driven_pendulum", "flicker_noise", "maxwell_element", "two_link")
+NAMES = ("driven_pendulum", "flicker_noise", "maxwell_element", "two_joint_arm", "two_link")
 
 
 def run(*command, cwd, python=sys.executable):

@@ -88,6 +88,7 @@ def test_dry_friction_of_the_elbow_is_what_raises_the_likelihood(rubbing):
     assert max(gains, key=gains.get) == "coulomb_friction@elbow"
 
 
+@pytest.mark.slow
 def test_a_term_at_a_joint_is_estimated(rubbing):
     problem = rubbing.problem
     key = "coulomb_friction@elbow"

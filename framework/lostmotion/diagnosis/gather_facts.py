@@ -270,7 +270,7 @@ def _list_complete(d: SearchResult, key: str) -> Iterator[float]:
 
 def list_other_places(model: Machine) -> set[str]:
     """Return the names of the places where a force acts on another body than the first."""
-    return {place.name for place in model.places if place.bodies != model.places[0].bodies}
+    return {place.name for place in model.places if place.bodies != model.first_place.bodies}
 
 
 def _acts_on_other_body(d: SearchResult) -> bool:

@@ -70,7 +70,7 @@ def simulate_recording(model: RehearsedModel, excitation: Excitation, rng: np.ra
     system, full = problem.system, problem.full(theta)
     intensity = problem.random_force(theta)
     drive = problem.drive(0, theta)
-    kick = math.sqrt(intensity * PIECE * drive.dt) * system.kick(full, system.model.places[0])
+    kick = math.sqrt(intensity * PIECE * drive.dt) * system.kick(full, system.model.first_place)
     kicks = np.zeros((drive.samples, problem.running.states))
     kicked = [min(start + PIECE, drive.samples - 1) for start in range(0, drive.samples - 1, PIECE)]
     kicks[kicked, : len(kick)] = rng.standard_normal((len(kicked), 1)) * kick

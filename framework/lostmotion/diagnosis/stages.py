@@ -347,8 +347,8 @@ def compute_force(fit: Fit, observation: Observation, states: Array, key: str) -
         return system.compute_force(key, problem.active, packed, (seen, inputs, times))
     other = replace(problem, active=problem.active - {key}).drive(0, fit.theta).inputs[: len(states)]
     both = (system.compute_derivatives(problem.active, packed, seen, u, times)[0] for u in (inputs, other))
-    with_term, without = (system.accelerate(rates, system.model.places[0]) for rates in both)
-    return np.asarray((with_term - without) * system.own_inertia(full, system.model.places[0]))
+    with_term, without = (system.accelerate(rates, system.model.first_place) for rates in both)
+    return np.asarray((with_term - without) * system.own_inertia(full, system.model.first_place))
 
 
 def list_physical_keys(fit: Fit) -> list[str]:

@@ -97,7 +97,7 @@ def _compute_sizes(system: System, observations: Sequence[Observation], known: A
     rate, length = float(np.median(rates)), float(np.median(lengths))
     if quantity_of(observations[0].sensors[sensor].channel) == "force":
         return Scales(length, float(np.median([t.travel for t in observations])), 1.0 / rate)
-    inertia = system.own_inertia(known, system.model.places[0])
+    inertia = system.own_inertia(known, system.model.first_place)
     pushes = [_measure_push(system, t, inertia) for t in observations]
     force = float(np.sqrt(np.mean(np.square([varying for varying, _ in pushes]))))
     force = force or float(np.mean([peak for _, peak in pushes])) or inertia * length * rate**2

@@ -73,7 +73,7 @@ class SmoothedMotion:
         for full, values in zip(fulls, tried, strict=True):
             full[[system.index[name] for name in values]] = list(values.values())
         if term.acts == "drive":
-            place, acting = system.model.places[0], replace(problem, active=problem.active | {key})
+            place, acting = system.model.first_place, replace(problem, active=problem.active | {key})
             changed = (acting.drive_at(full, 0).inputs[: len(self.states)] for full in fulls)
             driven = [self._rates(self._packed, frozenset(), inputs)[0] for inputs in changed]
             return system.accelerate(np.array(driven), place) - system.accelerate(self._driven[0], place)

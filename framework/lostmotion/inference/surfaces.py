@@ -200,4 +200,4 @@ def list_all_curves(model: Machine, *, driven: bool) -> tuple[LearnedTerm, ...]:
     timed: tuple[type[LearnedTerm], ...] = (*CLOCKS, OverPositionAndPhase)
     own = [kind(at=place.name) for place in model.places for kind in moving]
     clocks = [kind for kind in timed if driven or "omega" not in kind.needs]
-    return (*own, *(kind(at=model.places[0].name) for kind in clocks))
+    return (*own, *(kind(at=model.first_place.name) for kind in clocks))

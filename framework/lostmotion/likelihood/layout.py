@@ -292,7 +292,7 @@ class Layout:
 
     def _input_of(self, need: str, place: Place) -> int:
         """Return the index of the force on the body at a place, or of the base acceleration; -1 where there is none."""
-        inputs, first = self.model.inputs, self.model.places[0].bodies[0]
+        inputs, first = self.model.inputs, self.model.first_place.bodies[0]
         name = "base_acceleration" if need == "shake_input" else "force" if place.bodies[0] == first else "second_force"
         return inputs.index(name) if name in inputs and need != "acceleration" else NUMB
 

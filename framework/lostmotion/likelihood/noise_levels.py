@@ -33,7 +33,7 @@ def compute_usual_level(problem: Problem, rate: float) -> float:
     system, observation = problem.system, problem.observations[0]
     size = USUAL * _find_common_drive(problem)
     if system.model.inputs[observation.lead] == "base_position":
-        inertia = system.own_inertia(problem.known, system.model.places[0])
+        inertia = system.own_inertia(problem.known, system.model.first_place)
         size = USUAL * math.sqrt(2.0) * float(np.std(observation.excitation)) * inertia * rate**2
     return math.log(max(size, 1e-300) ** 2 * observation.dt)
 

@@ -310,7 +310,7 @@ def guesses(
 
     Without a force only ratios to the inertia can be determined. All parameters of equations are estimated as positive.
     """
-    inertia = machine.interfaces[0].inertia
+    inertia = machine.first_place.inertia
     is_written = isinstance(machine, Written)
     known = {
         p.name: (1.0, "only ratios to it can be determined: enter the true value")
