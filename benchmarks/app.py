@@ -32,7 +32,7 @@ SIMULATED = (
     "simulate", "lin_backlash", "--set", "m=1,c=8,k0=4e4,x0=0.005", "--term", "coulomb_friction:force=3", "--drive",
     "harmonic:amplitude=100,omega=40", "--rate", "640", "--noise", "0.01",
 )  # fmt: skip
-ERROR = "(words().match(/readings: (?:position: )?([0-9.e-]+)/) || [])[1]"
+ERROR = "(words().match(/free runs: [^0-9]*([0-9.e-]+) %/) || [])[1]"
 PANEL = "Bokeh.documents[0].get_model_by_name('panel 0')"
 PATIENCE = 900.0
 
@@ -108,7 +108,7 @@ def measure(folder: Path) -> None:
         browser.choose("Recording", "long.csv")
         browser.wait_for("long.csv:", PATIENCE)
         browser.click("Model")
-        browser.wait_for("Error of free runs over", PATIENCE)
+        browser.wait_for("Prediction error of free runs", PATIENCE)
         browser.choose("Model", "lin_backlash")
         browser.click("Use this model")
         browser.wait_for("half gap", PATIENCE)
@@ -144,7 +144,11 @@ def draw_pictures(folder: Path, out: Path) -> None:
         browser.open(server.address)
         browser.choose("Recording", "short.csv")
         browser.wait_for("model: linear_oscillator", PATIENCE)
-        steps = {"Model": "Error of free runs over", "Run": "a process of its own", "Results": "Missing force over"}
+        steps = {
+            "Model": "Prediction error of free runs",
+            "Run": "a process of its own",
+            "Results": "Missing force over",
+        }
         take(browser, out / "app_data.png")
         for screen, text in steps.items():
             browser.click(screen)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import panel as pn
 from bokeh.events import RangesUpdate
-from bokeh.models import BoxAnnotation, ColumnDataSource, Range1d
+from bokeh.models import BasicTickFormatter, BoxAnnotation, ColumnDataSource, Range1d
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
@@ -19,6 +19,8 @@ Array = NDArray[np.float64]
 PIXELS = 900
 """The number of columns of pixels of which the lowest and highest values are drawn."""
 HEIGHT = 150
+SMALLEST = -5
+"""The power of ten from which numbers at an axis are written without an exponent."""
 TOOLS = "xbox_zoom,xpan,xwheel_zoom,reset,save"
 _DARK = {style.RECORDED: "#e8e8e8", style.AFTER: "#56b4e9", style.LAW: "#00b37a"}
 
@@ -46,6 +48,8 @@ def make_figure(x: str, y: str, *, height: int = HEIGHT, tools: str = TOOLS, **o
     for axis in made.axis:
         axis.axis_label_text_color = axis.major_label_text_color = axis.axis_line_color = ink
         axis.axis_label_text_font_style, axis.axis_label_text_font_size = "normal", "12px"
+        if isinstance(axis.formatter, BasicTickFormatter):
+            axis.formatter.power_limit_low = SMALLEST
         axis.major_tick_line_color = axis.minor_tick_line_color = ink
     made.grid.grid_line_color = grid
     return made
@@ -128,6 +132,7 @@ class CurvePanels:
 def format_legend(panel: Any) -> None:
     """Put the legend of a panel above it, in one line; a click hides a curve."""
     for legend in panel.legend:
+        legend.ncols = "auto"
         legend.orientation, legend.click_policy, legend.background_fill_alpha = "horizontal", "hide", 0.0
         legend.border_line_color, legend.label_text_font_size, legend.padding = None, "12px", 2
         legend.label_text_color = "#cccccc" if is_dark() else "#222222"

@@ -9,11 +9,13 @@ from pathlib import Path
 from typing import Any
 
 import panel as pn
+from panel.theme.base import DarkTheme, DefaultTheme
 
 from lostmotion.registry import Registry
 from lostmotion_app.desk import Desk
 from lostmotion_app.folder import WorkFolder
-from lostmotion_app.parts import STYLE, make_html, run_next
+from lostmotion_app.look import Look
+from lostmotion_app.parts import STYLE, is_dark, make_html, run_next
 from lostmotion_app.policy import POLICY
 from lostmotion_app.screens import PageScreen
 
@@ -27,6 +29,8 @@ SCREENS: Mapping[str, str] = {
     "Analyse": "analyse:AnalyseScreen",
 }
 """The screens by their titles; each is imported when it is opened, so that the first one is there soon."""
+WAY = tuple(SCREENS)[:6]
+"""The screens from a recording to an answer, in their order."""
 BEGINNING = 50
 """Milliseconds after which the first screen is filled: the browser is connected then."""
 _TEMPLATE = (Path(__file__).parent / "page.html.j2").read_text(encoding="utf-8")
@@ -78,7 +82,16 @@ class Page:
             module, _, name = SCREENS[self.title].partition(":")
             made: PageScreen = getattr(import_module(f"lostmotion_app.screens.{module}"), name)(self.desk)
             self.screens[self.title] = made
-            self.tabs[self.tabs.active][:] = [made.make_view()]
+            self.tabs[self.tabs.active][:] = [made.make_view(), *self._make_next()]
+
+    def _make_next(self) -> list[Any]:
+        """Return a button that opens the next screen of the way from a recording to an answer."""
+        place = int(self.tabs.active) + 1
+        if self.title not in WAY[:-1]:
+            return []
+        button = pn.widgets.Button(name=f"Next: {list(SCREENS)[place]}")
+        button.on_click(lambda _: setattr(self.tabs, "active", place))
+        return [button]
 
     def _write_head(self) -> None:
         desk, address = self.desk, pn.state.location
@@ -90,9 +103,9 @@ class Page:
 
 def make_page(folder: WorkFolder, registry: Registry, plugins: tuple[str, ...]) -> Any:
     """Return the page of a folder for one browser."""
-    pn.config.theme = "dark" if read_query("theme") == "dark" else "default"
+    pn.config.design, pn.config.theme = Look, "dark" if read_query("theme") == "dark" else "default"
     page = Page(Desk(folder, registry, plugins, read_query("recording")))
-    made = pn.Template(_TEMPLATE)
+    made = pn.Template(_TEMPLATE, theme=DarkTheme if is_dark() else DefaultTheme)
     made.add_variable("policy", POLICY)
     made.add_variable("app_favicon", "data:,")
     made.add_variable("style", STYLE.replace(":host, :root", ":root"))

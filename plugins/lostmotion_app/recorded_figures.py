@@ -16,6 +16,7 @@ from lostmotion.recording.value_checks import fill_lost
 from lostmotion.report import style
 from lostmotion.signals import spectrum
 from lostmotion_app.curves import Array, CurvePanels, abreast, colour_of, make_figure, thin
+from lostmotion_app.parts import make_html, write_note
 
 UNITS = (
     "N", "kN", "mN", "N m", "mN m", "N cm", "lbf", "kgf", "m", "mm", "um", "cm", "inch", "rad", "mrad", "deg", "turn",
@@ -24,6 +25,7 @@ UNITS = (
 """The units that the page offers; any other that `init` knows may be typed."""
 MOST_COLUMNS = 12
 """The number of columns that are drawn."""
+SHADES = "Mark a range with the mouse to enlarge it, down to single samples. Blue: held out, in no fit. Grey: not used."
 POINTS = 6000
 """The number of points of a phase plane."""
 SMOOTHED = 9
@@ -52,10 +54,10 @@ class RecordedFigures:
 
     def show_table(self, table: Table, source: str) -> None:
         """Draw the columns of a table over its time, or over the number of the row where it has no time."""
-        self.time, label = find_axis(table, source)
-        columns = {name: table.columns[name] for name in table.full_names}
-        whole = {name: one for name, one in columns.items() if one.size == self.time.size and one is not self.time}
-        self.columns = dict(list(whole.items())[:MOST_COLUMNS])
+        self.time, label, clock = find_axis(table, source)
+        columns = {name: table.columns[name] for name in table.full_names if name != clock}
+        whole = [(name, one) for name, one in columns.items() if one.size == self.time.size]
+        self.columns = dict(whole[:MOST_COLUMNS])
         self.units, self.span = dict(table.units), (float(self.time[0]), float(self.time[-1]))
         self.curves, self.boxes = CurvePanels(label), []
         for name, values in self.columns.items():
@@ -68,6 +70,7 @@ class RecordedFigures:
         self.column.options, self.column.value = names, names[-1] if names else None
         self._show_column()
         self.view[:] = [
+            make_html(write_note(f"{SHADES}{write_rest(len(whole))}")),
             *(pn.pane.Bokeh(panel, sizing_mode="stretch_width", margin=(0, 2)) for panel in self.curves.panels),
             self.column,
             abreast(self.spectrum, self.phase),
@@ -96,6 +99,7 @@ class RecordedFigures:
         rate = savgol_filter(even, SMOOTHED, 2, deriv=1, delta=dt)
         self.lines[1].data = {"x": even[::step], "y": rate[::step]}
         unit = self.units.get(self.column.value, "")
+        self.spectrum.yaxis.axis_label = f"power spectral density ({unit}²/Hz)" if unit else "power spectral density"
         self.phase.xaxis.axis_label = label_of(self.column.value, unit)
         self.phase.yaxis.axis_label = label_of("rate of change", f"{unit}/s" if unit else "")
 
@@ -105,10 +109,19 @@ def label_of(name: str, unit: str) -> str:
     return name if not unit or unit in name else f"{name} ({unit})"
 
 
-def find_axis(table: Table, source: str) -> tuple[Array, str]:
-    """Return the time (n,) of a table in s, or the number of the row where it has none, and the label of the axis."""
+def find_axis(table: Table, source: str) -> tuple[Array, str, str | None]:
+    """Return the time (n,) of a table in s, the label of the axis, and the column of the time.
+
+    Where the table has no time, it is the number of the row.
+    """
     try:
-        return find_time(table, source).time, "time (s)"
+        found = find_time(table, source)
     except DataError:
         longest = max(table.columns[name].size for name in table.full_names)
-        return np.arange(longest, dtype=float), "row"
+        return np.arange(longest, dtype=float), "row", None
+    return found.time, "time (s)", found.column
+
+
+def write_rest(count: int) -> str:
+    """Return a sentence on columns that are not drawn; empty where all of `count` columns are."""
+    return f" The first {MOST_COLUMNS} of {count} columns are drawn." if count > MOST_COLUMNS else ""

@@ -106,7 +106,7 @@ def test_the_whole_way_from_a_file_to_a_named_cause(tmp_path, serve):
         browser.choose("Recording", "rig.csv")
         browser.wait_for("model: linear_oscillator")
         browser.click("Model")
-        browser.wait_for("Error of free runs over")
+        browser.wait_for("Prediction error of free runs")
         browser.choose("m (kg)", "known")
         browser.type("m: value", "1.0")
         browser.click("Run")
@@ -120,11 +120,11 @@ def test_the_whole_way_from_a_file_to_a_named_cause(tmp_path, serve):
         browser.wait_for("diagnose-1: done", LONG)
         browser.click("Results")
         browser.wait_for("Dry friction of", LONG)
-        browser.wait_for("with the terms that are ticked", LONG)
-        with_term = browser.wait("(words().match(/readings: ([0-9.e-]+)/) || [])[1]", LONG)
+        browser.wait_for("with ticked terms", LONG)
+        with_term = browser.wait("(words().match(/free runs: [^0-9]*([0-9.e-]+) %/) || [])[1]", LONG)
         browser.evaluate("(all(document).find((e) => e.type === 'checkbox' && seen(e)).click(), true)")
-        browser.wait(f"(words().match(/readings: ([0-9.e-]+)/) || [])[1] !== '{with_term}'", LONG)
-        assert float(browser.evaluate("words().match(/readings: ([0-9.e-]+)/)[1]")) > 2.0 * float(with_term)
+        browser.wait(f"(words().match(/free runs: [^0-9]*([0-9.e-]+) %/) || [])[1] !== '{with_term}'", LONG)
+        assert float(browser.evaluate("words().match(/free runs: [^0-9]*([0-9.e-]+) %/)[1]")) > 2.0 * float(with_term)
         assert browser.problems == []
 
 

@@ -38,7 +38,12 @@ class DataScreen(PageScreen):
         super().__init__(desk)
         self.shown = ("", 0.0)
         self.file = pn.widgets.Select(name="Recording", sizing_mode="stretch_width")
-        self.upload = pn.widgets.FileInput(name="Another file", multiple=False, sizing_mode="stretch_width")
+        self.upload = pn.widgets.FileInput(
+            name=f"Or drop a file, to copy it here (at most {MOST_UPLOADED // 2**20} MiB)",
+            multiple=False,
+            sizing_mode="stretch_width",
+        )
+        self.given = pn.Column(sizing_mode="stretch_width", margin=0, visible=False)
         self.time = pn.widgets.Select(name="Time (--time)", sizing_mode="stretch_width")
         self.rate = NumberField("Rate in Hz (--rate)", "from the time", width=150)
         self.drive = _Channel("Drive (--drive)")
@@ -59,10 +64,7 @@ class DataScreen(PageScreen):
 
     def make_view(self) -> Any:
         """Return the controls beside the figures."""
-        controls = [
-            self.file,
-            make_html(write_note(f"Or copy a file into the folder, at most {MOST_UPLOADED // 2**20} MiB:")),
-            self.upload,
+        self.given[:] = [
             make_html(write_heading("Columns")),
             self.time,
             self.rate.widget,
@@ -73,6 +75,7 @@ class DataScreen(PageScreen):
             self.stretch,
             self.hold,
         ]
+        controls = [self.file, self.upload, self.given]
         return beside(controls, [self.problem.pane, self.found, self.figures.view, self.same])
 
     def show(self) -> None:
@@ -81,8 +84,8 @@ class DataScreen(PageScreen):
         self.file.options = names if self.desk.recording in names else ["", *names]
         if self.desk.recording not in names:
             self.desk.recording = ""
-        if not names:
-            self.found.object = write_note("The folder has no recording yet: copy one into it, such as a CSV file.")
+        if not self.desk.recording:
+            self.found.object = write_beginning(len(names))
         if self.file.value != self.desk.recording:
             self.file.value = self.desk.recording  # which shows it
         elif self.desk.recording:
@@ -119,6 +122,7 @@ class DataScreen(PageScreen):
             self.found.object = ""
             table = read_table(path)
             self._offer_columns(table)
+            self.given.visible = True
             self.figures.show_table(table, path.name)
             if self.desk.content:
                 self._restore()
@@ -202,6 +206,19 @@ class DataScreen(PageScreen):
         for name, gain in gains.items():
             words += ["--factor", f"{name}={gain:g}"]
         self.same.object = write_command(*words, "--out", self.desk.folder.name_of(self.desk.case))
+
+
+def write_beginning(count: int) -> str:
+    """Return what to do first, in a folder with a number of recordings, as HTML."""
+    first = "Choose a recording of this folder." if count else "This folder has no recording yet: drop one here."
+    steps = [
+        "Data: a table as a data logger wrote it, such as a CSV file. Look at its columns, units and time.",
+        "Model: choose a model of the machine, and enter the values that you know.",
+        "Check: what this recording can tell. It takes seconds.",
+        "Run: a search for the physics that the model leaves out. It takes a minute or more.",
+        "Results: the answer, and predictions of data that no fit has used.",
+    ]
+    return write_note(first) + write_heading("Screens") + write_list(steps)
 
 
 class _Channel:

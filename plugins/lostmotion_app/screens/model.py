@@ -23,6 +23,7 @@ from lostmotion_app.parts import (
     beside,
     make_html,
     run_next,
+    write_errors,
     write_heading,
     write_lines,
     write_note,
@@ -33,6 +34,8 @@ from lostmotion_app.screens import PageScreen
 LIBRARY, EQUATIONS = "Library", "Equations"
 EXAMPLE = "m*x'' + c*x' + k*x = force"
 CYCLES, NEVER = "after a few cycles", "never"
+SHOWN = 800
+"""The number of samples that are seen at first."""
 
 
 class ModelScreen(PageScreen):
@@ -57,7 +60,7 @@ class ModelScreen(PageScreen):
         self.error, self.same = make_html(), make_html()
         self.tried: TriedModel | None = None
         self.shown: tuple[Any, ...] = ()
-        self.curves: list[tuple[CurvePanels, Any]] = []
+        self.curves: list[tuple[CurvePanels, Any, Any]] = []
         self.kind.param.watch(lambda _: self._switch(), "value")
         self.name.param.watch(lambda _: self._describe(), "value")
         self.equations.param.watch(lambda event: self._check_equations(event.new), "value_input")
@@ -175,23 +178,27 @@ class ModelScreen(PageScreen):
         empty, panels, self.curves = np.zeros(0), [], []
         curves = CurvePanels("time (s)")
         for number, sensor in enumerate(observation.sensors):
-            panel = curves.add_panel(label_of(sensor.label, unit_of(sensor.channel, motion)), height=230)
+            unit = unit_of(sensor.channel, motion)
+            panel = curves.add_panel(label_of(sensor.label, unit), height=230)
             curves.add_curve(panel, observation.time, observation.readings[:, number], colour=style.RECORDED,
                              name="recording", width=2.4)  # fmt: skip
             line = curves.add_curve(panel, empty, empty, colour=style.BEFORE, name="nominal model", width=1.4)
             format_legend(panel)
-            panels.append(panel)
-            self.curves.append((curves, line))
-        last = observation.time[0] + min(len(observation.time), 2000) * observation.dt
+            rest = curves.add_panel(label_of("difference", unit))
+            off = curves.add_curve(rest, empty, empty, colour=style.BEFORE)
+            panels += [panel, rest]
+            self.curves.append((curves, line, off))
+        last = observation.time[0] + min(len(observation.time), SHOWN) * observation.dt
         curves.fit_range(float(observation.time[0]), float(last))
         self.figures[:] = [pn.pane.Bokeh(panel, sizing_mode="stretch_width", margin=(0, 2)) for panel in panels]
 
     def _draw(self, found: TriedPrediction) -> None:
-        for number, (curves, line) in enumerate(self.curves):
+        for number, (curves, line, off) in enumerate(self.curves):
             curves.replace(line, found.time, found.predicted[:, number])
-        said = ", ".join(f"{sensor.label}: {error:.3g}" for sensor, error in
-                         zip(found.sensors, found.errors, strict=True))  # fmt: skip
-        self.error.object = write_note(f"Error of free runs over the standard deviation of the readings: {said}")
+            curves.replace(off, found.time, found.readings[:, number] - found.predicted[:, number])
+        self.error.object = write_errors(
+            {sensor.label: float(error) for sensor, error in zip(found.sensors, found.errors, strict=True)}
+        )
 
     def _show_same(self) -> None:
         case = self.desk.folder.name_of(self.desk.case)

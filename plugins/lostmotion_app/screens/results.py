@@ -14,7 +14,7 @@ from lostmotion.diagnosis.report.page_data import Evidence
 from lostmotion.diagnosis.report.top_tables import make_mechanism_table, make_number_table
 from lostmotion.notebook.diagnosis_result import DiagnosisResult
 from lostmotion.report import style
-from lostmotion.report.pages import PageSection
+from lostmotion.report.pages import Grid, PageSection
 from lostmotion.report.words import percent, typeset
 from lostmotion.storage import load_json
 from lostmotion_app.desk import Desk
@@ -136,6 +136,7 @@ def write_summary(found: DiagnosisResult) -> str:
     with style.use_style(found.result.units.angle):
         tables = [make_mechanism_table(found.evidence), make_number_table(found.evidence)]
     confused = opening.write_confusions(found.result)
+    tables[0] = Grid(tables[0].head[:-1], [row[:-1] for row in tables[0].rows])  # the answer has the sentences
     parts = [write_grid(table) for table in tables if table.rows]
     parts += [write_heading("Not told apart, and the next experiment"), write_list(confused)] if confused else []
     parts += [write_heading("Notes"), write_list(found.notes)] if found.notes else []

@@ -60,7 +60,7 @@ class TakeAwayScreen(PageScreen):
 def make_download(name: str, content: str) -> Any:
     """Return a button that stores a file."""
     return pn.widgets.FileDownload(
-        io.BytesIO(content.encode()), filename=name, label=name, button_type="primary", width=170
+        io.BytesIO(content.encode()), filename=name, label=f"Download {name}", button_type="primary", width=220
     )
 
 
