@@ -19,9 +19,10 @@ from lostmotion.storage import folder_for
 from lostmotion_app.folder import WorkFolder
 
 if TYPE_CHECKING:
+    from lostmotion.notebook.case import Case
     from lostmotion.preparation.beginning import Draft
 
-CASE = "case.toml"
+CASE, DIAGNOSIS = "case.toml", "diagnosis.json"
 _MODEL_GUESSED = "the model is "
 """The beginning of what a first case says where no model was given."""
 Changed = Callable[[], None]
@@ -55,6 +56,17 @@ class Desk:
     def content(self) -> dict[str, Any]:
         """The content of the case file; empty where there is none."""
         return parse_case(self.case) if self.recording and self.case.is_file() else {}
+
+    def read_case(self) -> Case:
+        """Return the case with its recording; raises `CaseError` or `DataError` where it cannot be read."""
+        from lostmotion.notebook.case import Case
+
+        return Case.read(self.case)
+
+    def list_results(self) -> list[Path]:
+        """Return the folders with a diagnosis of this recording, the newest first."""
+        folders = self.folder.list_results(DIAGNOSIS) if self.recording else []
+        return [one for one in folders if one.is_relative_to(self.place)]
 
     @property
     def settings(self) -> Mapping[str, float]:

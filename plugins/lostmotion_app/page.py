@@ -18,6 +18,7 @@ from lostmotion_app.look import Look
 from lostmotion_app.parts import STYLE, is_dark, make_html, run_next
 from lostmotion_app.policy import POLICY
 from lostmotion_app.screens import PageScreen
+from lostmotion_app.screens.guest import GuestScreen, list_guests
 
 SCREENS: Mapping[str, str] = {
     "Data": "data:DataScreen",
@@ -41,13 +42,14 @@ class Page:
 
     def __init__(self, desk: Desk) -> None:
         self.desk, self.screens = desk, dict[str, PageScreen]()
-        self.head = make_html()
+        self.head, self.guests = make_html(), list_guests(desk)
+        self.titles = [*SCREENS, *self.guests]
         self.tabs = pn.Tabs(
-            *((title, pn.Column(sizing_mode="stretch_width")) for title in SCREENS),
+            *((title, pn.Column(sizing_mode="stretch_width")) for title in self.titles),
             sizing_mode="stretch_width",
         )
-        titles, wanted = list(SCREENS), read_query("screen")
-        self.tabs.active = titles.index(wanted) if wanted in titles else 0
+        wanted = read_query("screen")
+        self.tabs.active = self.titles.index(wanted) if wanted in self.titles else 0
         self._fill()
         desk.changed = self.tell
         self.tabs.param.watch(lambda _: self._open(), "active")
@@ -55,7 +57,7 @@ class Page:
     @property
     def title(self) -> str:
         """The title of the screen that is open."""
-        return list(SCREENS)[int(self.tabs.active)]
+        return self.titles[int(self.tabs.active)]
 
     @property
     def view(self) -> Any:
@@ -79,17 +81,23 @@ class Page:
     def _fill(self) -> None:
         """Make the screen that was chosen, if it was not open before."""
         if self.title not in self.screens:
-            module, _, name = SCREENS[self.title].partition(":")
-            made: PageScreen = getattr(import_module(f"lostmotion_app.screens.{module}"), name)(self.desk)
-            self.screens[self.title] = made
+            self.screens[self.title] = made = self._make_screen()
             self.tabs[self.tabs.active][:] = [made.make_view(), *self._make_next()]
+
+    def _make_screen(self) -> PageScreen:
+        """Return the screen that was chosen, that of another package included."""
+        if self.title not in SCREENS:
+            return GuestScreen(self.desk, self.guests[self.title])
+        module, _, name = SCREENS[self.title].partition(":")
+        made: PageScreen = getattr(import_module(f"lostmotion_app.screens.{module}"), name)(self.desk)
+        return made
 
     def _make_next(self) -> list[Any]:
         """Return a button that opens the next screen of the way from a recording to an answer."""
         place = int(self.tabs.active) + 1
         if self.title not in WAY[:-1]:
             return []
-        button = pn.widgets.Button(name=f"Next: {list(SCREENS)[place]}")
+        button = pn.widgets.Button(name=f"Next: {self.titles[place]}")
         button.on_click(lambda _: setattr(self.tabs, "active", place))
         return [button]
 

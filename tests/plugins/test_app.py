@@ -1,6 +1,7 @@
 """The page without a browser: its folder, its curves, its jobs, and what its server refuses."""
 
 import http.client
+import importlib
 import json
 import re
 import signal
@@ -10,6 +11,7 @@ import sys
 import time
 import urllib.error
 import urllib.request
+from pathlib import Path
 
 import click
 import numpy as np
@@ -19,7 +21,7 @@ from click.testing import CliRunner
 from lostmotion.cli import main
 from lostmotion.errors import CaseError, DataError
 from lostmotion.recording.outline import GivenRoles
-from lostmotion.registry import default
+from lostmotion.registry import Registry, default
 
 pytest.importorskip("panel", reason="no page: Panel is absent (the extra `app`)")
 
@@ -28,6 +30,7 @@ from lostmotion_app.curves import thin
 from lostmotion_app.desk import Desk
 from lostmotion_app.folder import WorkFolder
 from lostmotion_app.parts import write_table
+from lostmotion_app.screens.guest import GuestScreen, list_guests
 from lostmotion_app.screens.take_away import make_notebook
 
 SERVE = "from lostmotion_app.command import command; command()"
@@ -100,6 +103,38 @@ def test_a_case_keeps_the_stretch_and_the_values_of_a_user(folder):
     assert desk.content["model"]["equations"] == ["m*x'' + c*x' = force"]
     assert desk.content["recordings"][0]["t_end"] == 3.0
     assert (desk.place / desk.content["recordings"][0]["file"]).resolve() == folder.root / "run1.csv"
+
+
+GUEST = """
+from lostmotion.hookspecs import hookimpl
+@hookimpl
+def lostmotion_screens():
+    return {"my_screen": ("guest_screen:draw", "What it shows.")}
+def draw(desk):
+    return 1 / 0
+"""
+
+
+def test_a_package_adds_a_screen_which_is_drawn_and_one_that_fails_says_so(folder, monkeypatch):
+    monkeypatch.syspath_prepend(Path(__file__).parents[2] / "plugins" / "template" / "src")
+    (folder.root / "guest_screen.py").write_text(GUEST, encoding="utf-8")
+    registry = Registry().add(importlib.import_module("lostmotion_plugins"))
+    registry.add(importlib.import_module("lostmotion_template"))
+    registry.add_file(folder.root / "guest_screen.py")
+    desk = Desk(folder, registry, recording="run1.csv")
+    assert list_guests(desk) == {"Readings": "readings", "My screen": "my_screen"}
+    screen = GuestScreen(desk, "readings")
+    assert "How often each sensor reads which value." in screen.make_view()[0].object
+    screen.show()
+    assert "Choose a recording" in screen.problem.pane.object
+    desk.draft(GivenRoles(), {})
+    screen.show()
+    assert not screen.problem.pane.visible
+    (line,) = screen.shown[0].object.renderers
+    assert np.sum(line.data_source.data["y"]) > 0.0
+    failing = GuestScreen(desk, "my_screen")
+    failing.show()
+    assert "cannot be drawn (ZeroDivisionError: division by zero)" in failing.problem.pane.object
 
 
 def finish(job):

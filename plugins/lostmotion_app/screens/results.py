@@ -9,15 +9,16 @@ from typing import Any
 import panel as pn
 
 import lostmotion
+from lostmotion.diagnosis.guest_sections import find_sections
 from lostmotion.diagnosis.report import diagnosis_page, opening
 from lostmotion.diagnosis.report.page_data import Evidence
 from lostmotion.diagnosis.report.top_tables import make_mechanism_table, make_number_table
 from lostmotion.notebook.diagnosis_result import DiagnosisResult
 from lostmotion.report import style
 from lostmotion.report.pages import Grid, PageSection
-from lostmotion.report.words import percent, typeset
+from lostmotion.report.words import percent, sentence, to_words, typeset
 from lostmotion.storage import load_json
-from lostmotion_app.desk import Desk
+from lostmotion_app.desk import DIAGNOSIS, Desk
 from lostmotion_app.found_figures import MissingForce, SwitchedPrediction
 from lostmotion_app.parts import (
     make_html,
@@ -32,7 +33,6 @@ from lostmotion_app.parts import (
 from lostmotion_app.screens import PageScreen
 from lostmotion_app.sections import write_grid, write_sections
 
-FILE = "diagnosis.json"
 ELSEWHERE = ("prediction", "missing")
 """Sections of the report that this screen has in another form."""
 MOST_EARLIER = 30
@@ -63,8 +63,7 @@ class ResultsScreen(PageScreen):
 
     def show(self) -> None:
         """List the results of the folder, those of this recording first, and show the newest one."""
-        folders = self.desk.folder.list_results(FILE)
-        own = [one for one in folders if self.desk.recording and one.is_relative_to(self.desk.place)]
+        folders, own = self.desk.folder.list_results(DIAGNOSIS), self.desk.list_results()
         names = [self.desk.folder.name_of(one) for one in (*own, *(one for one in folders if one not in own))]
         self._compare(names)
         newest = names[0] if names else None
@@ -84,7 +83,7 @@ class ResultsScreen(PageScreen):
             return
         with self.problem.watch():
             folder = self.desk.folder.find(name)
-            now = (name, (folder / FILE).stat().st_mtime)
+            now = (name, (folder / DIAGNOSIS).stat().st_mtime)
             if now != self.shown:
                 self.shown = now
                 self.answer.object = write_note(f"Reading {name} ...")
@@ -103,6 +102,8 @@ class ResultsScreen(PageScreen):
             self.prediction.show(self.found, folder, self.desk.registry)
             self.missing.show(self.found)
         titles = {str(one.title) if isinstance(one.title, str) else one.name: one.name for one in sections}
+        if sections:
+            titles |= {sentence(to_words(name)): name for name in find_sections(self.desk.registry)}
         self.section.visible = bool(titles)
         self.section.options, self.section.value = titles, titles.get("Ranking of the candidates")
         self.same.object = write_command(
@@ -115,9 +116,10 @@ class ResultsScreen(PageScreen):
         if self.found is None or not self.section.value:
             return
         with self.problem.watch():
-            chosen = [one for one in diagnosis_page.SECTIONS if one.name == self.section.value]
-            evidence = self.found.evidence
-            drawn = write_sections(chosen, evidence, evidence.result.units.angle)
+            evidence, name = self.found.evidence, str(self.section.value)
+            chosen = [one for one in diagnosis_page.SECTIONS if one.name == name]
+            guests = {name: find_sections(self.desk.registry)[name]} if not chosen else {}
+            drawn = write_sections(chosen, evidence, evidence.result.units.angle, guests)
             self.drawn.object = drawn or write_note("This result has nothing to show here.")
 
     def _compare(self, names: Sequence[str]) -> None:
@@ -125,7 +127,7 @@ class ResultsScreen(PageScreen):
         rows = []
         for name in names[:MOST_EARLIER]:
             with self.problem.watch():
-                content = load_json(self.desk.folder.find(name) / FILE, "run `lostmotion diagnose` again")
+                content = load_json(self.desk.folder.find(name) / DIAGNOSIS, "run `lostmotion diagnose` again")
                 rows.append([name, *describe_result(content)])
         head = ["Result", "Verdict", "Found", "Error before", "Error after"]
         self.earlier.object = write_heading("Results in this folder") + write_table(head, rows) if rows else ""

@@ -38,8 +38,7 @@ class TakeAwayScreen(PageScreen):
                 return
             text = self.desk.case.read_text(encoding="utf-8")
             lines = list_python_lines(self.desk)
-            results = [one for one in self.desk.folder.list_results("diagnosis.json")
-                       if one.is_relative_to(self.desk.place)]  # fmt: skip
+            results = self.desk.list_results()
             given = {"case.toml": text, "diagnosis.ipynb": make_notebook(lines)}
             if results and (results[0] / "report.html").is_file():
                 given["report.html"] = (results[0] / "report.html").read_text(encoding="utf-8")
