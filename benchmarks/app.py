@@ -98,14 +98,14 @@ def measure(folder: Path) -> None:
         print(f"| command to the first screen | 2 s | {wall:.2f} s, of which browser"
               f" {time.perf_counter() - begun:.2f} s | {server.processor:.2f} s |", flush=True)  # fmt: skip
         with timed(f"a file of {ROWS} rows x 4 to the first plot", server, "3 s"):
-            browser.choose("Recording", "million.csv")
+            browser.choose("Recording or case file", "million.csv")
             browser.wait(
                 "Bokeh.documents[0].get_model_by_name('panel 0')?.renderers[0].data_source.data.x.length > 1000"
             )
         browser.wait_for("What was read", PATIENCE)
         with timed("zoom into it", server, "0.1 s"):
             zoom(browser)
-        browser.choose("Recording", "long.csv")
+        browser.choose("Recording or case file", "long.csv")
         browser.wait_for("long.csv:", PATIENCE)
         browser.click("Model")
         browser.wait_for("Prediction error of free runs", PATIENCE)
@@ -142,7 +142,7 @@ def draw_pictures(folder: Path, out: Path) -> None:
     server = Server(folder)
     with Chromium(width=1100, height=760) as browser:
         browser.open(server.address)
-        browser.choose("Recording", "short.csv")
+        browser.choose("Recording or case file", "short.csv")
         browser.wait_for("model: linear_oscillator", PATIENCE)
         steps = {
             "Model": "Prediction error of free runs",

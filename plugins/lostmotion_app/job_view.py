@@ -72,14 +72,17 @@ class JobView:
 
     def refresh(self) -> None:
         """Show the newest job of the case, whoever began it, and follow it while it runs."""
-        jobs = list_jobs(self.desk.place, self.command) if self.desk.recording else []
-        newest = jobs[0] if jobs else None
-        if newest is None or self.watched is None or newest.folder != self.watched.folder:
-            self.watched = newest
-            self._look(fresh=True)
-        what = self.desk.folder.name_of(self.desk.case) if self.case else self.desk.recording
-        self.same.object = write_command("lostmotion", *self._list_words(what, "DIR")) if self.desk.content else ""
-        self.start.disabled = not self.desk.content
+        with self.problem.watch():
+            jobs = list_jobs(self.desk.place, self.command) if self.desk.recording else []
+            newest = jobs[0] if jobs else None
+            if newest is None or self.watched is None or newest.folder != self.watched.folder:
+                self.watched = newest
+                self._look(fresh=True)
+            ready = bool(self.desk.content if self.case else self.desk.recording and not self.desk.is_given)
+            self.start.disabled, self.same.object = not ready, ""
+            if ready:
+                what = self.desk.folder.name_of(self.desk.case) if self.case else self.desk.recording
+                self.same.object = write_command("lostmotion", *self._list_words(what, "DIR"))
 
     def _list_words(self, what: str, out: str) -> list[str]:
         """Return the words of the command on a case or a recording, with a folder for its results."""
@@ -89,6 +92,8 @@ class JobView:
 
     def _begin(self) -> None:
         with self.problem.watch():
+            if self.case:
+                self.desk.require_agreed()
             what = f"{OUT}/{CASE}" if self.case else str(self.desk.folder.find(self.desk.recording))
             self.watched = begin_job(self.desk.place, self.command, self._list_words(what, OUT), self.desk.copy_case)
             self._look(fresh=True)

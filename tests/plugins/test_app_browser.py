@@ -79,14 +79,14 @@ def test_it_asks_no_other_address_and_escapes_what_files_say(tmp_path, serve):
         browser.open(server.address)
         browser.wait_for("Recording")
         browser.wait("location.search.includes('theme=dark')")
-        browser.choose("Recording", "nasty.csv")
+        browser.choose("Recording or case file", "nasty.csv")
         browser.wait_for("What was read")
         browser.wait_for(nasty)
         assert browser.evaluate("all(document).filter((e) => e.tagName === 'IMG' && e.src.endsWith('/q')).length") == 0
-        browser.choose("Recording", "empty.csv")
+        browser.choose("Recording or case file", "empty.csv")
         browser.wait_for("empty.csv")
         browser.wait("all(document).some((e) => seen(e) && e.classList.contains('lm-problem'))")
-        browser.choose("Recording", "rig.csv")
+        browser.choose("Recording or case file", "rig.csv")
         browser.wait_for("rig.csv: 1400 rows at 200 Hz")
         assert browser.evaluate("document.documentElement.scrollWidth <= window.innerWidth + 1")
         asked = [one for one in browser.requests if not one.startswith(("data:", "blob:", "about:"))]
@@ -103,7 +103,7 @@ def test_the_whole_way_from_a_file_to_a_named_cause(tmp_path, serve):
     server = serve(tmp_path)
     with Chromium() as browser:
         browser.open(server.address)
-        browser.choose("Recording", "rig.csv")
+        browser.choose("Recording or case file", "rig.csv")
         browser.wait_for("model: linear_oscillator")
         browser.click("Model")
         browser.wait_for("Prediction error of free runs")
@@ -134,7 +134,7 @@ def test_a_run_is_cancelled_and_gives_the_answer_so_far(tmp_path, serve):
     server = serve(tmp_path)
     with Chromium() as browser:
         browser.open(server.address)
-        browser.choose("Recording", "rig.csv")
+        browser.choose("Recording or case file", "rig.csv")
         browser.wait_for("model: linear_oscillator")
         browser.click("Run")
         browser.wait_for("a process of its own")

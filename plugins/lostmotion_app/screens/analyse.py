@@ -8,6 +8,7 @@ from typing import Any
 import panel as pn
 
 import lostmotion
+from lostmotion.errors import CaseError
 from lostmotion.recording.formats import read_table
 from lostmotion.report.words import sentence, typeset
 from lostmotion_app.desk import Desk
@@ -48,6 +49,8 @@ class AnalyseScreen(PageScreen):
     def show(self) -> None:
         """Offer the columns of the recording, and show its newest analysis."""
         with self.problem.watch():
+            if self.desk.is_given:
+                raise CaseError(f"{self.desk.recording} is a case: choose one of its recordings on the screen Data")
             if self.desk.recording and self.desk.recording != self.of:
                 self.of = self.desk.recording
                 names = list(read_table(self.desk.folder.find(self.desk.recording)).full_names)

@@ -13,6 +13,7 @@ from lostmotion.recording.table import Table
 from lostmotion_app import recorded_figures
 from lostmotion_app.desk import Desk
 from lostmotion_app.folder import MOST_UPLOADED
+from lostmotion_app.given_case import GivenCase
 from lostmotion_app.parts import (
     NumberField,
     beside,
@@ -27,6 +28,7 @@ from lostmotion_app.parts import (
 from lostmotion_app.screens import PageScreen
 
 AUTOMATIC, NONE = "(automatic)", "none"
+ROBOT = "The case of this log has a robot as its model, see the screen Model. “Use these columns” makes another case."
 
 
 class DataScreen(PageScreen):
@@ -37,7 +39,7 @@ class DataScreen(PageScreen):
     def __init__(self, desk: Desk) -> None:
         super().__init__(desk)
         self.shown = ("", 0.0)
-        self.file = pn.widgets.Select(name="Recording", sizing_mode="stretch_width")
+        self.file = pn.widgets.Select(name="Recording or case file", sizing_mode="stretch_width")
         self.upload = pn.widgets.FileInput(
             name=f"Or drop a file, to copy it here (at most {MOST_UPLOADED // 2**20} MiB)",
             multiple=False,
@@ -56,6 +58,11 @@ class DataScreen(PageScreen):
             name="Held out: last share", start=0.05, end=0.7, step=0.05, value=desk.hold, sizing_mode="stretch_width"
         )
         self.found, self.figures, self.same = make_html(), recorded_figures.RecordedFigures(), make_html()
+        self.further = pn.widgets.MultiChoice(
+            name="Further recordings with the same columns", sizing_mode="stretch_width"
+        )
+        self.case = GivenCase(desk, self.figures)
+        self.further.param.watch(lambda _: self._add(), "value")
         self.file.param.watch(self._choose, "value")
         self.upload.param.watch(self._upload, "value")
         self.apply.on_click(lambda _: self._draft())
@@ -71,16 +78,17 @@ class DataScreen(PageScreen):
             *self.drive.widgets,
             *self.response.widgets,
             self.apply,
+            self.further,
             make_html(write_heading("Stretch")),
             self.stretch,
             self.hold,
         ]
         controls = [self.file, self.upload, self.given]
-        return beside(controls, [self.problem.pane, self.found, self.figures.view, self.same])
+        return beside(controls, [self.problem.pane, self.found, self.case.view, self.figures.view, self.same])
 
     def show(self) -> None:
         """List the recordings, and show the chosen one if it is another one or has changed."""
-        names = self.desk.folder.list_recordings()
+        names = [*self.desk.folder.list_recordings(), *self.desk.folder.list_cases()]
         self.file.options = names if self.desk.recording in names else ["", *names]
         if self.desk.recording not in names:
             self.desk.recording = ""
@@ -109,6 +117,7 @@ class DataScreen(PageScreen):
         """Show a recording: first its columns, then what `init` says."""
         with self.problem.watch():
             path = self.desk.folder.find(self.desk.recording)
+            self.case.view.visible = self.desk.is_given
             now = (self.desk.recording, path.stat().st_mtime)
             if now == self.shown:
                 return
@@ -117,13 +126,23 @@ class DataScreen(PageScreen):
             run_next(lambda: self._read_recording(path))
 
     def _read_recording(self, path: Path) -> None:
-        """Show the columns of a recording, and thereafter what `init` says."""
+        """Show the columns of a recording, and thereafter what `init` says; or what a case file contains."""
         with self.problem.watch():
-            self.found.object = ""
+            self.found.object = self.same.object = ""
+            if self.desk.is_given:
+                self.given.visible = False
+                self.case.show()
+                self.desk.tell()
+                return
             table = read_table(path)
             self._offer_columns(table)
             self.given.visible = True
             self.figures.show_table(table, path.name)
+            if self.desk.is_robot:
+                self._offer_stretch()
+                self.found.object = write_note(ROBOT)
+                self.desk.tell()
+                return
             if self.desk.content:
                 self._restore()
             self.found.object = write_note("Looking for the roles of the columns ...")
@@ -169,6 +188,7 @@ class DataScreen(PageScreen):
             self.found.object = "".join([write_heading("What was read"), write_lines(draft.found), *notes])
             self.figures.column.value = self.response.choice.value
             self._offer_stretch()
+            self._offer_further()
             self._show_command(roles, gains)
             self.desk.tell()
 
@@ -180,6 +200,18 @@ class DataScreen(PageScreen):
         step = float(f"{(high - low) / 1000.0:.1g}")
         self.stretch.param.update(start=low, end=high, step=step, value=now)
         self.figures.mark(*now, self.desk.hold)
+
+    def _offer_further(self) -> None:
+        """Offer the other recordings of the folder."""
+        names = [name for name in self.desk.folder.list_recordings() if name != self.desk.recording]
+        self.further.param.update(options=names, value=[one for one in self.desk.list_further() if one in names])
+
+    def _add(self) -> None:
+        """Write the further recordings into the case."""
+        with self.problem.watch():
+            if self.desk.content and list(self.further.value) != self.desk.list_further():
+                self.desk.add_recordings(list(self.further.value))
+                self.desk.tell()
 
     def _mark(self, _: Any) -> None:
         """Keep the stretch in the case, and shade what is held out."""

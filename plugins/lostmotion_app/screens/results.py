@@ -11,12 +11,13 @@ import panel as pn
 import lostmotion
 from lostmotion.diagnosis.guest_sections import find_sections
 from lostmotion.diagnosis.report import diagnosis_page, opening
-from lostmotion.diagnosis.report.page_data import Evidence
 from lostmotion.diagnosis.report.top_tables import make_mechanism_table, make_number_table
 from lostmotion.notebook.diagnosis_result import DiagnosisResult
+from lostmotion.notebook.robot_objects import RobotResult
 from lostmotion.report import style
 from lostmotion.report.pages import Grid, PageSection
 from lostmotion.report.words import percent, sentence, to_words, typeset
+from lostmotion.robots import arm_page
 from lostmotion.storage import load_json
 from lostmotion_app.desk import DIAGNOSIS, Desk
 from lostmotion_app.found_figures import MissingForce, SwitchedPrediction
@@ -35,6 +36,8 @@ from lostmotion_app.sections import write_grid, write_sections
 
 ELSEWHERE = ("prediction", "missing")
 """Sections of the report that this screen has in another form."""
+FIRST = ("joints", "ranking")
+"""The section that is seen first, for machines and for robots."""
 MOST_EARLIER = 30
 
 
@@ -49,7 +52,8 @@ class ResultsScreen(PageScreen):
         self.section = pn.widgets.Select(name="Section of the report", width=320)
         self.answer, self.drawn, self.earlier, self.same = (make_html() for _ in range(4))
         self.prediction, self.missing = SwitchedPrediction(), MissingForce()
-        self.found: DiagnosisResult | None = None
+        self.found: DiagnosisResult | RobotResult | None = None
+        self.sections: tuple[PageSection[Any], ...] = ()
         self.shown: tuple[str, float] = ("", 0.0)
         self.choice.param.watch(lambda _: self._open(), "value")
         self.section.param.watch(lambda _: self._draw_section(), "value")
@@ -90,22 +94,25 @@ class ResultsScreen(PageScreen):
                 run_next(lambda: self._show_result(folder))
 
     def _show_result(self, folder: Path) -> None:
-        self.found = None
-        sections: tuple[PageSection[Evidence], ...] = ()
+        self.found, self.sections = None, ()
+        guests: tuple[str, ...] = ()
         with self.problem.watch():
-            found = lostmotion.load(folder)
+            self.found = found = lostmotion.load(folder)
             self.answer.object = write_answer([typeset(one) for one in found.says])
-            if isinstance(found, DiagnosisResult):
-                self.found = found
-                self.answer.object += write_summary(found)
-                sections = tuple(one for one in diagnosis_page.SECTIONS if one.name not in ELSEWHERE)
-            self.prediction.show(self.found, folder, self.desk.registry)
-            self.missing.show(self.found)
-        titles = {str(one.title) if isinstance(one.title, str) else one.name: one.name for one in sections}
-        if sections:
-            titles |= {sentence(to_words(name)): name for name in find_sections(self.desk.registry)}
+            plain = found if isinstance(found, DiagnosisResult) else None
+            if plain is None:
+                self.sections = arm_page.SECTIONS
+            else:
+                self.answer.object += write_summary(plain)
+                self.sections = tuple(one for one in diagnosis_page.SECTIONS if one.name not in ELSEWHERE)
+                guests = tuple(find_sections(self.desk.registry))
+            self.prediction.show(plain, folder, self.desk.registry)
+            self.missing.show(plain)
+        titles = {one.title if isinstance(one.title, str) else one.name: one.name for one in self.sections}
+        titles |= {sentence(to_words(guest)): guest for guest in guests}
         self.section.visible = bool(titles)
-        self.section.options, self.section.value = titles, titles.get("Ranking of the candidates")
+        self.section.options = titles
+        self.section.value = next((name for name in FIRST if name in titles.values()), None)
         self.same.object = write_command(
             "lostmotion", "diagnose", "CASE.toml", "--out", self.desk.folder.name_of(folder)
         )
@@ -116,10 +123,12 @@ class ResultsScreen(PageScreen):
         if self.found is None or not self.section.value:
             return
         with self.problem.watch():
-            evidence, name = self.found.evidence, str(self.section.value)
-            chosen = [one for one in diagnosis_page.SECTIONS if one.name == name]
+            found, name = self.found, str(self.section.value)
+            chosen = [one for one in self.sections if one.name == name]
             guests = {name: find_sections(self.desk.registry)[name]} if not chosen else {}
-            drawn = write_sections(chosen, evidence, evidence.result.units.angle, guests)
+            angle = found.result.units.angle if isinstance(found, DiagnosisResult) else "rad"
+            evidence: Any = found.evidence
+            drawn = write_sections(chosen, evidence, angle, guests)
             self.drawn.object = drawn or write_note("This result has nothing to show here.")
 
     def _compare(self, names: Sequence[str]) -> None:

@@ -33,7 +33,7 @@ class RunScreen(PageScreen):
         about = "The job is a process of its own: it goes on when this page is closed. Cancel gives the answer so far."
         options = pn.FlexBox(self.budget.widget, self.seed.widget, sizing_mode="stretch_width")
         for field in (self.budget, self.seed):
-            field.widget.param.watch(lambda _: self._refresh(), "value")
+            field.widget.param.watch(lambda _: self.jobs.refresh(), "value")
         return pn.Column(
             make_html(write_note(about)), options, self.problem.pane, self.jobs.make_view(self.earlier),
             sizing_mode="stretch_width",
@@ -42,12 +42,8 @@ class RunScreen(PageScreen):
     def show(self) -> None:
         """Show the newest diagnosis of the case."""
         self.jobs.watched = None
-        self._refresh()
+        self.jobs.refresh()
         self._list_earlier()
-
-    def _refresh(self) -> None:
-        with self.problem.watch():
-            self.jobs.refresh()
 
     def _list_options(self) -> Sequence[str]:
         budget, seed = self.budget.value, self.seed.value
