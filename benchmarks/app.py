@@ -34,6 +34,7 @@ SIMULATED = (
 )  # fmt: skip
 ERROR = "(words().match(/free runs: [^0-9]*([0-9.e-]+) %/) || [])[1]"
 PANEL = "Bokeh.documents[0].get_model_by_name('panel 0')"
+UNITS = {"m": "kg", "k0": "N/m", "k1": "N/m"}
 PATIENCE = 900.0
 
 
@@ -116,7 +117,35 @@ def measure(folder: Path) -> None:
         change_tried(browser, "ArrowRight")
         with timed(f"a parameter to the new prediction, {SAMPLES} samples", server, "0.5 s"):
             change_tried(browser, "ArrowLeft")
+        for name, value in (("m", "1.0"), ("k0", "40000"), ("k1", "0")):
+            browser.choose(f"{name} ({UNITS[name]})", "known")
+            browser.type(f"{name}: value", value)
+        time.sleep(2.0)
+        browser.click("Next: Check")
+        browser.wait_for("It takes seconds.", PATIENCE)
+        with timed("check, whole library, with the start of its process", server, "5 s"):
+            press(browser, "Check")
+            browser.wait_for("check-1: done", PATIENCE)
+        browser.click("Run")
+        browser.wait_for("a process of its own", PATIENCE)
+        browser.type("Budget in s of processor time (--budget)", "20")
+        press(browser, "Diagnose")
+        browser.wait_for("diagnose-1: done", PATIENCE)
+        browser.click("Results")
+        browser.wait_for("with ticked terms ", PATIENCE)
+        browser.wait(ERROR, PATIENCE)
+        before = browser.evaluate(ERROR)
+        with timed(f"a term switched off, {SAMPLES} samples", server, "0.5 s"):
+            browser.evaluate("(all(document).find((e) => e.type === 'checkbox' && seen(e)).click(), true)")
+            browser.wait(f"{ERROR} !== {before!r}", PATIENCE)
     server.process.kill()
+
+
+def press(browser: Chromium, text: str) -> None:
+    """Press a button, where a tab has the same name."""
+    browser.evaluate(
+        f"(all(document).filter((e) => e.tagName === 'BUTTON' && seen(e) && said(e) === {text!r}).pop().click(), true)"
+    )
 
 
 def zoom(browser: Chromium) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -11,10 +12,12 @@ from bokeh.models import ColumnDataSource
 
 from lostmotion.diagnosis.report.missing import COVARIATE_NAMES, get_curve
 from lostmotion.diagnosis.tried_model import TriedModel
+from lostmotion.likelihood.observation import Observation
 from lostmotion.notebook.diagnosis_result import DiagnosisResult
 from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import Registry
 from lostmotion.report import style
+from lostmotion.report.words import sentence
 from lostmotion_app.curves import Array, CurvePanels, colour_of, format_legend, make_figure
 from lostmotion_app.parts import ProblemBox, make_html, name_key, write_errors, write_heading
 from lostmotion_app.recorded_figures import POINTS, label_of
@@ -55,22 +58,26 @@ class SwitchedPrediction:
         self.view.visible = found is not None and found.evidence.has("time", "response")
         if found is None or not self.view.visible:
             return
-        self._draw(found)
+        panels = self._draw(found)
         machine, case = found.result.machine, folder / CASE
-        keys = {name_key(term.key): term.key for term in machine.terms if term.key not in machine.learned}
+        keys = {sentence(name_key(term.key)): term.key for term in machine.terms if term.key not in machine.learned}
         self.terms.visible = bool(keys) and case.is_file()
         self.head.object = write_heading("Prediction of held-out data")
         self.error.object = ""
         if self.terms.visible:
             with self.problem.watch():
-                self.tried = TriedModel.of(prepare(case, registry, found.evidence.settings), end=True)
+                prepared = prepare(case, registry, found.evidence.settings)
+                arrays = found.evidence.arrays
+                number = find_recording(prepared.observations, arrays["time"], arrays["response"])
                 self.terms.param.update(options=keys, value=list(keys.values()))
+                self.tried = TriedModel.of(prepared, number=number, end=True)
                 self._predict()
         else:
             self._replace(found.evidence.arrays.get("forecast_after", NOTHING))
+        self.figure[:] = [pn.pane.Bokeh(one, sizing_mode="stretch_width", margin=(0, 2)) for one in panels]
 
-    def _draw(self, found: DiagnosisResult) -> None:
-        """Draw the recording and the stored prediction of the nominal model."""
+    def _draw(self, found: DiagnosisResult) -> tuple[Any, Any]:
+        """Return figures with the recording and the stored prediction of the nominal model, and their difference."""
         arrays, evidence = found.evidence.arrays, found.evidence
         time, held = arrays["time"], arrays.get("heldout", np.ones_like(arrays["time"])) > 0.0
         self.curves = CurvePanels("time (s)")
@@ -87,7 +94,7 @@ class SwitchedPrediction:
         format_legend(panel)
         first = int(np.argmax(held))
         self.curves.fit_range(float(time[first]), float(time[min(first + SHOWN, len(time) - 1)]))
-        self.figure[:] = [pn.pane.Bokeh(one, sizing_mode="stretch_width", margin=(0, 2)) for one in (panel, rest)]
+        return panel, rest
 
     def _predict(self) -> None:
         """Predict with the terms that are ticked."""
@@ -110,6 +117,16 @@ class SwitchedPrediction:
             time, recorded = self.found.evidence.arrays["time"], self.found.evidence.arrays["response"]
             self.curves.replace(self.line, time, forecast)
             self.curves.replace(self.rest, time, recorded - forecast)
+
+
+def find_recording(observations: Sequence[Observation], time: Array, response: Array) -> int:
+    """Return the number of the recording to which readings (n,) of the first sensor belong, at a time (n,) in s."""
+    distances = []
+    for one in observations:
+        first = int(np.searchsorted(one.time, time[0] - 0.5 * one.dt))
+        part = one.readings[first : first + len(time), 0]
+        distances.append(float(np.nanmean((part - response) ** 2)) if len(part) == len(time) else np.inf)
+    return int(np.argmin(distances))
 
 
 class MissingForce:

@@ -39,9 +39,8 @@ class GivenCase:
         self.told.object = "".join(parts)
         self.agree.param.update(visible=bool(files), value=self.desk.recording in self.desk.agreed)
         names = [row[0] for row in rows]
-        self.choice.options = names
-        self.choice.value = names[0] if names else None
-        self._draw()
+        self.choice.param.update(options=names, value=None)
+        self.choice.value = names[0] if names else None  # which draws it
 
     def _agree(self, *, agreed: bool) -> None:
         (self.desk.agreed.add if agreed else self.desk.agreed.discard)(self.desk.recording)

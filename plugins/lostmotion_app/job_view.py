@@ -7,6 +7,7 @@ from typing import Any
 
 import panel as pn
 
+from lostmotion.report.words import sentence
 from lostmotion_app.desk import CASE, Desk
 from lostmotion_app.jobs import OUT, Job, Progress, begin_job, list_jobs
 from lostmotion_app.parts import (
@@ -171,4 +172,4 @@ def write_weighed(weighed: Mapping[tuple[str, ...], float]) -> str:
 
 def name_set(terms: Sequence[str]) -> str:
     """Return a set of terms in words."""
-    return " and ".join(name_key(key) for key in terms) or "Nothing"
+    return sentence(" and ".join(map(name_key, terms))) or "Nothing"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import logging
 from collections.abc import Mapping
 from importlib import import_module
 from pathlib import Path
@@ -15,7 +16,7 @@ from lostmotion.registry import Registry
 from lostmotion_app.desk import Desk
 from lostmotion_app.folder import WorkFolder
 from lostmotion_app.look import Look
-from lostmotion_app.parts import STYLE, is_dark, make_html, run_next
+from lostmotion_app.parts import STYLE, ProblemBox, is_dark, make_html, run_next
 from lostmotion_app.policy import POLICY
 from lostmotion_app.screens import PageScreen
 from lostmotion_app.screens.guest import GuestScreen, list_guests
@@ -32,6 +33,7 @@ SCREENS: Mapping[str, str] = {
 """The screens by their titles; each is imported when it is opened, so that the first one is there soon."""
 WAY = tuple(SCREENS)[:6]
 """The screens from a recording to an answer, in their order."""
+LOG = logging.getLogger("lostmotion.app")
 BEGINNING = 50
 """Milliseconds after which the first screen is filled: the browser is connected then."""
 _TEMPLATE = (Path(__file__).parent / "page.html.j2").read_text(encoding="utf-8")
@@ -42,7 +44,7 @@ class Page:
 
     def __init__(self, desk: Desk) -> None:
         self.desk, self.screens = desk, dict[str, PageScreen]()
-        self.head, self.guests = make_html(), list_guests(desk)
+        self.head, self.fault, self.guests = make_html(), ProblemBox(), list_guests(desk)
         self.titles = [*SCREENS, *self.guests]
         self.tabs = pn.Tabs(
             *((title, pn.Column(sizing_mode="stretch_width")) for title in self.titles),
@@ -62,7 +64,7 @@ class Page:
     @property
     def view(self) -> Any:
         """The head of the page above its screens."""
-        return pn.Column(self.head, self.tabs, sizing_mode="stretch_width")
+        return pn.Column(self.head, self.fault.pane, self.tabs, sizing_mode="stretch_width")
 
     def begin(self) -> None:
         """Show the state of the first screen, as soon as the page is there."""
@@ -73,8 +75,14 @@ class Page:
         """Show what has changed."""
         self._write_head()
 
+    def tell_fault(self, err: Exception) -> None:
+        """Show an error that no screen expects, and log where it was."""
+        LOG.error("the page failed", exc_info=err)
+        self.fault.tell(f"This failed ({type(err).__name__}: {err}). It is a fault of the page: please report it.")
+
     def _open(self) -> None:
         """Show the screen that was chosen; Bokeh knows its models before they change."""
+        self.fault.tell("")
         self._fill()
         run_next(self.begin)
 
@@ -113,6 +121,7 @@ def make_page(folder: WorkFolder, registry: Registry, plugins: tuple[str, ...]) 
     """Return the page of a folder for one browser."""
     pn.config.design, pn.config.theme = Look, "dark" if read_query("theme") == "dark" else "default"
     page = Page(Desk(folder, registry, plugins, read_query("recording")))
+    pn.config.exception_handler = page.tell_fault
     made = pn.Template(_TEMPLATE, theme=DarkTheme if is_dark() else DefaultTheme)
     made.add_variable("policy", POLICY)
     made.add_variable("app_favicon", "data:,")

@@ -12,7 +12,7 @@ from typing import Any
 import panel as pn
 
 from lostmotion.errors import CaseError, LostMotionError
-from lostmotion.report.words import sentence, to_words
+from lostmotion.report.words import to_words
 
 STYLE = (Path(__file__).parent / "page.css").read_text(encoding="utf-8")
 GAP = 8
@@ -34,7 +34,7 @@ def is_dark() -> bool:
 def name_key(key: str) -> str:
     """Return the key of a term in words, with its place where the key has one: "coulomb_friction@joint"."""
     name, _, at = key.partition("@")
-    return sentence(to_words(name)) + (f" ({at})" if at else "")
+    return to_words(name) + (f" ({at})" if at else "")
 
 
 def write_heading(text: str) -> str:
@@ -70,7 +70,8 @@ def write_table(head: Sequence[str], rows: Sequence[Sequence[str]], bars: Sequen
         cells = "".join(f"<td>{html.escape(cell)}</td>" for cell in row)
         if bars:
             width = 100.0 * min(max(bars[number], 0.0), 1.0)
-            cells += f'<td class="lm-bars"><span class="lm-bar" style="width: {width:.1f}%"></span></td>'
+            bar = f'<span class="lm-bar" style="width: {width:.1f}%"></span>' if width else ""
+            cells += f'<td class="lm-bars">{bar}</td>'
         body.append(f"<tr>{cells}</tr>")
     return f'<div class="lm-wide"><table><tr>{top}</tr>{"".join(body)}</table></div>'
 

@@ -64,7 +64,8 @@ class RecordedFigures:
             panel = self.curves.add_panel(label_of(name, self.units.get(name, "")))
             self.curves.add_curve(panel, self.time, values, colour=style.RECORDED)
         self.curves.fit_range(*self.span)
-        outer = self.curves.shade(*self.span), self.curves.shade(*self.span), self.curves.shade(*self.span)
+        nothing = (self.span[0], self.span[0])
+        outer = self.curves.shade(*nothing), self.curves.shade(*nothing), self.curves.shade(*nothing)
         self.boxes = list(zip(*outer, strict=True))
         names = list(self.columns)
         self.column.options, self.column.value = names, names[-1] if names else None

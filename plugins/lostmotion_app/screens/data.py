@@ -38,7 +38,7 @@ class DataScreen(PageScreen):
 
     def __init__(self, desk: Desk) -> None:
         super().__init__(desk)
-        self.shown = ("", 0.0)
+        self.shown = ("", 0.0, False)
         self.file = pn.widgets.Select(name="Recording or case file", sizing_mode="stretch_width")
         self.upload = pn.widgets.FileInput(
             name=f"Or drop a file, to copy it here (at most {MOST_UPLOADED // 2**20} MiB)",
@@ -101,7 +101,7 @@ class DataScreen(PageScreen):
 
     def _choose(self, event: Any) -> None:
         self.desk.recording = event.new or ""
-        self.shown = ("", 0.0)
+        self.shown = ("", 0.0, False)
         if self.desk.recording:
             self._show_recording()
 
@@ -118,7 +118,7 @@ class DataScreen(PageScreen):
         with self.problem.watch():
             path = self.desk.folder.find(self.desk.recording)
             self.case.view.visible = self.desk.is_given
-            now = (self.desk.recording, path.stat().st_mtime)
+            now = (self.desk.recording, path.stat().st_mtime, self.desk.is_robot)
             if now == self.shown:
                 return
             self.shown = now

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -97,9 +98,10 @@ class ModelScreen(PageScreen):
                 return
             self.tried, self.rows, self.same.object = None, [], ""
             self.table[:], self.figures[:] = [], []
+            self.error.object = ""
+            self._restore(content.get("model", {}))
             self.desk.require_agreed()
             self.shown = now
-            self._restore(content.get("model", {}))
             if not self.desk.recording:
                 self.error.object = write_note("Choose a recording on the screen Data first.")
             elif not content:
@@ -159,7 +161,7 @@ class ModelScreen(PageScreen):
             elif self.kind.value == ROBOT:
                 if not self.robot.value:
                     raise CaseError("the folder has no MJCF or URDF file: copy one into it")
-                self.desk.draft_robot(str(self.robot.value), SIDES[str(self.torque.value)])
+                self.desk.draft_robot(str(self.robot.value), str(self.torque.value))
             elif lines := self._check_equations(self.equations.value):
                 self.desk.redraft(";".join(lines))
             self.desk.tell()
@@ -173,9 +175,11 @@ class ModelScreen(PageScreen):
             self.tried = TriedModel.of(prepared)
             model, content = prepared.model, self.desk.content["model"]
             self.rows = [ParameterRow(param, model.motion, content, self._change) for param in model.params]
-            self.table[:] = [make_html(write_heading("Parameters")), *(row.view for row in self.rows)]
-            self._make_figures()
+            panels = self._make_panels(self.tried)
             self._predict()
+            # A figure that changes in the step in which it is sent may arrive after its change: so it is sent last.
+            self.table[:] = [make_html(write_heading("Parameters")), *(row.view for row in self.rows)]
+            self.figures[:] = [pn.pane.Bokeh(panel, sizing_mode="stretch_width", margin=(0, 2)) for panel in panels]
 
     def _change(self) -> None:
         """Keep changed values and priors in the case, and predict again."""
@@ -202,12 +206,9 @@ class ModelScreen(PageScreen):
             self._draw(found)
             self._show_same()
 
-    def _make_figures(self) -> None:
-        """Make one figure for each sensor."""
-        if self.tried is None:
-            return
-        observation = self.tried.problem.observations[0]
-        motion = self.tried.problem.system.model.motion
+    def _make_panels(self, tried: TriedModel) -> list[Any]:
+        """Return figures for each sensor: recording and prediction, and their difference."""
+        observation, motion = tried.problem.observations[0], tried.problem.system.model.motion
         empty, panels, self.curves = np.zeros(0), [], []
         curves = CurvePanels("time (s)")
         for number, sensor in enumerate(observation.sensors):
@@ -223,7 +224,7 @@ class ModelScreen(PageScreen):
             self.curves.append((curves, line, off))
         last = observation.time[0] + min(len(observation.time), SHOWN) * observation.dt
         curves.fit_range(float(observation.time[0]), float(last))
-        self.figures[:] = [pn.pane.Bokeh(panel, sizing_mode="stretch_width", margin=(0, 2)) for panel in panels]
+        return panels
 
     def _draw(self, found: TriedPrediction) -> None:
         for number, (curves, line, off) in enumerate(self.curves):
@@ -242,6 +243,6 @@ class ModelScreen(PageScreen):
 
 def write_robot(content: dict[str, Any]) -> str:
     """Return the joints of the case of a robot with their columns, as HTML."""
-    rows = list(list_recordings(content))
+    rows = [[Path(file).name, *rest] for file, *rest in list_recordings(content)]
     about = "Robots have no prediction here and no check. Run looks at signs, units and clocks before any fit."
     return write_table(["Log", "Torques", "Positions and velocities"], rows) + write_note(about)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from datetime import datetime
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,7 @@ from lostmotion.notebook.diagnosis_result import DiagnosisResult
 from lostmotion.notebook.robot_objects import RobotResult
 from lostmotion.report import style
 from lostmotion.report.pages import Grid, PageSection
-from lostmotion.report.words import percent, sentence, to_words, typeset
+from lostmotion.report.words import format_quantity, percent, sentence, to_words, typeset
 from lostmotion.robots import arm_page
 from lostmotion.storage import load_json
 from lostmotion_app.desk import DIAGNOSIS, Desk
@@ -61,8 +62,8 @@ class ResultsScreen(PageScreen):
     def make_view(self) -> Any:
         """Return the parts of the screen below each other."""
         return pn.Column(
-            self.choice, self.problem.pane, self.answer, self.prediction.view, self.missing.view, self.section,
-            self.drawn, self.earlier, self.same, sizing_mode="stretch_width",
+            self.choice, self.problem.pane, self.earlier, self.answer, self.prediction.view, self.missing.view,
+            self.section, self.drawn, self.same, sizing_mode="stretch_width",
         )  # fmt: skip
 
     def show(self) -> None:
@@ -136,10 +137,14 @@ class ResultsScreen(PageScreen):
         rows = []
         for name in names[:MOST_EARLIER]:
             with self.problem.watch():
-                content = load_json(self.desk.folder.find(name) / DIAGNOSIS, "run `lostmotion diagnose` again")
-                rows.append([name, *describe_result(content)])
-        head = ["Result", "Verdict", "Found", "Error before", "Error after"]
-        self.earlier.object = write_heading("Results in this folder") + write_table(head, rows) if rows else ""
+                file = self.desk.folder.find(name) / DIAGNOSIS
+                content = load_json(file, "run `lostmotion diagnose` again")
+                made = datetime.fromtimestamp(file.stat().st_mtime).strftime("%d %b %H:%M")
+                rows.append([name, made, *describe_result(content)])
+        head = ["Result", "Made", "Verdict", "Found", "Parameters", "Error before", "Error after"]
+        several = len(rows) > 1
+        title = write_heading("Results in this folder, side by side")
+        self.earlier.object = title + write_table(head, rows) if several else ""
 
 
 def write_summary(found: DiagnosisResult) -> str:
@@ -155,8 +160,23 @@ def write_summary(found: DiagnosisResult) -> str:
 
 
 def describe_result(content: Any) -> list[str]:
-    """Return verdict, findings and errors of free runs of a stored result, in words."""
-    found = ", ".join(str(one.get("mechanism", "")) for one in content.get("found", ()))
+    """Return verdict, findings, parameters and errors of free runs of a stored result, in words."""
+    found = [
+        f"{sentence(to_words(str(one.get('mechanism', ''))))}: {list_medians(one.get('parameters', {}))}"
+        for one in content.get("found", ())
+    ]
+    after = content.get("parameters", {}).get("after", {})
+    own = list_medians({name: one for name, one in after.items() if "." not in name})
     fit = content.get("fit", {})
     errors = [fit.get(key, {}).get("heldout_nrmse") for key in ("before", "after")]
-    return [str(content.get("verdict", "")), found, *(percent(one) if one is not None else "" for one in errors)]
+    return [
+        str(content.get("verdict", "")), "; ".join(found) or "nothing", own,
+        *(percent(one) if one is not None else "" for one in errors),
+    ]  # fmt: skip
+
+
+def list_medians(parameters: Mapping[str, Any]) -> str:
+    """Return the medians of parameters with their units, in words."""
+    told = (f"{to_words(name)} {format_quantity(one['median'], one['unit'])}" for name, one in parameters.items()
+            if isinstance(one, Mapping))  # fmt: skip
+    return ", ".join(told)
