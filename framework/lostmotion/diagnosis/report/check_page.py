@@ -66,11 +66,10 @@ def summarise_check(expected: Expectation, improvements: Sequence[Improvement], 
     with angles_in(angle):
         says = [*_list_interval_sentences(expected), *list_effect_sentences(expected)]
     if improvements:
-        says += [
-            f"It would help to {one.change[:1].lower()}{one.change[1:]}: intervals {_compare(one.intervals, 'narrower', 'wider')}, smallest sizes"
-            f" {_compare(one.effects, 'smaller', 'larger')}."
-            for one in improvements
-        ]
+        for one in improvements:
+            change = one.change[:1].lower() + one.change[1:]
+            widths, sizes = _compare(one.intervals, "narrower", "wider"), _compare(one.effects, "smaller", "larger")
+            says.append(f"It would help to {change}: intervals {widths}, smallest sizes {sizes}.")
     return tuple(says)
 
 
