@@ -12,7 +12,7 @@ from bokeh.models import BasicTickFormatter, BoxAnnotation, ColumnDataSource, Ra
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
-from lostmotion.report import style
+from lostmotion.report import colours
 from lostmotion_app.parts import is_dark
 
 Array = NDArray[np.float64]
@@ -22,7 +22,7 @@ HEIGHT = 150
 SMALLEST = -5
 """The power of ten from which numbers at an axis are written without an exponent."""
 TOOLS = "xbox_zoom,xpan,xwheel_zoom,reset,save"
-_DARK = {style.RECORDED: "#e8e8e8", style.AFTER: "#56b4e9", style.LAW: "#00b37a"}
+_DARK = {colours.RECORDED: "#e8e8e8", colours.AFTER: "#56b4e9", colours.LAW: "#00b37a"}
 
 
 def colour_of(colour: str) -> str:

@@ -70,6 +70,7 @@ class Page:
         """Show the state of the first screen, as soon as the page is there."""
         self.screens[self.title].show()
         self._write_head()
+        run_next(load_ahead)
 
     def tell(self) -> None:
         """Show what has changed."""
@@ -129,6 +130,11 @@ def make_page(folder: WorkFolder, registry: Registry, plugins: tuple[str, ...]) 
     made.add_panel("page", page.view)
     pn.state.onload(lambda: pn.state.add_periodic_callback(page.begin, period=BEGINNING, count=1))
     return made
+
+
+def load_ahead() -> None:
+    """Import what the figures of a recording need, while the user looks at the first screen: it takes 0.5 s."""
+    import_module("lostmotion.signals")
 
 
 def read_query(key: str) -> str:

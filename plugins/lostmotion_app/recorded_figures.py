@@ -7,14 +7,12 @@ from typing import Any
 import numpy as np
 import panel as pn
 from bokeh.models import ColumnDataSource
-from scipy.signal import savgol_filter
 
 from lostmotion.errors import DataError
 from lostmotion.recording.clock import find_time
 from lostmotion.recording.table import Table
 from lostmotion.recording.value_checks import fill_lost
-from lostmotion.report import style
-from lostmotion.signals import spectrum
+from lostmotion.report import colours
 from lostmotion_app.curves import Array, CurvePanels, abreast, colour_of, make_figure, thin
 from lostmotion_app.parts import make_html, write_note
 
@@ -47,8 +45,8 @@ class RecordedFigures:
         )  # fmt: skip
         self.phase = make_figure("", "", height=260, tools="pan,wheel_zoom,box_zoom,reset,save")
         self.lines = (ColumnDataSource({"x": [], "y": []}), ColumnDataSource({"x": [], "y": []}))
-        self.spectrum.line("x", "y", source=self.lines[0], color=colour_of(style.AFTER))
-        self.phase.scatter("x", "y", source=self.lines[1], color=colour_of(style.AFTER), size=2, alpha=0.5)
+        self.spectrum.line("x", "y", source=self.lines[0], color=colour_of(colours.AFTER))
+        self.phase.scatter("x", "y", source=self.lines[1], color=colour_of(colours.AFTER), size=2, alpha=0.5)
         self.column = pn.widgets.Select(name="Spectrum and phase plane of", width=260)
         self.column.param.watch(lambda _: self._show_column(), "value")
 
@@ -62,7 +60,7 @@ class RecordedFigures:
         self.curves, self.boxes = CurvePanels(label), []
         for name, values in self.columns.items():
             panel = self.curves.add_panel(label_of(name, self.units.get(name, "")))
-            self.curves.add_curve(panel, self.time, values, colour=style.RECORDED)
+            self.curves.add_curve(panel, self.time, values, colour=colours.RECORDED)
         self.curves.fit_range(*self.span)
         nothing = (self.span[0], self.span[0])
         outer = self.curves.shade(*nothing), self.curves.shade(*nothing), self.curves.shade(*nothing)
@@ -82,7 +80,7 @@ class RecordedFigures:
         held = end - hold * (end - start)
         for before, kept, after in self.boxes:
             before.update(left=self.span[0], right=start, fill_color="#7f7f7f", fill_alpha=0.35)
-            kept.update(left=held, right=end, fill_color=style.AFTER, fill_alpha=0.10)
+            kept.update(left=held, right=end, fill_color=colours.AFTER, fill_alpha=0.10)
             after.update(left=end, right=self.span[1], fill_color="#7f7f7f", fill_alpha=0.35)
 
     def _show_column(self) -> None:
@@ -92,6 +90,10 @@ class RecordedFigures:
             for one in self.lines:
                 one.data = {"x": [], "y": []}
             return
+        from scipy.signal import savgol_filter
+
+        from lostmotion.signals import spectrum
+
         even, dt = fill_lost(values), float(np.median(np.diff(self.time)))
         found = spectrum(even, dt, segments=8)
         at, density = thin(found.frequency[1:], found.density[1:], 0.0, np.inf)

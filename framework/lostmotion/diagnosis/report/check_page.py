@@ -65,11 +65,10 @@ def summarise_check(expected: Expectation, improvements: Sequence[Improvement], 
     """Return the result of a check in sentences, with angles in the unit `angle`."""
     with angles_in(angle):
         says = [*_list_interval_sentences(expected), *list_effect_sentences(expected)]
-    if improvements:
-        for one in improvements:
-            change = one.change[:1].lower() + one.change[1:]
-            widths, sizes = _compare(one.intervals, "narrower", "wider"), _compare(one.effects, "smaller", "larger")
-            says.append(f"It would help to {change}: intervals {widths}, smallest sizes {sizes}.")
+    for one in improvements:
+        change = one.change[:1].lower() + one.change[1:]
+        widths, sizes = _compare(one.intervals, "narrower", "wider"), _compare(one.effects, "smaller", "larger")
+        says.append(f"It would help to {change}: intervals {widths}, smallest sizes {sizes}.")
     return tuple(says)
 
 
