@@ -34,8 +34,11 @@ SIMULATED = (
 )  # fmt: skip
 ERROR = "(words().match(/free runs: [^0-9]*([0-9.e-]+) %/) || [])[1]"
 PANEL = "Bokeh.documents[0].get_model_by_name('panel 0')"
+KNOWN = {"m": "1", "k0": "40000", "k1": "0"}
 UNITS = {"m": "kg", "k0": "N/m", "k1": "N/m"}
 PATIENCE = 900.0
+SETTLED = 4.0
+"""Seconds after which a screen has drawn all its figures."""
 
 
 class Server:
@@ -117,15 +120,14 @@ def measure(folder: Path) -> None:
         change_tried(browser, "ArrowRight")
         with timed(f"a parameter to the new prediction, {SAMPLES} samples", server, "0.5 s"):
             change_tried(browser, "ArrowLeft")
-        for name, value in (("m", "1.0"), ("k0", "40000"), ("k1", "0")):
-            browser.choose(f"{name} ({UNITS[name]})", "known")
-            browser.type(f"{name}: value", value)
-        time.sleep(2.0)
+        enter_known(browser)
         browser.click("Next: Check")
         browser.wait_for("It takes seconds.", PATIENCE)
         with timed("check, whole library, with the start of its process", server, "5 s"):
             press(browser, "Check")
             browser.wait_for("check-1: done", PATIENCE)
+        told = browser.evaluate("words().match(/check-1: done, ([0-9]+ s), ([0-9]+ s) of processor time/).slice(1)")
+        print(f"| the process of this check, its imports included | | {told[0]} | {told[1]} (its own) |", flush=True)
         browser.click("Run")
         browser.wait_for("a process of its own", PATIENCE)
         browser.type("Budget in s of processor time (--budget)", "20")
@@ -134,6 +136,7 @@ def measure(folder: Path) -> None:
         browser.click("Results")
         browser.wait_for("with ticked terms ", PATIENCE)
         browser.wait(ERROR, PATIENCE)
+        time.sleep(SETTLED)
         before = browser.evaluate(ERROR)
         with timed(f"a term switched off, {SAMPLES} samples", server, "0.5 s"):
             browser.evaluate("(all(document).find((e) => e.type === 'checkbox' && seen(e)).click(), true)")
@@ -173,27 +176,41 @@ def draw_pictures(folder: Path, out: Path) -> None:
         browser.open(server.address)
         browser.choose("Recording or case file", "short.csv")
         browser.wait_for("model: linear_oscillator", PATIENCE)
-        steps = {
-            "Model": "Prediction error of free runs",
-            "Run": "a process of its own",
-            "Results": "Missing force over",
-        }
         take(browser, out / "app_data.png")
-        for screen, text in steps.items():
-            browser.click(screen)
-            browser.wait_for(text, PATIENCE)
-            if screen == "Model":
-                browser.choose("Model", "lin_backlash")
-                browser.click("Use this model")
-                browser.wait_for("half gap", PATIENCE)
-                browser.wait(ERROR, PATIENCE)
-            if screen == "Run":
-                browser.click("Diagnose")
-                browser.wait_for("diagnose-1: done", PATIENCE)
-            take(browser, out / f"app_{screen.lower()}.png")
+        browser.click("Model")
+        browser.wait_for("Prediction error of", PATIENCE)
+        browser.choose("Model", "lin_backlash")
+        browser.click("Use this model")
+        browser.wait_for("half gap", PATIENCE)
+        enter_known(browser)
+        take(browser, out / "app_model.png")
+        browser.click("Next: Check")
+        browser.wait_for("It takes seconds.", PATIENCE)
+        press(browser, "Check")
+        browser.wait_for("check-1: done", PATIENCE)
+        take(browser, out / "app_check.png")
+        browser.click("Run")
+        browser.wait_for("a process of its own", PATIENCE)
+        press(browser, "Diagnose")
+        browser.wait(
+            "(words().match(/weighing/g) || []).length > 3 && words().includes('Explanations so far')", PATIENCE
+        )
+        take(browser, out / "app_run.png")
+        browser.wait_for("diagnose-1: done", PATIENCE)
+        browser.click("Results")
+        browser.wait_for("Missing force over", PATIENCE)
+        take(browser, out / "app_results.png")
     server.process.kill()
     for path in out.glob("app_*.png"):
         Image.open(path).convert("P", palette=Image.Palette.ADAPTIVE, colors=64).save(path, optimize=True)
+
+
+def enter_known(browser: Chromium) -> None:
+    """Enter the known values of the simulated machine."""
+    for name, value in KNOWN.items():
+        browser.choose(f"{name} ({UNITS[name]})", "known")
+        browser.type(f"{name}: value", value)
+    time.sleep(SETTLED)
 
 
 def take(browser: Chromium, path: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +30,7 @@ from lostmotion_app.parts import (
     write_errors,
     write_heading,
     write_lines,
+    write_list,
     write_note,
     write_table,
 )  # fmt: skip
@@ -156,16 +158,19 @@ class ModelScreen(PageScreen):
     def _use(self) -> None:
         """Write the case with the chosen model, with wide priors about the scales of the recording."""
         with self.problem.watch():
+            told: Sequence[str] = ()
             if self.kind.value == LIBRARY:
                 self.desk.redraft(str(self.name.value))
             elif self.kind.value == ROBOT:
                 if not self.robot.value:
                     raise CaseError("the folder has no MJCF or URDF file: copy one into it")
-                self.desk.draft_robot(str(self.robot.value), str(self.torque.value))
+                told = self.desk.draft_robot(str(self.robot.value), str(self.torque.value))
             elif lines := self._check_equations(self.equations.value):
                 self.desk.redraft(";".join(lines))
             self.desk.tell()
             self.show()
+            if told:
+                self.error.object += write_heading("Joints") + write_list(told)
 
     def _load(self) -> None:
         """Prepare the case, and show its parameters and the prediction."""
