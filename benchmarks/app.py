@@ -202,7 +202,7 @@ def draw_pictures(folder: Path, out: Path) -> None:
         take(browser, out / "app_results.png")
     server.process.kill()
     for path in out.glob("app_*.png"):
-        Image.open(path).convert("P", palette=Image.Palette.ADAPTIVE, colors=64).save(path, optimize=True)
+        Image.open(path).convert("P", palette=Image.Palette.ADAPTIVE, colors=160).save(path, optimize=True)
 
 
 def enter_known(browser: Chromium) -> None:

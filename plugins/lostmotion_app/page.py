@@ -112,8 +112,10 @@ class Page:
 
     def _write_head(self) -> None:
         desk, address = self.desk, pn.state.location
-        where = " · ".join(filter(None, (str(desk.folder.root), desk.recording)))
-        self.head.object = f'<div class="lm-head"><b>lostmotion</b><span>{html.escape(where)}</span></div>'
+        where = " · ".join(filter(None, (desk.folder.root.name, desk.recording)))
+        whole = html.escape(str(desk.folder.root), quote=True)
+        told = f'<span title="{whole}">{html.escape(where)}</span>'
+        self.head.object = f'<div class="lm-head"><b>lostmotion</b>{told}</div>'
         if address is not None:
             address.update_query(screen=self.title, recording=desk.recording)
 

@@ -153,7 +153,7 @@ def test_by_keyboard_alone(tmp_path, serve):
     server = serve(tmp_path)
     with Chromium() as browser:
         browser.open(server.address)
-        browser.wait_for("Recording")
+        browser.wait_for("Choose a recording of this folder.")
         for _ in range(30):
             browser.press("Tab", 9)
             time.sleep(0.02)
@@ -164,3 +164,13 @@ def test_by_keyboard_alone(tmp_path, serve):
         browser.send("Input.dispatchKeyEvent", type="keyUp", key="r", code="KeyR")
         browser.press("Tab", 9)
         browser.wait_for("rig.csv: 1400 rows at 200 Hz")
+        for _ in range(60):
+            browser.press("Tab", 9)
+            time.sleep(0.02)
+            if browser.evaluate("said(focused(document))") == "Data":
+                break
+        browser.press("ArrowRight", 39)
+        browser.wait_for("Prediction error of free runs")
+        browser.press("Tab", 9)
+        browser.press("Enter", 13)
+        browser.wait_for("It takes seconds.")
