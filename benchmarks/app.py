@@ -1,7 +1,7 @@
 """Times of the page: to the first screen, to the plot of a million rows, of a zoom, a parameter, a term, a check.
 
     python benchmarks/app.py                    all of them, wall time and processor time of the server
-    python benchmarks/app.py --pictures DIR     pictures of the screens, for docs/howto/app.md
+    python benchmarks/app.py --pictures DIR     pictures of five screens; docs/howto has those of Data, Run, Results
 
 It needs the extra `app` and Chromium. Wall times include the browser; on a machine with other work, the processor time
 of the server tells more.
