@@ -80,6 +80,7 @@ class CurvePanels:
     def __init__(self, label: str) -> None:
         self.label, self.range = label, Range1d(0.0, 1.0)
         self._curves: list[tuple[Any, Array, Array]] = []
+        self._span: tuple[float, float] | None = None
         self.panels: list[Any] = []
 
     def add_panel(self, label: str, *, height: int = HEIGHT) -> Any:
@@ -102,6 +103,7 @@ class CurvePanels:
 
     def fit_range(self, low: float, high: float) -> None:
         """Show the curves between two values."""
+        self._span = None
         self.range.update(start=low, end=high, reset_start=low, reset_end=high)
         self._redraw(low, high)
 
@@ -120,6 +122,10 @@ class CurvePanels:
         self._draw(line.data_source, x, y)
 
     def _redraw(self, low: float, high: float) -> None:
+        """Draw all curves between two values; each panel tells of a new range, and the first one is sufficient."""
+        if self._span == (low, high):
+            return
+        self._span = (low, high)
         for source, x, y in self._curves:
             self._draw(source, x, y, (low, high))
 
@@ -132,7 +138,7 @@ class CurvePanels:
 def format_legend(panel: Any) -> None:
     """Put the legend of a panel above it, in one line; a click hides a curve."""
     for legend in panel.legend:
-        legend.ncols = "auto"
+        legend.ncols = 3  # as many as a phone is wide
         legend.orientation, legend.click_policy, legend.background_fill_alpha = "horizontal", "hide", 0.0
         legend.border_line_color, legend.label_text_font_size, legend.padding = None, "12px", 2
         legend.label_text_color = "#cccccc" if is_dark() else "#222222"

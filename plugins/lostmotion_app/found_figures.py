@@ -135,12 +135,12 @@ class MissingForce:
     def __init__(self) -> None:
         self.coordinate = pn.widgets.Select(name="Missing force over", width=240)
         self.figure = make_figure("", "", height=280, tools="pan,wheel_zoom,box_zoom,reset,save")
-        made = (("missing force", style.BEFORE), ("left with found terms", style.AFTER))
+        made = (("missing force", style.BEFORE), ("left over", style.AFTER))
         self.samples = [ColumnDataSource({"x": [], "y": []}) for _ in made]
         self.means = [ColumnDataSource({"x": [], "y": []}) for _ in range(3)]
         for source, (name, colour) in zip(self.samples, made, strict=True):
             self.figure.scatter("x", "y", source=source, color=colour_of(colour), size=2, alpha=0.25, legend_label=name)
-        laws = (("its mean", style.BEFORE), ("mean of what is left", style.AFTER), ("found law", style.LAW))
+        laws = (("mean missing", style.BEFORE), ("mean left over", style.AFTER), ("found law", style.LAW))
         for source, (name, colour) in zip(self.means, laws, strict=True):
             self.figure.line("x", "y", source=source, color=colour_of(colour), line_width=2.2, legend_label=name)
         format_legend(self.figure)

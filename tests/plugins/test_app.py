@@ -32,7 +32,7 @@ pytest.importorskip("panel", reason="no page: Panel is absent (the extra `app`)"
 
 from lostmotion_app import command, jobs
 from lostmotion_app.case_content import list_recordings
-from lostmotion_app.curves import thin
+from lostmotion_app.curves import CurvePanels, thin
 from lostmotion_app.desk import Desk
 from lostmotion_app.folder import WorkFolder
 from lostmotion_app.found_figures import find_recording
@@ -93,6 +93,20 @@ def test_thin_curves_keep_every_extreme_and_single_samples_when_enlarged():
     at, values = thin(x, y, 123_400.0, 123_500.0)
     assert np.array_equal(values, y[123_399:123_501])
     assert np.all(np.diff(at) == 1.0)
+
+
+def test_a_new_range_that_each_panel_tells_is_drawn_once(monkeypatch):
+    curves, x = CurvePanels("time (s)"), np.arange(1000.0)
+    for name in ("one", "two"):
+        curves.add_curve(curves.add_panel(name), x, x, colour="#000000")
+    curves.fit_range(0.0, 999.0)
+    drawn = []
+    monkeypatch.setattr(curves, "_draw", lambda *given: drawn.append(given))
+    curves._redraw(10.0, 20.0)
+    curves._redraw(10.0, 20.0)
+    assert len(drawn) == 2
+    curves._redraw(10.0, 30.0)
+    assert len(drawn) == 4
 
 
 def test_a_case_keeps_the_stretch_and_the_values_of_a_user(folder):
