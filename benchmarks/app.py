@@ -1,7 +1,7 @@
 """Times of the page: to the first screen, to the plot of a million rows, of a zoom, a parameter, a term, a check.
 
     python benchmarks/app.py                    all of them, wall time and processor time of the server
-    python benchmarks/app.py --pictures DIR     pictures of the screens, for docs/howto/app.md
+    python benchmarks/app.py --pictures DIR     pictures of five screens; docs/howto has those of Data, Run, Results
 
 It needs the extra `app` and Chromium. Wall times include the browser; on a machine with other work, the processor time
 of the server tells more.
@@ -32,9 +32,13 @@ SIMULATED = (
     "simulate", "lin_backlash", "--set", "m=1,c=8,k0=4e4,x0=0.005", "--term", "coulomb_friction:force=3", "--drive",
     "harmonic:amplitude=100,omega=40", "--rate", "640", "--noise", "0.01",
 )  # fmt: skip
-ERROR = "(words().match(/readings: (?:position: )?([0-9.e-]+)/) || [])[1]"
+ERROR = "(words().match(/free runs: [^0-9]*([0-9.e-]+) %/) || [])[1]"
 PANEL = "Bokeh.documents[0].get_model_by_name('panel 0')"
+KNOWN = {"m": "1", "k0": "40000", "k1": "0"}
+UNITS = {"m": "kg", "k0": "N/m", "k1": "N/m"}
 PATIENCE = 900.0
+SETTLED = 4.0
+"""Seconds after which a screen has drawn all its figures."""
 
 
 class Server:
@@ -98,17 +102,17 @@ def measure(folder: Path) -> None:
         print(f"| command to the first screen | 2 s | {wall:.2f} s, of which browser"
               f" {time.perf_counter() - begun:.2f} s | {server.processor:.2f} s |", flush=True)  # fmt: skip
         with timed(f"a file of {ROWS} rows x 4 to the first plot", server, "3 s"):
-            browser.choose("Recording", "million.csv")
+            browser.choose("Recording or case file", "million.csv")
             browser.wait(
                 "Bokeh.documents[0].get_model_by_name('panel 0')?.renderers[0].data_source.data.x.length > 1000"
             )
         browser.wait_for("What was read", PATIENCE)
         with timed("zoom into it", server, "0.1 s"):
             zoom(browser)
-        browser.choose("Recording", "long.csv")
+        browser.choose("Recording or case file", "long.csv")
         browser.wait_for("long.csv:", PATIENCE)
         browser.click("Model")
-        browser.wait_for("Error of free runs over", PATIENCE)
+        browser.wait_for("Prediction error of free runs", PATIENCE)
         browser.choose("Model", "lin_backlash")
         browser.click("Use this model")
         browser.wait_for("half gap", PATIENCE)
@@ -116,7 +120,35 @@ def measure(folder: Path) -> None:
         change_tried(browser, "ArrowRight")
         with timed(f"a parameter to the new prediction, {SAMPLES} samples", server, "0.5 s"):
             change_tried(browser, "ArrowLeft")
+        enter_known(browser)
+        browser.click("Next: Check")
+        browser.wait_for("It takes seconds.", PATIENCE)
+        with timed("check, whole library, with the start of its process", server, "5 s"):
+            press(browser, "Check")
+            browser.wait_for("check-1: done", PATIENCE)
+        told = browser.evaluate("words().match(/check-1: done, ([0-9]+ s), ([0-9]+ s) of processor time/).slice(1)")
+        print(f"| the process of this check, its imports included | | {told[0]} | {told[1]} (its own) |", flush=True)
+        browser.click("Run")
+        browser.wait_for("a process of its own", PATIENCE)
+        browser.type("Budget in s of processor time (--budget)", "20")
+        press(browser, "Diagnose")
+        browser.wait_for("diagnose-1: done", PATIENCE)
+        browser.click("Results")
+        browser.wait_for("with ticked terms ", PATIENCE)
+        browser.wait(ERROR, PATIENCE)
+        time.sleep(SETTLED)
+        before = browser.evaluate(ERROR)
+        with timed(f"a term switched off, {SAMPLES} samples", server, "0.5 s"):
+            browser.evaluate("(all(document).find((e) => e.type === 'checkbox' && seen(e)).click(), true)")
+            browser.wait(f"{ERROR} !== {before!r}", PATIENCE)
     server.process.kill()
+
+
+def press(browser: Chromium, text: str) -> None:
+    """Press a button, where a tab has the same name."""
+    browser.evaluate(
+        f"(all(document).filter((e) => e.tagName === 'BUTTON' && seen(e) && said(e) === {text!r}).pop().click(), true)"
+    )
 
 
 def zoom(browser: Chromium) -> None:
@@ -142,25 +174,43 @@ def draw_pictures(folder: Path, out: Path) -> None:
     server = Server(folder)
     with Chromium(width=1100, height=760) as browser:
         browser.open(server.address)
-        browser.choose("Recording", "short.csv")
+        browser.choose("Recording or case file", "short.csv")
         browser.wait_for("model: linear_oscillator", PATIENCE)
-        steps = {"Model": "Error of free runs over", "Run": "a process of its own", "Results": "Missing force over"}
         take(browser, out / "app_data.png")
-        for screen, text in steps.items():
-            browser.click(screen)
-            browser.wait_for(text, PATIENCE)
-            if screen == "Model":
-                browser.choose("Model", "lin_backlash")
-                browser.click("Use this model")
-                browser.wait_for("half gap", PATIENCE)
-                browser.wait(ERROR, PATIENCE)
-            if screen == "Run":
-                browser.click("Diagnose")
-                browser.wait_for("diagnose-1: done", PATIENCE)
-            take(browser, out / f"app_{screen.lower()}.png")
+        browser.click("Model")
+        browser.wait_for("Prediction error of", PATIENCE)
+        browser.choose("Model", "lin_backlash")
+        browser.click("Use this model")
+        browser.wait_for("half gap", PATIENCE)
+        enter_known(browser)
+        take(browser, out / "app_model.png")
+        browser.click("Next: Check")
+        browser.wait_for("It takes seconds.", PATIENCE)
+        press(browser, "Check")
+        browser.wait_for("check-1: done", PATIENCE)
+        take(browser, out / "app_check.png")
+        browser.click("Run")
+        browser.wait_for("a process of its own", PATIENCE)
+        press(browser, "Diagnose")
+        browser.wait(
+            "(words().match(/weighing/g) || []).length > 3 && words().includes('Explanations so far')", PATIENCE
+        )
+        take(browser, out / "app_run.png")
+        browser.wait_for("diagnose-1: done", PATIENCE)
+        browser.click("Results")
+        browser.wait_for("Missing force over", PATIENCE)
+        take(browser, out / "app_results.png")
     server.process.kill()
     for path in out.glob("app_*.png"):
-        Image.open(path).convert("P", palette=Image.Palette.ADAPTIVE, colors=64).save(path, optimize=True)
+        Image.open(path).convert("P", palette=Image.Palette.ADAPTIVE, colors=160).save(path, optimize=True)
+
+
+def enter_known(browser: Chromium) -> None:
+    """Enter the known values of the simulated machine."""
+    for name, value in KNOWN.items():
+        browser.choose(f"{name} ({UNITS[name]})", "known")
+        browser.type(f"{name}: value", value)
+    time.sleep(SETTLED)
 
 
 def take(browser: Chromium, path: Path) -> None:

@@ -137,6 +137,17 @@ def lostmotion_sections() -> Mapping[str, tuple[str, str]]:
 
 
 @hookspec
+def lostmotion_screens() -> Mapping[str, tuple[str, str]]:
+    """Return `{"name": ("package.module:function", "One line of help.")}` for each screen of the page of `app`.
+
+    The function takes a `lostmotion_app.desk.Desk`, with the recording, the case and the results that the page works
+    on, and returns what Panel shows: a figure of Bokeh or matplotlib, a table of pandas, an object of Panel. It is
+    called whenever the screen is opened. The line of help stands above it.
+    """
+    raise NotImplementedError
+
+
+@hookspec
 def lostmotion_readers() -> Mapping[str, tuple[str, str]]:
     """Return `{"xyz": ("package.module:function", "requirement")}` for each ending of a file name, without its dot.
 

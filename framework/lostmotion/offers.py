@@ -13,9 +13,9 @@ from lostmotion.errors import nearest
 
 KINDS = ("model", "dynamics", "term", "embedder", "quantifier", "surrogate", "denoiser", "noise", "simulator")
 COMMAND, FUNCTION, RESULT, ROUTE, MEASURE = "command", "function", "result", "route", "measure"
-SECTION, READER = "section", "reader"
+SECTION, SCREEN, READER = "section", "screen", "reader"
 _SAID = {
-    **dict.fromkeys((COMMAND, FUNCTION, RESULT, ROUTE, MEASURE, SECTION), "One line of help."),
+    **dict.fromkeys((COMMAND, FUNCTION, RESULT, ROUTE, MEASURE, SECTION, SCREEN), "One line of help."),
     READER: "what to install with pip if its library is absent",
 }
 """The kinds that are functions; a second text belongs to each of their names."""

@@ -1,7 +1,7 @@
 """Progress of long work, in a terminal, a notebook or a log: the current step and the elapsed time.
 
 Each step is also written to the file that the environment variable `LOSTMOTION_PROGRESS` names, as a line of JSON with
-`seconds` since the beginning and the `step`: other programs follow a command in this way.
+`seconds` since the beginning and the `step`: other programs follow a command in this way. A `Step` has further keys.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ import json
 import os
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from importlib import import_module
 from typing import Any
@@ -19,6 +19,19 @@ MAX_LINE_LENGTH = 120
 COMPILING = "compiling (only once on this machine)"
 LINE_INTERVAL = 20.0
 """Smallest number of seconds between two lines where no bar is visible."""
+
+
+class Step(str):
+    """A step of progress in words, with `data` for programs that follow: keys and values of JSON."""
+
+    __slots__ = ("data",)
+    data: Mapping[str, Any]
+
+    def __new__(cls, words: str, **data: Any) -> Step:
+        """Return the step with its data."""
+        made = super().__new__(cls, words)
+        made.data = data
+        return made
 
 
 @contextmanager
@@ -62,7 +75,8 @@ def _write_steps(say: Callable[[str], None]) -> Iterator[Callable[[str], None]]:
     with open(path, "a", encoding="utf-8") as file:
 
         def write(step: str) -> None:
-            file.write(json.dumps({"seconds": round(time.monotonic() - begin, 2), "step": step}) + "\n")
+            more = step.data if isinstance(step, Step) else {}
+            file.write(json.dumps({"seconds": round(time.monotonic() - begin, 2), "step": step, **more}) + "\n")
             file.flush()
             say(step)
 

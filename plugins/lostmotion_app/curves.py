@@ -8,19 +8,21 @@ from typing import Any
 import numpy as np
 import panel as pn
 from bokeh.events import RangesUpdate
-from bokeh.models import BoxAnnotation, ColumnDataSource, Range1d
+from bokeh.models import BasicTickFormatter, BoxAnnotation, ColumnDataSource, Range1d
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
-from lostmotion.report import style
+from lostmotion.report import colours
 from lostmotion_app.parts import is_dark
 
 Array = NDArray[np.float64]
 PIXELS = 900
 """The number of columns of pixels of which the lowest and highest values are drawn."""
 HEIGHT = 150
+SMALLEST = -5
+"""The power of ten from which numbers at an axis are written without an exponent."""
 TOOLS = "xbox_zoom,xpan,xwheel_zoom,reset,save"
-_DARK = {style.RECORDED: "#e8e8e8", style.AFTER: "#56b4e9", style.LAW: "#00b37a"}
+_DARK = {colours.RECORDED: "#e8e8e8", colours.AFTER: "#56b4e9", colours.LAW: "#00b37a"}
 
 
 def colour_of(colour: str) -> str:
@@ -46,6 +48,8 @@ def make_figure(x: str, y: str, *, height: int = HEIGHT, tools: str = TOOLS, **o
     for axis in made.axis:
         axis.axis_label_text_color = axis.major_label_text_color = axis.axis_line_color = ink
         axis.axis_label_text_font_style, axis.axis_label_text_font_size = "normal", "12px"
+        if isinstance(axis.formatter, BasicTickFormatter):
+            axis.formatter.power_limit_low = SMALLEST
         axis.major_tick_line_color = axis.minor_tick_line_color = ink
     made.grid.grid_line_color = grid
     return made
@@ -76,6 +80,7 @@ class CurvePanels:
     def __init__(self, label: str) -> None:
         self.label, self.range = label, Range1d(0.0, 1.0)
         self._curves: list[tuple[Any, Array, Array]] = []
+        self._span: tuple[float, float] | None = None
         self.panels: list[Any] = []
 
     def add_panel(self, label: str, *, height: int = HEIGHT) -> Any:
@@ -98,6 +103,7 @@ class CurvePanels:
 
     def fit_range(self, low: float, high: float) -> None:
         """Show the curves between two values."""
+        self._span = None
         self.range.update(start=low, end=high, reset_start=low, reset_end=high)
         self._redraw(low, high)
 
@@ -116,6 +122,10 @@ class CurvePanels:
         self._draw(line.data_source, x, y)
 
     def _redraw(self, low: float, high: float) -> None:
+        """Draw all curves between two values; each panel tells of a new range, and the first one is sufficient."""
+        if self._span == (low, high):
+            return
+        self._span = (low, high)
         for source, x, y in self._curves:
             self._draw(source, x, y, (low, high))
 
@@ -128,6 +138,7 @@ class CurvePanels:
 def format_legend(panel: Any) -> None:
     """Put the legend of a panel above it, in one line; a click hides a curve."""
     for legend in panel.legend:
+        legend.ncols = 3  # as many as a phone is wide
         legend.orientation, legend.click_policy, legend.background_fill_alpha = "horizontal", "hide", 0.0
         legend.border_line_color, legend.label_text_font_size, legend.padding = None, "12px", 2
         legend.label_text_color = "#cccccc" if is_dark() else "#222222"

@@ -17,7 +17,21 @@ DEEPEST, MOST_FILES = 3, 500
 """How many folders below the one that is shown are searched, and the most files that are offered."""
 MOST_UPLOADED = 200 * 2**20
 """The greatest size (bytes) of an uploaded file."""
+MOST_CASE = 2**20
+"""The greatest size (bytes) of a case file that is offered."""
 _HIDDEN = re.compile(r"^[._]|^node_modules$")
+
+
+def is_case(name: str) -> bool:
+    """Return whether the name of a file is that of a case."""
+    return name.lower().endswith(".toml")
+
+
+def _has_recordings(path: Path) -> bool:
+    try:
+        return path.stat().st_size < MOST_CASE and "recordings" in path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError):
+        return False
 
 
 @dataclass(frozen=True)
@@ -48,6 +62,16 @@ class WorkFolder:
     def list_recordings(self) -> list[str]:
         """Return the names of the files that can be recordings, in alphabetical order."""
         return [self.name_of(path) for path in self._walk(self.root, DEEPEST) if is_recording(path)][:MOST_FILES]
+
+    def list_cases(self) -> list[str]:
+        """Return the names of the case files, those of the page left out."""
+        files = (path for path in self._walk(self.root, DEEPEST) if is_case(path.name))
+        return [self.name_of(path) for path in files if _has_recordings(path)][:MOST_FILES]
+
+    def list_robots(self) -> list[str]:
+        """Return the names of the files that may be models of robots, MJCF or URDF."""
+        files = self._walk(self.root, DEEPEST)
+        return [self.name_of(path) for path in files if path.suffix.lower() in (".xml", ".urdf", ".mjcf")][:MOST_FILES]
 
     def list_results(self, file: str) -> list[Path]:
         """Return the folders that contain a result in this file, newest first; those of the page included."""

@@ -12,7 +12,7 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from lostmotion.errors import DataError
 from lostmotion.storage import folder_for, held, save_json
@@ -23,8 +23,20 @@ OUT = "{out}"
 """The folder of a job in the words of its command."""
 STARTING = 60.0
 """Seconds within which a process has taken its job."""
-LINES = 400
-"""The most steps that are shown."""
+LINES = 2000
+"""The most lines of a progress that are read."""
+
+
+class Progress(NamedTuple):
+    """What a job has told of its progress.
+
+    `steps` are words with the time (s) since its beginning, `weighed` the scores (log posterior weights) of sets of
+    terms, `used` the share of its budget, None where none is told.
+    """
+
+    steps: list[tuple[float, str]]
+    weighed: dict[tuple[str, ...], float]
+    used: float | None
 
 
 @dataclass(frozen=True)
@@ -71,18 +83,17 @@ class Job:
         return self._read(STATUS).get("processor")
 
     @property
-    def steps(self) -> list[tuple[float, str]]:
-        """The steps of its progress, each with the time (s) since its beginning, the last ones alone if many."""
-        try:
-            lines = (self.folder / PROGRESS).read_text(encoding="utf-8").splitlines()
-        except OSError:
-            return []
-        found = []
-        for line in lines[-LINES:]:
-            with contextlib.suppress(ValueError, KeyError, TypeError):
+    def progress(self) -> Progress:
+        """What it has told of its progress, the last lines alone if many."""
+        steps, weighed, used = [], dict[tuple[str, ...], float](), None
+        for line in self._text(PROGRESS).splitlines()[-LINES:]:
+            with contextlib.suppress(ValueError, KeyError, TypeError, AttributeError):
                 step = json.loads(line)
-                found.append((float(step["seconds"]), str(step["step"])))
-        return found
+                if "score" in step:
+                    weighed[tuple(map(str, step["terms"]))], used = float(step["score"]), float(step["used"])
+                else:
+                    steps.append((float(step["seconds"]), str(step["step"])))
+        return Progress(steps, weighed, used)
 
     @property
     def output(self) -> list[str]:

@@ -34,11 +34,11 @@ class ParameterRow:
         form, numbers = _read_entry(entry)
         shown = f"{self.name} ({unit})" if unit != "1" else self.name
         self.form = pn.widgets.Select(name=f"{shown}", options=list(FORMS), value=form, width=120)
-        self.fields = [NumberField("", width=105) for _ in range(2)]
-        self.slider = pn.widgets.DiscreteSlider(name=f"{self.name} tried", options=[0.0], width=190, formatter="%.4g")
+        self.fields = [NumberField("", width=92) for _ in range(2)]
+        self.slider = pn.widgets.DiscreteSlider(name=f"{self.name} tried", options=[0.0], width=160, formatter="%.4g")
         self.view = pn.FlexBox(
             self.form, *(field.widget for field in self.fields), self.slider,
-            make_html(f"<span class='lm-quiet'>{param.meaning}</span>", sizing_mode=None, width=190, margin=(18, 4)),
+            make_html(f"<span class='lm-quiet'>{param.meaning}</span>", sizing_mode=None, width=140, margin=(14, 10)),
             sizing_mode="stretch_width", align_items="flex-end",
         )  # fmt: skip
         self._arrange(numbers)

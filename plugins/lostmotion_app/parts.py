@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import html
 import shlex
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -12,6 +12,7 @@ from typing import Any
 import panel as pn
 
 from lostmotion.errors import CaseError, LostMotionError
+from lostmotion.report.words import to_words
 
 STYLE = (Path(__file__).parent / "page.css").read_text(encoding="utf-8")
 GAP = 8
@@ -21,13 +22,19 @@ SIDE = 330
 
 def make_html(text: str = "", **options: Any) -> pn.pane.HTML:
     """Return a pane of HTML in the style of the page; texts in it have to be escaped already."""
-    given = {"sizing_mode": "stretch_width", "margin": (2, 4), **options}
+    given = {"sizing_mode": "stretch_width", "margin": (2, 10), **options}
     return pn.pane.HTML(text, stylesheets=[STYLE], css_classes=["lm-dark"] if is_dark() else [], **given)
 
 
 def is_dark() -> bool:
     """Return whether this page is shown in dark colours."""
     return bool(pn.config.theme == "dark")
+
+
+def name_key(key: str) -> str:
+    """Return the key of a term in words, with its place where the key has one: "coulomb_friction@joint"."""
+    name, _, at = key.partition("@")
+    return to_words(name) + (f" ({at})" if at else "")
 
 
 def write_heading(text: str) -> str:
@@ -63,9 +70,21 @@ def write_table(head: Sequence[str], rows: Sequence[Sequence[str]], bars: Sequen
         cells = "".join(f"<td>{html.escape(cell)}</td>" for cell in row)
         if bars:
             width = 100.0 * min(max(bars[number], 0.0), 1.0)
-            cells += f'<td class="lm-bars"><span class="lm-bar" style="width: {width:.1f}%"></span></td>'
+            bar = f'<span class="lm-bar" style="width: {width:.1f}%"></span>' if width else ""
+            cells += f'<td class="lm-bars">{bar}</td>'
         body.append(f"<tr>{cells}</tr>")
     return f'<div class="lm-wide"><table><tr>{top}</tr>{"".join(body)}</table></div>'
+
+
+def write_errors(errors: Mapping[str, float]) -> str:
+    """Return the errors of free runs, each over the standard deviation of its sensor, as HTML."""
+    told = ", ".join(f"{name} {100.0 * error:.3g} %" for name, error in errors.items())
+    return write_note(f"Prediction error of free runs: {told} (rms over the standard deviation of the recording)")
+
+
+def write_folded(title: str, content: str) -> str:
+    """Return HTML that a click on its title shows."""
+    return f"<details><summary>{html.escape(title)}</summary>{content}</details>"
 
 
 def write_command(*words: str) -> str:

@@ -7,15 +7,14 @@ from typing import Any
 import numpy as np
 import panel as pn
 from bokeh.models import ColumnDataSource
-from scipy.signal import savgol_filter
 
 from lostmotion.errors import DataError
 from lostmotion.recording.clock import find_time
 from lostmotion.recording.table import Table
 from lostmotion.recording.value_checks import fill_lost
-from lostmotion.report import style
-from lostmotion.signals import spectrum
+from lostmotion.report import colours
 from lostmotion_app.curves import Array, CurvePanels, abreast, colour_of, make_figure, thin
+from lostmotion_app.parts import make_html, write_note
 
 UNITS = (
     "N", "kN", "mN", "N m", "mN m", "N cm", "lbf", "kgf", "m", "mm", "um", "cm", "inch", "rad", "mrad", "deg", "turn",
@@ -24,6 +23,7 @@ UNITS = (
 """The units that the page offers; any other that `init` knows may be typed."""
 MOST_COLUMNS = 12
 """The number of columns that are drawn."""
+SHADES = "Mark a range with the mouse to enlarge it, down to single samples. Blue: held out, in no fit. Grey: not used."
 POINTS = 6000
 """The number of points of a phase plane."""
 SMOOTHED = 9
@@ -45,29 +45,31 @@ class RecordedFigures:
         )  # fmt: skip
         self.phase = make_figure("", "", height=260, tools="pan,wheel_zoom,box_zoom,reset,save")
         self.lines = (ColumnDataSource({"x": [], "y": []}), ColumnDataSource({"x": [], "y": []}))
-        self.spectrum.line("x", "y", source=self.lines[0], color=colour_of(style.AFTER))
-        self.phase.scatter("x", "y", source=self.lines[1], color=colour_of(style.AFTER), size=2, alpha=0.5)
+        self.spectrum.line("x", "y", source=self.lines[0], color=colour_of(colours.AFTER))
+        self.phase.scatter("x", "y", source=self.lines[1], color=colour_of(colours.AFTER), size=2, alpha=0.5)
         self.column = pn.widgets.Select(name="Spectrum and phase plane of", width=260)
         self.column.param.watch(lambda _: self._show_column(), "value")
 
     def show_table(self, table: Table, source: str) -> None:
         """Draw the columns of a table over its time, or over the number of the row where it has no time."""
-        self.time, label = find_axis(table, source)
-        columns = {name: table.columns[name] for name in table.full_names}
-        whole = {name: one for name, one in columns.items() if one.size == self.time.size and one is not self.time}
-        self.columns = dict(list(whole.items())[:MOST_COLUMNS])
+        self.time, label, clock = find_axis(table, source)
+        columns = {name: table.columns[name] for name in table.full_names if name != clock}
+        whole = [(name, one) for name, one in columns.items() if one.size == self.time.size]
+        self.columns = dict(whole[:MOST_COLUMNS])
         self.units, self.span = dict(table.units), (float(self.time[0]), float(self.time[-1]))
         self.curves, self.boxes = CurvePanels(label), []
         for name, values in self.columns.items():
             panel = self.curves.add_panel(label_of(name, self.units.get(name, "")))
-            self.curves.add_curve(panel, self.time, values, colour=style.RECORDED)
+            self.curves.add_curve(panel, self.time, values, colour=colours.RECORDED)
         self.curves.fit_range(*self.span)
-        outer = self.curves.shade(*self.span), self.curves.shade(*self.span), self.curves.shade(*self.span)
+        nothing = (self.span[0], self.span[0])
+        outer = self.curves.shade(*nothing), self.curves.shade(*nothing), self.curves.shade(*nothing)
         self.boxes = list(zip(*outer, strict=True))
         names = list(self.columns)
         self.column.options, self.column.value = names, names[-1] if names else None
         self._show_column()
         self.view[:] = [
+            make_html(write_note(f"{SHADES}{write_rest(len(whole))}")),
             *(pn.pane.Bokeh(panel, sizing_mode="stretch_width", margin=(0, 2)) for panel in self.curves.panels),
             self.column,
             abreast(self.spectrum, self.phase),
@@ -78,7 +80,7 @@ class RecordedFigures:
         held = end - hold * (end - start)
         for before, kept, after in self.boxes:
             before.update(left=self.span[0], right=start, fill_color="#7f7f7f", fill_alpha=0.35)
-            kept.update(left=held, right=end, fill_color=style.AFTER, fill_alpha=0.10)
+            kept.update(left=held, right=end, fill_color=colours.AFTER, fill_alpha=0.10)
             after.update(left=end, right=self.span[1], fill_color="#7f7f7f", fill_alpha=0.35)
 
     def _show_column(self) -> None:
@@ -88,6 +90,10 @@ class RecordedFigures:
             for one in self.lines:
                 one.data = {"x": [], "y": []}
             return
+        from scipy.signal import savgol_filter
+
+        from lostmotion.signals import spectrum
+
         even, dt = fill_lost(values), float(np.median(np.diff(self.time)))
         found = spectrum(even, dt, segments=8)
         at, density = thin(found.frequency[1:], found.density[1:], 0.0, np.inf)
@@ -96,6 +102,7 @@ class RecordedFigures:
         rate = savgol_filter(even, SMOOTHED, 2, deriv=1, delta=dt)
         self.lines[1].data = {"x": even[::step], "y": rate[::step]}
         unit = self.units.get(self.column.value, "")
+        self.spectrum.yaxis.axis_label = f"power spectral density ({unit}²/Hz)" if unit else "power spectral density"
         self.phase.xaxis.axis_label = label_of(self.column.value, unit)
         self.phase.yaxis.axis_label = label_of("rate of change", f"{unit}/s" if unit else "")
 
@@ -105,10 +112,19 @@ def label_of(name: str, unit: str) -> str:
     return name if not unit or unit in name else f"{name} ({unit})"
 
 
-def find_axis(table: Table, source: str) -> tuple[Array, str]:
-    """Return the time (n,) of a table in s, or the number of the row where it has none, and the label of the axis."""
+def find_axis(table: Table, source: str) -> tuple[Array, str, str | None]:
+    """Return the time (n,) of a table in s, the label of the axis, and the column of the time.
+
+    Where the table has no time, it is the number of the row.
+    """
     try:
-        return find_time(table, source).time, "time (s)"
+        found = find_time(table, source)
     except DataError:
         longest = max(table.columns[name].size for name in table.full_names)
-        return np.arange(longest, dtype=float), "row"
+        return np.arange(longest, dtype=float), "row", None
+    return found.time, "time (s)", found.column
+
+
+def write_rest(count: int) -> str:
+    """Return a sentence on columns that are not drawn; empty where all of `count` columns are."""
+    return f" The first {MOST_COLUMNS} of {count} columns are drawn." if count > MOST_COLUMNS else ""

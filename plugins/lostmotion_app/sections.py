@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Sequence
-from typing import TypeVar
+from collections.abc import Callable, Mapping, Sequence
+from types import MappingProxyType
+from typing import Any, TypeVar
 
 from lostmotion.report import style
-from lostmotion.report.pages import DrawnSection, Grid, PageSection, draw_sections
+from lostmotion.report.pages import DrawnSection, Grid, PageSection, draw_guests, draw_sections
 from lostmotion.report.words import typeset
 from lostmotion_app.parts import write_heading, write_note, write_table
 
 E = TypeVar("E")
+NONE: Mapping[str, Any] = MappingProxyType({})
 
 
 def write_grid(grid: Grid, bars: Sequence[float] = ()) -> str:
@@ -19,10 +21,15 @@ def write_grid(grid: Grid, bars: Sequence[float] = ()) -> str:
     return write_table(grid.head, grid.rows, bars)
 
 
-def write_sections(sections: Sequence[PageSection[E]], evidence: E, angle: str) -> str:
-    """Return sections of a page as HTML: words, figure, caption and table of each; angles are in the unit `angle`."""
+def write_sections(
+    sections: Sequence[PageSection[E]],
+    evidence: E,
+    angle: str,
+    guests: Mapping[str, Callable[[], PageSection[E]]] = NONE,
+) -> str:
+    """Return sections of a page as HTML, those of other packages last; angles are in the unit `angle`."""
     with style.use_style(angle):
-        return "".join(map(write_section, draw_sections(sections, evidence)))
+        return "".join(map(write_section, [*draw_sections(sections, evidence), *draw_guests(guests, evidence)]))
 
 
 def write_section(one: DrawnSection) -> str:

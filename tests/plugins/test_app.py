@@ -1,8 +1,10 @@
 """The page without a browser: its folder, its curves, its jobs, and what its server refuses."""
 
 import http.client
+import importlib
 import json
 import re
+import shutil
 import signal
 import socket
 import subprocess
@@ -10,24 +12,33 @@ import sys
 import time
 import urllib.error
 import urllib.request
+from pathlib import Path
+from types import SimpleNamespace
 
 import click
 import numpy as np
 import pytest
 from click.testing import CliRunner
 
+from lostmotion.case.reading import parse_case
 from lostmotion.cli import main
 from lostmotion.errors import CaseError, DataError
+from lostmotion.evidence.bare import Budget, make_weighed
+from lostmotion.progress import show_progress
 from lostmotion.recording.outline import GivenRoles
-from lostmotion.registry import default
+from lostmotion.registry import Registry, default
 
 pytest.importorskip("panel", reason="no page: Panel is absent (the extra `app`)")
 
 from lostmotion_app import command, jobs
-from lostmotion_app.curves import thin
+from lostmotion_app.case_content import list_recordings
+from lostmotion_app.curves import CurvePanels, thin
 from lostmotion_app.desk import Desk
 from lostmotion_app.folder import WorkFolder
+from lostmotion_app.found_figures import find_recording
+from lostmotion_app.job_view import write_weighed
 from lostmotion_app.parts import write_table
+from lostmotion_app.screens.guest import GuestScreen, list_guests
 from lostmotion_app.screens.take_away import make_notebook
 
 SERVE = "from lostmotion_app.command import command; command()"
@@ -84,6 +95,20 @@ def test_thin_curves_keep_every_extreme_and_single_samples_when_enlarged():
     assert np.all(np.diff(at) == 1.0)
 
 
+def test_a_new_range_that_each_panel_tells_is_drawn_once(monkeypatch):
+    curves, x = CurvePanels("time (s)"), np.arange(1000.0)
+    for name in ("one", "two"):
+        curves.add_curve(curves.add_panel(name), x, x, colour="#000000")
+    curves.fit_range(0.0, 999.0)
+    drawn = []
+    monkeypatch.setattr(curves, "_draw", lambda *given: drawn.append(given))
+    curves._redraw(10.0, 20.0)
+    curves._redraw(10.0, 20.0)
+    assert len(drawn) == 2
+    curves._redraw(10.0, 30.0)
+    assert len(drawn) == 4
+
+
 def test_a_case_keeps_the_stretch_and_the_values_of_a_user(folder):
     desk = Desk(folder, default(), recording="run1.csv")
     told = desk.draft(GivenRoles(), {})
@@ -100,6 +125,127 @@ def test_a_case_keeps_the_stretch_and_the_values_of_a_user(folder):
     assert desk.content["model"]["equations"] == ["m*x'' + c*x' = force"]
     assert desk.content["recordings"][0]["t_end"] == 3.0
     assert (desk.place / desk.content["recordings"][0]["file"]).resolve() == folder.root / "run1.csv"
+
+
+GUEST = """
+from lostmotion.hookspecs import hookimpl
+@hookimpl
+def lostmotion_screens():
+    return {"my_screen": ("guest_screen:draw", "What it shows.")}
+def draw(desk):
+    return 1 / 0
+"""
+
+
+def test_a_package_adds_a_screen_which_is_drawn_and_one_that_fails_says_so(folder, monkeypatch):
+    monkeypatch.syspath_prepend(Path(__file__).parents[2] / "plugins" / "template" / "src")
+    (folder.root / "guest_screen.py").write_text(GUEST, encoding="utf-8")
+    registry = Registry().add(importlib.import_module("lostmotion_plugins"))
+    registry.add(importlib.import_module("lostmotion_template"))
+    registry.add_file(folder.root / "guest_screen.py")
+    desk = Desk(folder, registry, recording="run1.csv")
+    assert list_guests(desk) == {"Readings": "readings", "My screen": "my_screen"}
+    screen = GuestScreen(desk, "readings")
+    assert "How often each sensor reads which value." in screen.make_view()[0].object
+    screen.show()
+    assert "Choose a recording" in screen.problem.pane.object
+    desk.draft(GivenRoles(), {})
+    screen.show()
+    assert not screen.problem.pane.visible
+    (line,) = screen.shown[0].object.renderers
+    assert np.sum(line.data_source.data["y"]) > 0.0
+    failing = GuestScreen(desk, "my_screen")
+    failing.show()
+    assert "cannot be drawn (ZeroDivisionError: division by zero)" in failing.problem.pane.object
+
+
+GIVEN = """
+title = "mine"
+plugins = ["terms.py"]
+[[recordings]]
+file = "../measured/run1.csv"
+time = "time [s]"
+inputs = [{ input = "force", column = "force [N]" }]
+sensors = [{ channel = "position", column = "position [m]", unit = "m" }]
+[model]
+inverse = "../arm.py:inverse"
+"""
+
+
+def test_a_case_of_the_user_is_copied_with_its_paths_and_runs_code_after_consent(folder):
+    (folder.root / "cases").mkdir()
+    (folder.root / "cases" / "mine.toml").write_text(GIVEN, encoding="utf-8")
+    (folder.root / "settings.toml").write_text("a = 1\n", encoding="utf-8")
+    assert folder.list_cases() == ["cases/mine.toml"]
+    desk = Desk(folder, default(), recording="cases/mine.toml")
+    assert desk.is_given
+    assert desk.is_robot
+    with pytest.raises(CaseError, match=r"runs terms.py, ../arm.py: agree"):
+        desk.require_agreed()
+    desk.agreed.add("cases/mine.toml")
+    desk.require_agreed()
+    copied = folder.root / "lostmotion-app" / "copy"
+    copied.mkdir(parents=True)
+    desk.copy_case(copied)
+    copy = parse_case(copied / "case.toml")
+    assert (copied / copy["plugins"][0]).resolve() == folder.root / "cases" / "terms.py"
+    assert (copied / copy["model"]["inverse"].partition(":")[0]).resolve() == folder.root / "arm.py"
+    assert copy["model"]["inverse"].endswith(":inverse")
+    assert next(list_recordings(copy))[1:] == ["force [N]", "position [m] (m)"]
+
+
+def test_further_recordings_have_the_columns_of_the_first_and_stay_in_the_case(folder):
+    for name in ("run2.csv", "run3.csv"):
+        shutil.copy(folder.root / "run1.csv", folder.root / name)
+    desk = Desk(folder, default(), recording="run1.csv")
+    desk.draft(GivenRoles(), {})
+    desk.add_recordings(["run3.csv", "run2.csv"])
+    desk.draft(GivenRoles(), {}, "linear_oscillator")
+    assert desk.list_further() == ["run3.csv", "run2.csv"]
+    assert len(desk.read_case().recordings) == 3
+    desk.add_recordings([])
+    assert desk.list_further() == []
+
+
+def test_a_log_and_an_mjcf_file_become_the_case_of_a_robot(folder):
+    pytest.importorskip("mujoco", reason="MJCF needs the extra mujoco")
+    from lostmotion_plugins.simulators.mujoco import EXAMPLE
+
+    t = np.arange(400) / 100.0
+    rows = np.stack([t, *(np.sin(t + k) for k in range(4))], axis=1)
+    head = "t,tau_shoulder,tau_elbow,q_shoulder,q_elbow"
+    np.savetxt(folder.root / "log.csv", rows, delimiter=",", header=head, comments="")
+    (folder.root / "arm.xml").write_text(EXAMPLE, encoding="utf-8")
+    desk = Desk(folder, default(), recording="log.csv")
+    assert folder.list_robots() == ["arm.xml"]
+    told = desk.draft_robot("arm.xml", "link")
+    assert "elbow: torque 'tau_elbow', position 'q_elbow'" in told
+    assert desk.is_robot
+    assert desk.content["model"]["torque"] == "link"
+    assert (desk.place / desk.content["model"]["mujoco"]).resolve() == folder.root / "arm.xml"
+    desk.redraft("linear_oscillator")
+    assert not desk.is_robot
+
+
+def test_sets_of_terms_are_told_with_their_scores_while_a_search_runs(tmp_path, monkeypatch):
+    file = tmp_path / "progress.jsonl"
+    monkeypatch.setenv("LOSTMOTION_PROGRESS", str(file))
+    with show_progress("search", quiet=True) as say:
+        say("reading")
+        for terms, score in ((frozenset(), 10.0), (frozenset({"coulomb_friction@joint"}), 33.5)):
+            say(make_weighed(terms, score, Budget(seconds=1e6)))
+    found = jobs.Job(tmp_path).progress
+    assert [step for _, step in found.steps] == ["reading"]
+    assert found.weighed == {(): 10.0, ("coulomb_friction@joint",): 33.5}
+    assert 0.0 <= found.used < 0.01
+    told = write_weighed(found.weighed)
+    assert "Coulomb friction (joint)</td><td>+23.5" in told
+    assert told.index("Coulomb") < told.index("Nothing")
+
+
+def test_the_recording_of_held_out_readings_is_found():
+    made = [SimpleNamespace(time=np.arange(9.0), dt=1.0, readings=np.full((9, 1), k)) for k in (1.0, 2.0, 3.0)]
+    assert find_recording(made, np.arange(4.0, 8.0), np.full(4, 2.0)) == 1
 
 
 def finish(job):

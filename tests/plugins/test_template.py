@@ -58,7 +58,7 @@ def ours(fresh, tmp_path):
 def test_its_names_are_listed(ours):
     listing = json.loads(ours("plugins", "--json"))
     mine = {e["name"]: e for e in listing["plugins"] if e["owner"] == "lostmotion-mine"}
-    assert set(mine) == {*NAMES, "crest", "power"}
+    assert set(mine) == {*NAMES, "crest", "power", "readings"}
     assert {e["state"] for e in mine.values()} == {"ready"}
     assert {e["version"] for e in mine.values()} == {"0.1.0"}
     assert "lin_backlash" in {e["name"] for e in listing["plugins"]}

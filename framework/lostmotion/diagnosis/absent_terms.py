@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
+from dataclasses import replace
 
 from lostmotion.diagnosis.expected_findings import (
     describe_place,
     describe_shape,
     describe_share,
+    describe_size,
     describe_term,
     list_shape,
     name_amplitude,
@@ -16,12 +18,16 @@ from lostmotion.diagnosis.expected_findings import (
 )
 from lostmotion.diagnosis.stages import SearchResult, list_fitted_keys
 from lostmotion.evidence.bounds import ALIKE, NONLINEAR, SizeBound, bound_absent
+from lostmotion.inference.learned import LearnedTerm
 from lostmotion.inference.natural import find_term
+from lostmotion.likelihood.problem import Problem
 from lostmotion.likelihood.system import key_of
-from lostmotion.report.words import angles_in, format_size, sentence
+from lostmotion.report.words import angles_in, sentence
 from lostmotion.results.absent import AbsentTerm, UnlimitedTerm
 from lostmotion.results.diagnosis import Mechanism, OpenTerm
 
+LEARNED = "learned"
+"""Why a law has no bound: a curve was learned at its place."""
 Absence = tuple[tuple[AbsentTerm, ...], tuple[UnlimitedTerm, ...]]
 
 
@@ -29,7 +35,7 @@ def list_absent(d: SearchResult, found: Iterable[Mechanism], rest: Iterable[Open
     """Return the bounds of absent terms, the largest share of the drive last, and the terms without a bound.
 
     Terms that were `found` or remain open (`rest`), terms that no recording can tell from them, and alternatives with a
-    probability are left out: they are not absent.
+    probability are left out: they are not absent. A law that acts where a curve was learned has no bound.
     """
     present = {(one.mechanism, one.at) for one in found} | {(one.mechanism, one.at) for one in rest}
     same = {name for key in d.named for name in find_term(d.after.problem, key)[0].equals}
@@ -43,13 +49,24 @@ def list_absent(d: SearchResult, found: Iterable[Mechanism], rest: Iterable[Open
         and key_of(term) not in d.explained.terms
         and d.explained.inclusion(key_of(term)) <= d.settings.name.worth
     ]
-    bounds = bound_absent(d.explained.best, keys)
+    after = d.after.problem
+    curved = {one.at for one in after.system.terms if isinstance(one, LearnedTerm) and key_of(one) in after.active}
+    bounds = [
+        replace(bound, why=LEARNED) if _is_within(d.before.problem, bound.key, curved) else bound
+        for bound in bound_absent(d.explained.best, keys)
+    ]
     with angles_in(angle):
         told = [_make_absent(d, bound) for bound in bounds if not bound.why]
     limited = {(one.mechanism, one.at) for one in told}
     others = {one.key: one for one in bounds if one.why and name_term(d.before.problem, one.key) not in limited}
     told.sort(key=lambda one: (one.share_of_drive is None, one.share_of_drive or 0.0))
     return tuple(told), tuple(_make_unlimited(d, one) for one in others.values())
+
+
+def _is_within(problem: Problem, key: str, curved: Collection[str]) -> bool:
+    """Return whether a term is a law of the motion at a place where a curve was learned, which may contain it."""
+    term, _ = find_term(problem, key)
+    return term.acts == "motion" and term.at in curved
 
 
 def _make_absent(d: SearchResult, bound: SizeBound) -> AbsentTerm:
@@ -65,7 +82,8 @@ def _make_absent(d: SearchResult, bound: SizeBound) -> AbsentTerm:
         unit=unit,
         share_of_drive=share,
         given={slot.param.name: bound.shape[slot.key] for slot in shape},
-        says=f"no {describe_term(problem, bound.key, bound.slots)} above {format_size(bound.upper, unit)}"
+        says=f"no {describe_term(problem, bound.key, bound.slots)}"
+        f" above {describe_size(problem, bound.key, bound.slots, bound.upper)}"
         f"{describe_share(share, d.yardstick)}{describe_shape(shape, bound.shape)}",
     )
 
@@ -75,6 +93,7 @@ def _make_unlimited(d: SearchResult, bound: SizeBound) -> UnlimitedTerm:
     term, _ = find_term(problem, bound.key)
     why = {
         ALIKE: "what is in the model has the same effect on this recording",
+        LEARNED: "the learned force may contain it",
         NONLINEAR: "its effect is not proportional to its size where it is small",
     }.get(bound.why, "it would hardly show in this recording")
     return UnlimitedTerm(term.name, term.at, f"{sentence(describe_place(problem, bound.key))} has no bound: {why}.")

@@ -127,7 +127,7 @@ def _make_detection(problem: Problem, row: Detectable, yardstick: str) -> Detect
     shape = list_shape(slots, row.shape)
     share = row.share if math.isfinite(row.share) else None
     rivals = tuple(dict.fromkeys(find_term(problem, key)[0].name for key in row.rivals))
-    beside = f", as it or {' or '.join(map(to_words, rivals))}" if rivals else ""
+    beside = f", not told from {' or '.join(map(to_words, rivals))}" if rivals else ""
     return Detection(
         mechanism=term.name,
         at=term.at,
@@ -137,7 +137,7 @@ def _make_detection(problem: Problem, row: Detectable, yardstick: str) -> Detect
         share_of_drive=share,
         given={slot.param.name: row.shape[slot.key] for slot in shape},
         confused_with=rivals,
-        says=f"{describe_term(problem, row.key, row.slots)} from {format_size(row.size, row.slots[0].unit)}"
+        says=f"{describe_term(problem, row.key, row.slots)} from {describe_size(problem, row.key, row.slots, row.size)}"
         f"{describe_share(share, yardstick)}{beside}{describe_shape(shape, row.shape)}",
     )
 
@@ -177,10 +177,26 @@ def describe_shape(shape: Sequence[Slot], values: Mapping[str, float]) -> str:
 
 def describe_term(problem: Problem, key: str, bounded: Sequence[Slot]) -> str:
     """Return a term in words, with its place and its amplitude where there are several."""
+    return describe_place(problem, key) + ("" if is_alone(problem, key, bounded) else f" with {name_one(bounded)}")
+
+
+def describe_size(problem: Problem, key: str, bounded: Sequence[Slot], size: float) -> str:
+    """Return a size with its unit; a number without one is told with its name, unless `describe_term` tells it."""
+    text = format_size(size, bounded[0].unit)
+    named = bounded[0].unit == "1" and is_alone(problem, key, bounded)
+    return f"{name_one(bounded)} of {text}" if named else text
+
+
+def is_alone(problem: Problem, key: str, bounded: Sequence[Slot]) -> bool:
+    """Return whether a term has no other amplitude than the bounded ones."""
     _, slots = find_term(problem, key)
-    alone = sum(slot.param.null is not None for slot in slots) == len(bounded)
+    return sum(slot.param.null is not None for slot in slots) == len(bounded)
+
+
+def name_one(bounded: Sequence[Slot]) -> str:
+    """Return the name of an amplitude in words, with its article."""
     name = to_words(name_amplitude(bounded))
-    return describe_place(problem, key) + ("" if alone else f" with {'an' if name[0] in 'aeiou' else 'a'} {name}")
+    return f"{'an' if name[0] in 'aeiou' else 'a'} {name}"
 
 
 def describe_place(problem: Problem, key: str) -> str:

@@ -104,9 +104,10 @@ def _write_notes(nominal: Fit, improvements: tuple[Improvement, ...], *, free: b
         " thousandth. Sizes are those of one missing term, present from the beginning."
     ]
     if compute_random_force_gain(nominal) > nominal.problem.settings.locate.significant:
-        notes.append(
+        notes.insert(
+            0,
             "The nominal model leaves a force that the usual noise of the drive does not explain: something is missing,"
-            " or a known value is wrong. Run `diagnose`; sizes are valid beside what it finds."
+            " or a known value is wrong. Run `diagnose`; sizes are valid beside what it finds.",
         )
     if not improvements and not free:
         notes.append(

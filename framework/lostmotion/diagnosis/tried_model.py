@@ -46,9 +46,12 @@ class TriedModel:
     problem: Problem
 
     @classmethod
-    def of(cls, prepared: Prepared, *, end: bool = False, settings: Settings = DEFAULT) -> TriedModel:
-        """Return the model of a prepared case on its first recording: on `MOST` samples, the first or the last ones."""
-        observation = prepared.observations[0]
+    def of(cls, prepared: Prepared, *, number: int = 0, end: bool = False, settings: Settings = DEFAULT) -> TriedModel:
+        """Return the model of a prepared case on a recording, the first one unless its `number` is given.
+
+        Of a long recording it has `MOST` samples: the first ones, or the last ones with `end`.
+        """
+        observation = prepared.observations[number]
         first = max(observation.samples - MOST, 0) if end else 0
         part = observation.part(first, min(first + MOST, observation.samples))
         system = make_system(prepared.model, prepared.terms)

@@ -26,6 +26,7 @@ from lostmotion.kernels.threads import each
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
 from lostmotion.likelihood.work import count_work
+from lostmotion.progress import Step
 
 Say = Callable[[str], None]
 Terms = frozenset[str]
@@ -39,11 +40,12 @@ MOST_TERMS = 4
 class Budget:
     """The work that a search may do, in steps of filters (`count_work`), and the processor time, in s.
 
-    Without a limit of time, the search ends at the same point on every machine.
+    Without a limit of time, the search ends at the same point on every machine. A part of a budget is this `share`.
     """
 
     steps: float = math.inf
     seconds: float = math.inf
+    share: float = 1.0
     begun: int = field(default_factory=count_work)
     since: float = field(default_factory=time.process_time)
 
@@ -52,13 +54,21 @@ class Budget:
         """Whether the work or the time is used up."""
         return count_work() - self.begun > self.steps or time.process_time() - self.since > self.seconds
 
+    @property
+    def used(self) -> float:
+        """The share of the whole budget that is used; 0 where there is no limit."""
+        if self.spent:
+            return self.share
+        done = (count_work() - self.begun) / self.steps, (time.process_time() - self.since) / self.seconds
+        return self.share * max(done)
+
     def end(self) -> None:
         """Declare the work used up."""
         self.steps = -1.0
 
     def part(self, share: float) -> Budget:
         """Return the budget of a first part of the work."""
-        return replace(self, steps=share * self.steps, seconds=share * self.seconds)
+        return replace(self, steps=share * self.steps, seconds=share * self.seconds, share=share * self.share)
 
 
 @dataclass
@@ -185,6 +195,11 @@ class BareFits:
         """Return the log prior odds against one more term."""
         wider = replace(fit.problem, active=self._join(fit.problem.active, key))
         return compute_price(wider, len(self.keys)) - compute_price(fit.problem, len(self.keys))
+
+
+def make_weighed(terms: Terms, score: float, budget: Budget) -> Step:
+    """Return the step that tells the score of a set of terms, and the share of the budget that is used."""
+    return Step(f"weighed {name_terms(terms)}", terms=sorted(terms), score=round(score, 2), used=round(budget.used, 4))
 
 
 def name_terms(terms: Iterable[str]) -> str:

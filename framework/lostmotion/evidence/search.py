@@ -10,7 +10,7 @@ from typing import Protocol
 
 import numpy as np
 
-from lostmotion.evidence.bare import MOST_TERMS, BareFits, Budget, Say, Terms, name_terms
+from lostmotion.evidence.bare import MOST_TERMS, BareFits, Budget, Say, Terms, make_weighed, name_terms
 from lostmotion.evidence.channel_errors import ChannelError, list_channel_errors
 from lostmotion.evidence.discrepancy import LARGE, LENGTHS, SIZES, Choice, make_frame
 from lostmotion.evidence.effects import Promise
@@ -217,6 +217,7 @@ class ExplanationSearch:
         known = self.found.get(made.terms)
         if math.isfinite(made.score()) and (known is None or made.score() > known.score()):
             self.found[made.terms] = made
+            self.say(make_weighed(made.terms, self.score(made), self.budget))
 
     def _weigh_beside(self, target: Hypothesis, promise: Promise) -> None:
         """Fit a hypothesis with one more term from the coordinates that another one predicts."""

@@ -20,17 +20,15 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 from PIL import Image
 
+from lostmotion.report.colours import AFTER as AFTER
+from lostmotion.report.colours import BEFORE as BEFORE
+from lostmotion.report.colours import LAW as LAW
+from lostmotion.report.colours import QUIET as QUIET
+from lostmotion.report.colours import RECORDED as RECORDED
+from lostmotion.report.colours import SHADE as SHADE
 from lostmotion.report.words import Scale, angles_in, choose_scale, figures, power_of_ten
 from lostmotion.results import Array
 from lostmotion.storage import save_bytes
-
-# Okabe and Ito: colour-blind readers can distinguish these, and their lightness differs in grey print.
-RECORDED = "#1a1a1a"
-BEFORE = "#d55e00"
-AFTER = "#0072b2"
-LAW = "#00664b"
-QUIET = "#8c8c8c"
-SHADE = "#e9eef3"
 
 WIDTH = 9.6
 LARGEST_SVG = 300_000

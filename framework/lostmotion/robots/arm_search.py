@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from lostmotion.evidence.bare import Budget
+from lostmotion.evidence.bare import Budget, make_weighed
 from lostmotion.evidence.search import compute_probabilities
 from lostmotion.inference.penalties import compute_unknown_price
 from lostmotion.kernels.threads import each
@@ -210,6 +210,7 @@ class ArmSearch:
         better = known is None or made.log_evidence + made.heldout > known.log_evidence + known.heldout
         if math.isfinite(made.heldout) and better:
             self.found[made.terms] = made
+            self.say(make_weighed(made.terms, made.score(self.temper), self.budget))
 
     def drop_each(self, target: ArmHypothesis) -> None:
         """Weigh a set without each of its effects in turn, starting from the set."""

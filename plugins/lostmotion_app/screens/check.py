@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import panel as pn
+
 import lostmotion
 from lostmotion.diagnosis.report.check_page import SECTIONS
 from lostmotion.results.expectation import CaseCheck
@@ -26,21 +28,20 @@ class CheckScreen(PageScreen):
 
     def __init__(self, desk: Desk) -> None:
         super().__init__(desk)
-        self.found = make_html()
         self.jobs = JobView(desk, "check", "Check", lambda: (), self._show_result)
 
     def make_view(self) -> Any:
         """Return the button above the result."""
-        about = "What this recording can tell, before any term is fitted: seconds."
-        return self.jobs.make_view(make_html(write_note(about)), self.problem.pane, self.found)
+        about = "What this recording can tell, before any term is fitted. It takes seconds."
+        view = self.jobs.make_view(self.problem.pane)
+        return pn.Column(make_html(write_note(about)), view, sizing_mode="stretch_width")
 
     def show(self) -> None:
         """Show the newest check of the case."""
-        self.found.object = ""
         self.jobs.watched = None
         self.jobs.refresh()
 
-    def _show_result(self, job: Job) -> None:
+    def _show_result(self, job: Job) -> str:
         result: CaseCheck = lostmotion.load(job.folder).result
         parts = [write_answer(result.says)]
         for section in SECTIONS:
@@ -51,7 +52,7 @@ class CheckScreen(PageScreen):
                 parts += [write_heading(str(title)), write_note(words) if words else ""]
                 parts.append(write_grid(grid, bars))
         parts.append(write_list(result.notes))
-        self.found.object = "".join(parts)
+        return "".join(parts)
 
 
 def make_bars(result: CaseCheck) -> list[float]:

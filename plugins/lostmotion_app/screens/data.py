@@ -13,6 +13,7 @@ from lostmotion.recording.table import Table
 from lostmotion_app import recorded_figures
 from lostmotion_app.desk import Desk
 from lostmotion_app.folder import MOST_UPLOADED
+from lostmotion_app.given_case import GivenCase
 from lostmotion_app.parts import (
     NumberField,
     beside,
@@ -27,6 +28,7 @@ from lostmotion_app.parts import (
 from lostmotion_app.screens import PageScreen
 
 AUTOMATIC, NONE = "(automatic)", "none"
+ROBOT = "The case of this log has a robot as its model, see the screen Model. “Use these columns” makes another case."
 
 
 class DataScreen(PageScreen):
@@ -36,9 +38,14 @@ class DataScreen(PageScreen):
 
     def __init__(self, desk: Desk) -> None:
         super().__init__(desk)
-        self.shown = ("", 0.0)
-        self.file = pn.widgets.Select(name="Recording", sizing_mode="stretch_width")
-        self.upload = pn.widgets.FileInput(name="Another file", multiple=False, sizing_mode="stretch_width")
+        self.shown = ("", 0.0, False)
+        self.file = pn.widgets.Select(name="Recording or case file", sizing_mode="stretch_width")
+        self.upload = pn.widgets.FileInput(
+            name=f"Or drop a file, to copy it here (at most {MOST_UPLOADED // 2**20} MiB)",
+            multiple=False,
+            sizing_mode="stretch_width",
+        )
+        self.given = pn.Column(sizing_mode="stretch_width", margin=0, visible=False)
         self.time = pn.widgets.Select(name="Time (--time)", sizing_mode="stretch_width")
         self.rate = NumberField("Rate in Hz (--rate)", "from the time", width=150)
         self.drive = _Channel("Drive (--drive)")
@@ -51,6 +58,11 @@ class DataScreen(PageScreen):
             name="Held out: last share", start=0.05, end=0.7, step=0.05, value=desk.hold, sizing_mode="stretch_width"
         )
         self.found, self.figures, self.same = make_html(), recorded_figures.RecordedFigures(), make_html()
+        self.further = pn.widgets.MultiChoice(
+            name="Further recordings with the same columns", sizing_mode="stretch_width"
+        )
+        self.case = GivenCase(desk, self.figures)
+        self.further.param.watch(lambda _: self._add(), "value")
         self.file.param.watch(self._choose, "value")
         self.upload.param.watch(self._upload, "value")
         self.apply.on_click(lambda _: self._draft())
@@ -59,30 +71,29 @@ class DataScreen(PageScreen):
 
     def make_view(self) -> Any:
         """Return the controls beside the figures."""
-        controls = [
-            self.file,
-            make_html(write_note(f"Or copy a file into the folder, at most {MOST_UPLOADED // 2**20} MiB:")),
-            self.upload,
+        self.given[:] = [
             make_html(write_heading("Columns")),
             self.time,
             self.rate.widget,
             *self.drive.widgets,
             *self.response.widgets,
             self.apply,
+            self.further,
             make_html(write_heading("Stretch")),
             self.stretch,
             self.hold,
         ]
-        return beside(controls, [self.problem.pane, self.found, self.figures.view, self.same])
+        controls = [self.file, self.upload, self.given]
+        return beside(controls, [self.problem.pane, self.found, self.case.view, self.figures.view, self.same])
 
     def show(self) -> None:
         """List the recordings, and show the chosen one if it is another one or has changed."""
-        names = self.desk.folder.list_recordings()
+        names = [*self.desk.folder.list_recordings(), *self.desk.folder.list_cases()]
         self.file.options = names if self.desk.recording in names else ["", *names]
         if self.desk.recording not in names:
             self.desk.recording = ""
-        if not names:
-            self.found.object = write_note("The folder has no recording yet: copy one into it, such as a CSV file.")
+        if not self.desk.recording:
+            self.found.object = write_beginning(len(names))
         if self.file.value != self.desk.recording:
             self.file.value = self.desk.recording  # which shows it
         elif self.desk.recording:
@@ -90,7 +101,7 @@ class DataScreen(PageScreen):
 
     def _choose(self, event: Any) -> None:
         self.desk.recording = event.new or ""
-        self.shown = ("", 0.0)
+        self.shown = ("", 0.0, False)
         if self.desk.recording:
             self._show_recording()
 
@@ -106,7 +117,8 @@ class DataScreen(PageScreen):
         """Show a recording: first its columns, then what `init` says."""
         with self.problem.watch():
             path = self.desk.folder.find(self.desk.recording)
-            now = (self.desk.recording, path.stat().st_mtime)
+            self.case.view.visible = self.desk.is_given
+            now = (self.desk.recording, path.stat().st_mtime, self.desk.is_robot)
             if now == self.shown:
                 return
             self.shown = now
@@ -114,12 +126,23 @@ class DataScreen(PageScreen):
             run_next(lambda: self._read_recording(path))
 
     def _read_recording(self, path: Path) -> None:
-        """Show the columns of a recording, and thereafter what `init` says."""
+        """Show the columns of a recording, and thereafter what `init` says; or what a case file contains."""
         with self.problem.watch():
-            self.found.object = ""
+            self.found.object = self.same.object = ""
+            if self.desk.is_given:
+                self.given.visible = False
+                self.case.show()
+                self.desk.tell()
+                return
             table = read_table(path)
             self._offer_columns(table)
+            self.given.visible = True
             self.figures.show_table(table, path.name)
+            if self.desk.is_robot:
+                self._offer_stretch()
+                self.found.object = write_note(ROBOT)
+                self.desk.tell()
+                return
             if self.desk.content:
                 self._restore()
             self.found.object = write_note("Looking for the roles of the columns ...")
@@ -165,6 +188,7 @@ class DataScreen(PageScreen):
             self.found.object = "".join([write_heading("What was read"), write_lines(draft.found), *notes])
             self.figures.column.value = self.response.choice.value
             self._offer_stretch()
+            self._offer_further()
             self._show_command(roles, gains)
             self.desk.tell()
 
@@ -176,6 +200,18 @@ class DataScreen(PageScreen):
         step = float(f"{(high - low) / 1000.0:.1g}")
         self.stretch.param.update(start=low, end=high, step=step, value=now)
         self.figures.mark(*now, self.desk.hold)
+
+    def _offer_further(self) -> None:
+        """Offer the other recordings of the folder."""
+        names = [name for name in self.desk.folder.list_recordings() if name != self.desk.recording]
+        self.further.param.update(options=names, value=[one for one in self.desk.list_further() if one in names])
+
+    def _add(self) -> None:
+        """Write the further recordings into the case."""
+        with self.problem.watch():
+            if self.desk.content and list(self.further.value) != self.desk.list_further():
+                self.desk.add_recordings(list(self.further.value))
+                self.desk.tell()
 
     def _mark(self, _: Any) -> None:
         """Keep the stretch in the case, and shade what is held out."""
@@ -202,6 +238,19 @@ class DataScreen(PageScreen):
         for name, gain in gains.items():
             words += ["--factor", f"{name}={gain:g}"]
         self.same.object = write_command(*words, "--out", self.desk.folder.name_of(self.desk.case))
+
+
+def write_beginning(count: int) -> str:
+    """Return what to do first, in a folder with a number of recordings, as HTML."""
+    first = "Choose a recording of this folder." if count else "This folder has no recording yet: drop one here."
+    steps = [
+        "Data: a table as a data logger wrote it, such as a CSV file. Look at its columns, units and time.",
+        "Model: choose a model of the machine, and enter the values that you know.",
+        "Check: what this recording can tell. It takes seconds.",
+        "Run: a search for the physics that the model leaves out. It takes a minute or more.",
+        "Results: the answer, and predictions of data that no fit has used.",
+    ]
+    return write_note(first) + write_heading("Screens") + write_list(steps)
 
 
 class _Channel:

@@ -2,22 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from datetime import datetime
 from pathlib import Path
 from typing import Any
 
 import panel as pn
 
 import lostmotion
+from lostmotion.diagnosis.guest_sections import find_sections
 from lostmotion.diagnosis.report import diagnosis_page, opening
-from lostmotion.diagnosis.report.page_data import Evidence
 from lostmotion.diagnosis.report.top_tables import make_mechanism_table, make_number_table
 from lostmotion.notebook.diagnosis_result import DiagnosisResult
+from lostmotion.notebook.robot_objects import RobotResult
 from lostmotion.report import style
-from lostmotion.report.pages import PageSection
-from lostmotion.report.words import percent, typeset
+from lostmotion.report.pages import Grid, PageSection
+from lostmotion.report.words import format_quantity, percent, sentence, to_words, typeset
+from lostmotion.robots import arm_page
 from lostmotion.storage import load_json
-from lostmotion_app.desk import Desk
+from lostmotion_app.desk import DIAGNOSIS, Desk
 from lostmotion_app.found_figures import MissingForce, SwitchedPrediction
 from lostmotion_app.parts import (
     make_html,
@@ -32,9 +35,10 @@ from lostmotion_app.parts import (
 from lostmotion_app.screens import PageScreen
 from lostmotion_app.sections import write_grid, write_sections
 
-FILE = "diagnosis.json"
 ELSEWHERE = ("prediction", "missing")
 """Sections of the report that this screen has in another form."""
+FIRST = ("joints", "ranking")
+"""The section that is seen first, for machines and for robots."""
 MOST_EARLIER = 30
 
 
@@ -49,7 +53,8 @@ class ResultsScreen(PageScreen):
         self.section = pn.widgets.Select(name="Section of the report", width=320)
         self.answer, self.drawn, self.earlier, self.same = (make_html() for _ in range(4))
         self.prediction, self.missing = SwitchedPrediction(), MissingForce()
-        self.found: DiagnosisResult | None = None
+        self.found: DiagnosisResult | RobotResult | None = None
+        self.sections: tuple[PageSection[Any], ...] = ()
         self.shown: tuple[str, float] = ("", 0.0)
         self.choice.param.watch(lambda _: self._open(), "value")
         self.section.param.watch(lambda _: self._draw_section(), "value")
@@ -57,14 +62,13 @@ class ResultsScreen(PageScreen):
     def make_view(self) -> Any:
         """Return the parts of the screen below each other."""
         return pn.Column(
-            self.choice, self.problem.pane, self.answer, self.prediction.view, self.missing.view, self.section,
-            self.drawn, self.earlier, self.same, sizing_mode="stretch_width",
+            self.choice, self.problem.pane, self.earlier, self.answer, self.prediction.view, self.missing.view,
+            self.section, self.drawn, self.same, sizing_mode="stretch_width",
         )  # fmt: skip
 
     def show(self) -> None:
         """List the results of the folder, those of this recording first, and show the newest one."""
-        folders = self.desk.folder.list_results(FILE)
-        own = [one for one in folders if self.desk.recording and one.is_relative_to(self.desk.place)]
+        folders, own = self.desk.folder.list_results(DIAGNOSIS), self.desk.list_results()
         names = [self.desk.folder.name_of(one) for one in (*own, *(one for one in folders if one not in own))]
         self._compare(names)
         newest = names[0] if names else None
@@ -84,27 +88,32 @@ class ResultsScreen(PageScreen):
             return
         with self.problem.watch():
             folder = self.desk.folder.find(name)
-            now = (name, (folder / FILE).stat().st_mtime)
+            now = (name, (folder / DIAGNOSIS).stat().st_mtime)
             if now != self.shown:
                 self.shown = now
                 self.answer.object = write_note(f"Reading {name} ...")
                 run_next(lambda: self._show_result(folder))
 
     def _show_result(self, folder: Path) -> None:
-        self.found = None
-        sections: tuple[PageSection[Evidence], ...] = ()
+        self.found, self.sections = None, ()
+        guests: tuple[str, ...] = ()
         with self.problem.watch():
-            found = lostmotion.load(folder)
+            self.found = found = lostmotion.load(folder)
             self.answer.object = write_answer([typeset(one) for one in found.says])
-            if isinstance(found, DiagnosisResult):
-                self.found = found
-                self.answer.object += write_summary(found)
-                sections = tuple(one for one in diagnosis_page.SECTIONS if one.name not in ELSEWHERE)
-            self.prediction.show(self.found, folder, self.desk.registry)
-            self.missing.show(self.found)
-        titles = {str(one.title) if isinstance(one.title, str) else one.name: one.name for one in sections}
+            plain = found if isinstance(found, DiagnosisResult) else None
+            if plain is None:
+                self.sections = arm_page.SECTIONS
+            else:
+                self.answer.object += write_summary(plain)
+                self.sections = tuple(one for one in diagnosis_page.SECTIONS if one.name not in ELSEWHERE)
+                guests = tuple(find_sections(self.desk.registry))
+            self.prediction.show(plain, folder, self.desk.registry)
+            self.missing.show(plain)
+        titles = {one.title if isinstance(one.title, str) else one.name: one.name for one in self.sections}
+        titles |= {sentence(to_words(guest)): guest for guest in guests}
         self.section.visible = bool(titles)
-        self.section.options, self.section.value = titles, titles.get("Ranking of the candidates")
+        self.section.options = titles
+        self.section.value = next((name for name in FIRST if name in titles.values()), None)
         self.same.object = write_command(
             "lostmotion", "diagnose", "CASE.toml", "--out", self.desk.folder.name_of(folder)
         )
@@ -115,9 +124,12 @@ class ResultsScreen(PageScreen):
         if self.found is None or not self.section.value:
             return
         with self.problem.watch():
-            chosen = [one for one in diagnosis_page.SECTIONS if one.name == self.section.value]
-            evidence = self.found.evidence
-            drawn = write_sections(chosen, evidence, evidence.result.units.angle)
+            found, name = self.found, str(self.section.value)
+            chosen = [one for one in self.sections if one.name == name]
+            guests = {name: find_sections(self.desk.registry)[name]} if not chosen else {}
+            angle = found.result.units.angle if isinstance(found, DiagnosisResult) else "rad"
+            evidence: Any = found.evidence
+            drawn = write_sections(chosen, evidence, angle, guests)
             self.drawn.object = drawn or write_note("This result has nothing to show here.")
 
     def _compare(self, names: Sequence[str]) -> None:
@@ -125,10 +137,14 @@ class ResultsScreen(PageScreen):
         rows = []
         for name in names[:MOST_EARLIER]:
             with self.problem.watch():
-                content = load_json(self.desk.folder.find(name) / FILE, "run `lostmotion diagnose` again")
-                rows.append([name, *describe_result(content)])
-        head = ["Result", "Verdict", "Found", "Error before", "Error after"]
-        self.earlier.object = write_heading("Results in this folder") + write_table(head, rows) if rows else ""
+                file = self.desk.folder.find(name) / DIAGNOSIS
+                content = load_json(file, "run `lostmotion diagnose` again")
+                made = datetime.fromtimestamp(file.stat().st_mtime).strftime("%d %b %H:%M")
+                rows.append([name, made, *describe_result(content)])
+        head = ["Result", "Made", "Verdict", "Found", "Parameters", "Error before", "Error after"]
+        several = len(rows) > 1
+        title = write_heading("Results in this folder, side by side")
+        self.earlier.object = title + write_table(head, rows) if several else ""
 
 
 def write_summary(found: DiagnosisResult) -> str:
@@ -136,6 +152,7 @@ def write_summary(found: DiagnosisResult) -> str:
     with style.use_style(found.result.units.angle):
         tables = [make_mechanism_table(found.evidence), make_number_table(found.evidence)]
     confused = opening.write_confusions(found.result)
+    tables[0] = Grid(tables[0].head[:-1], [row[:-1] for row in tables[0].rows])  # the answer has the sentences
     parts = [write_grid(table) for table in tables if table.rows]
     parts += [write_heading("Not told apart, and the next experiment"), write_list(confused)] if confused else []
     parts += [write_heading("Notes"), write_list(found.notes)] if found.notes else []
@@ -143,8 +160,23 @@ def write_summary(found: DiagnosisResult) -> str:
 
 
 def describe_result(content: Any) -> list[str]:
-    """Return verdict, findings and errors of free runs of a stored result, in words."""
-    found = ", ".join(str(one.get("mechanism", "")) for one in content.get("found", ()))
+    """Return verdict, findings, parameters and errors of free runs of a stored result, in words."""
+    found = [
+        f"{sentence(to_words(str(one.get('mechanism', ''))))}: {list_medians(one.get('parameters', {}))}"
+        for one in content.get("found", ())
+    ]
+    after = content.get("parameters", {}).get("after", {})
+    own = list_medians({name: one for name, one in after.items() if "." not in name})
     fit = content.get("fit", {})
     errors = [fit.get(key, {}).get("heldout_nrmse") for key in ("before", "after")]
-    return [str(content.get("verdict", "")), found, *(percent(one) if one is not None else "" for one in errors)]
+    return [
+        str(content.get("verdict", "")), "; ".join(found) or "nothing", own,
+        *(percent(one) if one is not None else "" for one in errors),
+    ]  # fmt: skip
+
+
+def list_medians(parameters: Mapping[str, Any]) -> str:
+    """Return the medians of parameters with their units, in words."""
+    told = (f"{to_words(name)} {format_quantity(one['median'], one['unit'])}" for name, one in parameters.items()
+            if isinstance(one, Mapping))  # fmt: skip
+    return ", ".join(told)

@@ -7,10 +7,12 @@ from typing import Any
 
 import panel as pn
 
+import lostmotion
+from lostmotion.report.words import typeset
 from lostmotion_app.desk import Desk
 from lostmotion_app.job_view import JobView
 from lostmotion_app.jobs import Job, list_jobs
-from lostmotion_app.parts import NumberField, make_html, write_heading, write_note, write_table
+from lostmotion_app.parts import NumberField, make_html, write_answer, write_heading, write_note, write_table
 from lostmotion_app.screens import PageScreen
 
 
@@ -31,7 +33,7 @@ class RunScreen(PageScreen):
         about = "The job is a process of its own: it goes on when this page is closed. Cancel gives the answer so far."
         options = pn.FlexBox(self.budget.widget, self.seed.widget, sizing_mode="stretch_width")
         for field in (self.budget, self.seed):
-            field.widget.param.watch(lambda _: self._refresh(), "value")
+            field.widget.param.watch(lambda _: self.jobs.refresh(), "value")
         return pn.Column(
             make_html(write_note(about)), options, self.problem.pane, self.jobs.make_view(self.earlier),
             sizing_mode="stretch_width",
@@ -40,23 +42,20 @@ class RunScreen(PageScreen):
     def show(self) -> None:
         """Show the newest diagnosis of the case."""
         self.jobs.watched = None
-        self._refresh()
+        self.jobs.refresh()
         self._list_earlier()
-
-    def _refresh(self) -> None:
-        with self.problem.watch():
-            self.jobs.refresh()
 
     def _list_options(self) -> Sequence[str]:
         budget, seed = self.budget.value, self.seed.value
         words = ["--budget", f"{budget:g}"] if budget is not None else []
         return [*words, *(["--seed", f"{seed:g}"] if seed is not None else [])]
 
-    def _show_result(self, _: Job) -> None:
+    def _show_result(self, job: Job) -> str:
         self._list_earlier()
+        return write_answer([typeset(one) for one in lostmotion.load(job.folder).says])
 
     def _list_earlier(self) -> None:
         jobs = list_jobs(self.desk.place, "diagnose") if self.desk.recording else []
-        rows = [[job.name, job.state, f"{job.seconds:.0f} s", next(iter(job.output), "")] for job in jobs]
+        rows = [[job.name, job.state, f"{job.seconds:.0f}\u00a0s", next(iter(job.output), "")] for job in jobs]
         table = write_table(["Run", "State", "Time", "Answer"], rows) if rows else ""
         self.earlier.object = write_heading("Runs of this recording") + table if rows else ""

@@ -12,6 +12,8 @@ from lostmotion_app.desk import Desk
 from lostmotion_app.parts import make_html, write_heading, write_lines, write_note
 from lostmotion_app.screens import PageScreen
 
+WRITTEN = ("report.html", "arm_found.xml")
+"""The files of a result that are offered."""
 FORMAT = {"nbformat": 4, "nbformat_minor": 5}
 """The version of the format of notebooks: the oldest with identifiers of cells."""
 
@@ -38,11 +40,11 @@ class TakeAwayScreen(PageScreen):
                 return
             text = self.desk.case.read_text(encoding="utf-8")
             lines = list_python_lines(self.desk)
-            results = [one for one in self.desk.folder.list_results("diagnosis.json")
-                       if one.is_relative_to(self.desk.place)]  # fmt: skip
+            results = self.desk.list_results()
             given = {"case.toml": text, "diagnosis.ipynb": make_notebook(lines)}
-            if results and (results[0] / "report.html").is_file():
-                given["report.html"] = (results[0] / "report.html").read_text(encoding="utf-8")
+            for name in WRITTEN:
+                if results and (results[0] / name).is_file():
+                    given[name] = (results[0] / name).read_text(encoding="utf-8")
             self.files[:] = [make_download(name, content) for name, content in given.items()]
             self.told.object = "".join(
                 [
@@ -60,7 +62,7 @@ class TakeAwayScreen(PageScreen):
 def make_download(name: str, content: str) -> Any:
     """Return a button that stores a file."""
     return pn.widgets.FileDownload(
-        io.BytesIO(content.encode()), filename=name, label=name, button_type="primary", width=170
+        io.BytesIO(content.encode()), filename=name, label=f"Download {name}", button_type="primary", width=220
     )
 
 
@@ -68,19 +70,20 @@ def list_shell_lines(desk: Desk) -> list[str]:
     """Return the commands that check and diagnose the case."""
     case = desk.folder.name_of(desk.case)
     more = "".join(f" --set {key}={value:g}" for key, value in desk.settings.items())
-    return [f"lostmotion check {case} --out checked{more}", f"lostmotion diagnose {case} --out result{more}"]
+    check = [] if desk.is_robot else [f"lostmotion check {case} --out checked{more}"]
+    return [*check, f"lostmotion diagnose {case} --out result{more}"]
 
 
 def list_python_lines(desk: Desk) -> list[str]:
     """Return the lines of Python that do the same."""
     more = f", settings={dict(desk.settings)!r}" if desk.settings else ""
+    check = [] if desk.is_robot else [f"checked = lm.check(case{more})", "print(checked)"]
     return [
         "import lostmotion as lm",
         "",
         f'case = lm.Case.read("{desk.folder.name_of(desk.case)}")',
-        f"checked = lm.check(case{more})",
+        *check,
         f'found = lm.diagnose(case, out="result"{more})',
-        "print(checked)",
         "print(found)",
         "found.plot.prediction()",
     ]

@@ -11,10 +11,12 @@ from lostmotion.defaults import USUAL
 from lostmotion.diagnosis.report.page_data import Evidence
 from lostmotion.report import style
 from lostmotion.report.pages import Grid
-from lostmotion.report.words import DASH, format_size, percent, sentence, to_words
-from lostmotion.results.absent import AbsentTerm
+from lostmotion.report.words import DASH, format_size, percent, sentence, to_words, typeset
+from lostmotion.results.absent import AbsentTerm, UnlimitedTerm
 from lostmotion.results.expectation import Detection
 
+OTHER = "Other parameters"
+"""The heading of the values of other parameters for which a size holds."""
 MOST = 5
 """The number of bounds in a summary."""
 
@@ -24,7 +26,7 @@ def draw(evidence: Evidence) -> Figure | None:
     rows = [one for one in evidence.result.absent if one.share_of_drive]
     if not rows:
         return None
-    told = [(label_absent(one, rows), one.share_of_drive or 0.0, format_size(one.upper, one.unit)) for one in rows]
+    told = [(label_absent(one, rows), one.share_of_drive or 0.0, format_amplitude(one, one.upper)) for one in rows]
     return draw_shares(told, f"largest force at the bound, in % of {evidence.result.drive.of}")
 
 
@@ -37,7 +39,7 @@ def draw_shares(rows: Sequence[tuple[str, float, str]], label: str, colour: str 
     axes.barh(range(len(rows)), [share - least for share in shares], left=least, color=colour, height=0.66)
     beside: dict[str, Any] = {"xytext": (4, 0), "textcoords": "offset points", "va": "center", "fontsize": 8.5}
     for row, (_, _, words) in enumerate(rows):
-        axes.annotate(words, (shares[row], row), **beside)
+        axes.annotate(typeset(words), (shares[row], row), **beside)
     axes.set_xscale("log")
     axes.set_xlim(least, 4.0 * max(shares))
     style.log_ticks(axes.xaxis)
@@ -63,19 +65,38 @@ def make_table(evidence: Evidence) -> Grid | None:
     """Return each bound with its share of the drive, and the values of the other parameters for which it holds."""
     rows = evidence.result.absent
     table = [list_size_cells(one, rows, one.upper) for one in rows]
-    return Grid(["Not missing", "Larger than", f"Share of {evidence.result.drive.of}", "For"], table)
+    return Grid(["Not missing", "Larger than", f"Share of {evidence.result.drive.of}", OTHER], table)
 
 
 def write_words(evidence: Evidence) -> str:
     """Return the summary, and the terms that the recording does not limit."""
     result = evidence.result
-    return " ".join(filter(None, [summarise_absent(result.absent), *(one.says for one in result.unlimited)]))
+    return " ".join([summarise_absent(result.absent), *group_unlimited(result.unlimited, "bound")]).strip()
 
 
 def list_size_cells(one: AbsentTerm | Detection, rows: Sequence[AbsentTerm | Detection], size: float) -> list[str]:
     """Return the cells of a term: its name, a size, its share of the drive, and the values for which that holds."""
     share = DASH if one.share_of_drive is None else percent(one.share_of_drive)
-    return [label_absent(one, rows), format_size(size, one.unit), share, one.says.partition(", for ")[2] or DASH]
+    return [label_absent(one, rows), format_amplitude(one, size), share, one.says.partition(", for ")[2] or DASH]
+
+
+def format_amplitude(one: AbsentTerm | Detection, size: float) -> str:
+    """Return a size with its unit; a number without a unit is told with the name of its parameter."""
+    text = format_size(size, one.unit)
+    return f"{to_words(one.parameter)} {text}" if one.unit == "1" else text
+
+
+def group_unlimited(rows: Sequence[UnlimitedTerm], what: str) -> list[str]:
+    """Return a sentence for each reason why terms have no `what`, such as a bound."""
+    reasons: dict[str, dict[str, None]] = {}
+    for one in rows:
+        reasons.setdefault(one.says.partition(": ")[2].rstrip("."), {})[to_words(one.mechanism)] = None
+    return [f"No {what} for {join_words(list(names))}, because {why}." for why, names in reasons.items()]
+
+
+def join_words(names: Sequence[str]) -> str:
+    """Return names as a list in words: "a, b and c"."""
+    return " and ".join(filter(None, [", ".join(names[:-1]), names[-1]]))
 
 
 def label_absent(one: AbsentTerm | Detection, rows: Sequence[AbsentTerm | Detection]) -> str:

@@ -10,7 +10,14 @@ from matplotlib.figure import Figure
 
 from lostmotion.codec import to_plain
 from lostmotion.defaults import USUAL
-from lostmotion.diagnosis.report.absent_table import draw_shares, label_absent, list_size_cells
+from lostmotion.diagnosis.report.absent_table import (
+    OTHER,
+    draw_shares,
+    format_amplitude,
+    group_unlimited,
+    label_absent,
+    list_size_cells,
+)
 from lostmotion.diagnosis.report.page_data import Evidence
 from lostmotion.report import style
 from lostmotion.report.pages import Grid, PageSection, draw_sections, load_template, write_page
@@ -22,7 +29,6 @@ from lostmotion.report.words import (
     format_size,
     interval,
     percent,
-    sentence,
     to_words,
     typeset,
 )
@@ -59,13 +65,10 @@ def summarise_check(expected: Expectation, improvements: Sequence[Improvement], 
     """Return the result of a check in sentences, with angles in the unit `angle`."""
     with angles_in(angle):
         says = [*_list_interval_sentences(expected), *list_effect_sentences(expected)]
-    if improvements:
-        changes = "; ".join(
-            f"{one.change}: intervals {figures(one.intervals, 2)} times as wide, smallest sizes"
-            f" {figures(one.effects, 2)} times as large"
-            for one in improvements
-        )
-        says.append(f"What would help: {changes}.")
+    for one in improvements:
+        change = one.change[:1].lower() + one.change[1:]
+        widths, sizes = _compare(one.intervals, "narrower", "wider"), _compare(one.effects, "smaller", "larger")
+        says.append(f"It would help to {change}: intervals {widths}, smallest sizes {sizes}.")
     return tuple(says)
 
 
@@ -79,12 +82,17 @@ def _list_interval_sentences(expected: Expectation) -> Iterator[str]:
 
 
 def list_pair_sentences(expected: Expectation) -> Iterator[str]:
-    """Yield a sentence on each pair of parameters that are hardly told apart."""
-    for pair in expected.pairs:
-        yield (
-            f"This recording hardly tells {pair.one} and {pair.other} apart: their correlation is"
-            f" {figures(pair.correlation, 3)}."
-        )
+    """Yield a sentence on the pairs of parameters that are hardly told apart, those with the largest correlation."""
+    told = [f"{pair.one} from {pair.other} (correlation {figures(pair.correlation, 3)})" for pair in expected.pairs]
+    if told:
+        yield f"This recording hardly tells {shorten_pairs(told)}."
+
+
+def shorten_pairs(told: Sequence[str]) -> str:
+    """Return the first `MOST` entries of a list of pairs, and the number of the others, in words."""
+    more = len(told) - MOST
+    rest = [f"and {more} further {'pair' if more == 1 else 'pairs'}"] if more > 0 else []
+    return "; ".join([*told[:MOST], *rest])
 
 
 def _compare_width(one: Interval) -> str:
@@ -100,8 +108,9 @@ def list_effect_sentences(expected: Expectation) -> Iterator[str]:
         yield f"Named with a probability of 90 %: {'; '.join(one.says for one in usual)}."
     pairs = {frozenset((one.mechanism, other)) for one in expected.effects for other in one.confused_with}
     if pairs:
-        words = sorted(" and ".join(map(to_words, sorted(pair))) for pair in pairs)
-        yield f"Not told apart in this recording: {'; '.join(words)}."
+        ranked = sorted(pairs, key=lambda pair: (-len(pair & set(USUAL)), sorted(pair)))
+        words = [" from ".join(map(to_words, sorted(pair))) for pair in ranked]
+        yield f"This recording does not tell {shorten_pairs(words)}."
     for one in expected.unseen:
         if one.mechanism in USUAL:
             yield one.says
@@ -123,7 +132,7 @@ def draw_effects(expected: Expectation, yardstick: str, *, most: int = 0) -> Fig
         rows = sorted(select_usual(rows, most), key=lambda one: one.share_of_drive or 0.0)
     if not rows:
         return None
-    told = [(label_absent(one, rows), one.share_of_drive or 0.0, format_size(one.smallest, one.unit)) for one in rows]
+    told = [(label_absent(one, rows), one.share_of_drive or 0.0, format_amplitude(one, one.smallest)) for one in rows]
     return draw_shares(told, f"largest force at the smallest size that is named, in % of {yardstick}", style.AFTER)
 
 
@@ -162,13 +171,27 @@ def _make_effect_table(result: CaseCheck) -> Grid:
     table = [
         [*list_size_cells(one, rows, one.smallest), ", ".join(map(to_words, one.confused_with)) or DASH] for one in rows
     ]
-    return Grid(["Term", "Named from", f"Share of {result.yardstick}", "For", "Not told from"], table)
+    return Grid(["Term", "Named from", f"Share of {result.yardstick}", OTHER, "Not told from"], table)
 
 
 def _make_improvement_table(result: CaseCheck) -> Grid:
     """Return the changes that would help."""
-    rows = [[one.change, figures(one.intervals, 2), figures(one.effects, 2)] for one in result.improvements]
-    return Grid(["Change", "Intervals, times", "Smallest sizes, times"], rows)
+    rows = [
+        [one.change, _compare(one.intervals, "narrower", "wider"), _compare(one.effects, "smaller", "larger")]
+        for one in result.improvements
+    ]
+    return Grid(["Change", "Expected intervals", "Smallest sizes"], rows)
+
+
+def _compare(factor: float, less: str, more: str) -> str:
+    """Return a factor in words: "3.1 times narrower"."""
+    return f"{figures(1.0 / factor, 2)} times {less}" if factor < 1.0 else f"{figures(factor, 2)} times {more}"
+
+
+def _make_pair_table(result: CaseCheck) -> Grid:
+    """Return the pairs of parameters that are hardly told apart."""
+    rows = [[pair.one, pair.other, figures(pair.correlation, 3)] for pair in result.expected.pairs]
+    return Grid(["Parameter", "Hardly told from", "Correlation"], rows)
 
 
 EFFECT_CAPTION = (
@@ -185,7 +208,8 @@ SECTIONS: tuple[PageSection[CaseCheck], ...] = (
         lambda one: draw_effects(one.expected, one.yardstick),
         lambda _: EFFECT_CAPTION,
         _make_effect_table,
-        lambda one: " ".join(sentence(row.says) for row in one.expected.unseen),
+        lambda one: " ".join(group_unlimited(one.expected.unseen, "size")),
     ),
+    PageSection("pairs", "Parameters that are hardly told apart", table=_make_pair_table),
     PageSection("improvements", "What would help", table=_make_improvement_table),
 )

@@ -42,6 +42,12 @@ def lostmotion_noises() -> dict[str, str]:
 
 
 @hookimpl
+def lostmotion_screens() -> dict[str, tuple[str, str]]:
+    """Return the screens that this package adds to the page of `lostmotion app`."""
+    return {"readings": (f"{_HERE}.screens:draw_readings", "How often each sensor reads which value.")}
+
+
+@hookimpl
 def lostmotion_sections() -> dict[str, tuple[str, str]]:
     """Return the sections that this package adds to the page of a diagnosis."""
     return {"power": (f"{_HERE}.sections:make_power_section", "The power of the missing force over the recording.")}
