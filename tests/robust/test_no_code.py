@@ -23,6 +23,7 @@ KNOWN = {
     "framework/lostmotion/likelihood/adopted.py": {
         "exec"
     },  # our own text, filled with numbers and with functions of loaded plugins
+    "framework/lostmotion/likelihood/place_frame.py": {"exec"},  # our own text: assignments by numbers of rows
     "plugins/lostmotion_chaos/maps/sweep.py": {
         "pickle.loads"
     },  # what the client of a dask cluster sent, over the cluster's own pickles
