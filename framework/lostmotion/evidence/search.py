@@ -21,6 +21,7 @@ from lostmotion.inference.candidates import ScoreTest, add_term
 from lostmotion.inference.curves import add_all_curves
 from lostmotion.inference.fit import ROUGHLY, Fit, maximise, restart
 from lostmotion.inference.penalties import compute_price, compute_unknown_price
+from lostmotion.inference.settling import settle_steps
 from lostmotion.likelihood.observation import Observation
 
 MOST_BESIDE, MOST_CLOSE = 3, 4
@@ -194,6 +195,7 @@ class ExplanationSearch:
     def weigh(self, bare: Fit, begin: Mapping[str, float] | None = None, choice: Choice | None = None) -> None:
         """Fit the hypothesis of a bare fit, from some coordinates, and keep it if it is the best of its terms."""
         self.say(f"weighing {name_terms(bare.problem.active)}")
+        bare = settle_steps(bare)
         self.bare.keep(bare)
         frame = make_frame(bare.problem, bare.theta, self.errors)
         at, price = frame.start, compute_price(bare.problem, len(self.keys))

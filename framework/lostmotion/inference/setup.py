@@ -389,7 +389,7 @@ def _make_offsets(problem: Problem, prior: Prior | None) -> tuple[FreeParameter,
 def polish_fit(fit: Fit) -> Fit:
     """Return the fit with finer integration steps."""
     problem = choose_steps(fit.problem, fit.theta, accuracy=FINE)
-    finer = maximise(problem, fit.theta)
+    finer = maximise(replace(problem, nsub=max(problem.nsub, fit.problem.nsub)), fit.theta)
     return finer if finer.status in ("converged", "rough") else fit
 
 
