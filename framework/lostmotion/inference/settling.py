@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from lostmotion.inference.fit import ROUGHLY, Fit, maximise
 
-SETTLED, MOST_STEPS = 3.0, 64
+SETTLED, MOST_STEPS = 3.0, 48
 """The largest change of the log-likelihood by half as long steps, and the largest number of steps in a sample."""
 
 
@@ -16,7 +16,7 @@ def settle_steps(fit: Fit) -> Fit:
     An integration error is a random force to the filter: with little noise, a law with a kink loses hundreds by it, and
     a smooth force that imitates the law does not.
     """
-    while fit.problem.nsub < MOST_STEPS:
+    while 2 * fit.problem.nsub <= MOST_STEPS:
         finer = replace(fit.problem, nsub=2 * fit.problem.nsub)
         if abs(finer.log_posterior(fit.theta) - fit.problem.log_posterior(fit.theta)) < SETTLED:
             return fit
