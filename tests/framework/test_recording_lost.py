@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from lostmotion.errors import CaseError, DataError
 from lostmotion.recording.load import Recording
@@ -92,3 +93,8 @@ def test_huge_values_of_an_input_are_refused_before_lost_ones_are_filled() -> No
 def test_arrays_need_units() -> None:
     with pytest.raises(CaseError, match="units is None"):
         Recording.from_arrays(rate=1e3, sensors={"position": VALUES}, units=None)  # type: ignore[arg-type]
+
+
+def test_a_container_that_is_no_array_is_refused() -> None:
+    with pytest.raises(DataError, match=r"'position' is .*Dataset.*: give an array of floats"):
+        Recording.from_arrays(rate=1e3, sensors={"position": xr.Dataset()}, units={"position": "m"})

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lostmotion.arguments import describe
 from lostmotion.errors import DataError
 from lostmotion.recording.numbers import read_number
 from lostmotion.recording.stamps import Stamps, is_stamp
@@ -38,7 +39,10 @@ def table_of_arrays(columns: Mapping[str, Any], units: Mapping[str, str]) -> Tab
 
 def to_numbers(name: str, value: Any) -> tuple[Array, str]:
     """Return a column as numbers (n,), and its first calendar time in ISO format, "" for a column of numbers."""
-    array = _to_array(value)
+    try:
+        array = _to_array(value)
+    except TypeError as err:  # a container that is no array, as a Dataset of xarray
+        raise DataError(f"{name!r} is {describe(value)}: give an array of floats") from err
     if array.dtype.kind in "OTU":
         array = _unwrap(name, array)
     if array.dtype.kind == "U":
