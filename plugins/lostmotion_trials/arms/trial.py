@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from functools import lru_cache, partial
 from pathlib import Path
-from typing import TypeVar
 
 import numpy as np
 
-from lostmotion.campaigns.campaign import Campaign, Trial
 from lostmotion.codec import described, from_plain, to_plain
 from lostmotion.errors import DataError, LostMotionError, nearest
 from lostmotion.provenance import provenance
@@ -33,10 +31,8 @@ from lostmotion_trials.arms.judging import (
     list_named,
 )
 from lostmotion_trials.sealing import ConcealedCase, format_case_name, open_seal, publish, seal_case
+from lostmotion_trials.trial_steps import Say, TrialSteps, be_silent, open_trial
 
-T = TypeVar("T")
-Say = Callable[[str, int, int], None]
-"""Called with the current step, how many of its trials are done, and how many there are."""
 FILES = ("case.toml", "arm.xml", "log.csv")
 CYCLE, HIDING = 5, 3
 """Of so many arms in turn, the first few hide something."""
@@ -199,7 +195,7 @@ def run_arms(
     *,
     cases: int,
     jobs: int,
-    say: Say = lambda _step, _done, _of: None,
+    say: Say = be_silent,
     fresh: bool = False,
 ) -> ArmsProof:
     """Return the content of `proof.json` after writing it into `out`, beside cases and truths.
@@ -207,19 +203,13 @@ def run_arms(
     Each of the three steps is a campaign with its own processes in `out`/steps; an interrupted one is continued.
     """
     plan.check()
-    out = folder_for(out).absolute()
-    if fresh:
-        (out / "seal.json").unlink(missing_ok=True)
+    out = open_trial(out, fresh=fresh)
     settings = {"world": "arms", **{key: value for key, value in asdict(plan).items() if key != "seed"}}
     origin = partial(provenance, seed=plan.seed, inputs={})
-
-    def run_step(step: str, trial: Trial[T], kind: type[T]) -> list[T]:
-        campaign = Campaign(trial, kind, cases, origin(f"prove {step}", settings), apart=True)
-        return campaign.run(out / "steps" / step, jobs, partial(say, step), fresh=fresh)
-
-    publish(out, run_step("conceal", partial(conceal_arm, plan, out), ConcealedCase))
-    run_step("diagnose", ArmDiagnoser(out / "cases"), DiagnosedArm)
-    rows = run_step("score", ArmScorer(out), JudgedArm)
+    steps = TrialSteps(out, cases, jobs, origin, say, fresh)
+    publish(out, steps.run("conceal", partial(conceal_arm, plan, out), ConcealedCase, settings))
+    steps.run("diagnose", ArmDiagnoser(out / "cases"), DiagnosedArm, settings)
+    rows = steps.run("score", ArmScorer(out), JudgedArm, settings)
     content = ArmsProof(
         schema="lostmotion.proof_arms/1",
         title=f"Blind trial on arms with {plan.joints} joints",

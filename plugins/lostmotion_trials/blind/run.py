@@ -3,29 +3,23 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from functools import lru_cache, partial
 from pathlib import Path
-from typing import TypeVar
 
-from lostmotion.campaigns.campaign import Campaign, Trial
 from lostmotion.codec import to_plain
 from lostmotion.diagnosis.diagnosis_run import run_diagnosis
 from lostmotion.errors import LostMotionError, PlaceError
 from lostmotion.provenance import digest, provenance
 from lostmotion.registry import Registry
-from lostmotion.storage import folder_for, save_json
+from lostmotion.storage import save_json
 from lostmotion_trials.blind.commitment import Blind, conceal_case
 from lostmotion_trials.blind.judging import score_case
 from lostmotion_trials.blind.page import write_proof
 from lostmotion_trials.blind.results import DiagnosedCase, JudgedCase, Proof
 from lostmotion_trials.blind.score import summarise
 from lostmotion_trials.sealing import ConcealedCase, format_case_name, publish
-
-T = TypeVar("T")
-Say = Callable[[str, int, int], None]
-"""Called with the current step, how many of its trials are done, and how many there are."""
+from lostmotion_trials.trial_steps import Say, TrialSteps, be_silent, open_trial
 
 
 @dataclass(frozen=True)
@@ -75,7 +69,7 @@ def run_proof(
     cases: int,
     jobs: int,
     plugins: tuple[str, ...] = (),
-    say: Say = lambda _step, _done, _of: None,
+    say: Say = be_silent,
     fresh: bool = False,
 ) -> Proof:
     """Return the content of `proof.json` after writing it and `report.html` into `out`, beside cases and truths.
@@ -83,21 +77,15 @@ def run_proof(
     Each of the three steps is a campaign with its own processes in `out`/steps; an interrupted one is continued.
     """
     blind.check()
-    out = folder_for(out).absolute()
-    if fresh:
-        (out / "seal.json").unlink(missing_ok=True)
+    out = open_trial(out, fresh=fresh)
     settings = {key: value for key, value in asdict(blind).items() if key != "seed"}
     library = {**settings, "terms": _registry(plugins).names("term")}
     inputs = {Path(file).name: digest(Path(file)) for file in plugins}
     origin = partial(provenance, seed=blind.seed, inputs=inputs)
-
-    def run_step(step: str, trial: Trial[T], kind: type[T], given: Mapping[str, object]) -> list[T]:
-        campaign = Campaign(trial, kind, cases, origin(f"prove {step}", given), apart=True)
-        return campaign.run(out / "steps" / step, jobs, partial(say, step), fresh=fresh)
-
-    publish(out, run_step("conceal", partial(conceal_case, blind, out), ConcealedCase, settings))
-    diagnosed = run_step("diagnose", Diagnoser(out / "cases", plugins), DiagnosedCase, library)
-    scored = run_step("score", Scorer(out, plugins), JudgedCase, library)
+    steps = TrialSteps(out, cases, jobs, origin, say, fresh)
+    publish(out, steps.run("conceal", partial(conceal_case, blind, out), ConcealedCase, settings))
+    diagnosed = steps.run("diagnose", Diagnoser(out / "cases", plugins), DiagnosedCase, library)
+    scored = steps.run("score", Scorer(out, plugins), JudgedCase, library)
     content = Proof(
         schema="lostmotion.proof/1",
         title=_format_title(blind),
