@@ -14,7 +14,6 @@ from lostmotion.cli import main
 from lostmotion.contracts import Series
 from lostmotion.diagnosis import diagnosis_run as diagnose
 from lostmotion.errors import ContractError, PluginWarning
-from lostmotion.likelihood.kernel_calls import compute_derivatives
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.prepare import Prepared
@@ -173,8 +172,8 @@ def test_what_a_term_raises_while_it_runs_becomes_a_sentence():
     )
     full, time = system.vector({"m": 1.0, "guest_late.size": 1.0}), np.ones(1)
     with pytest.raises(ContractError, match=r"a model or term raised ValueError \(too late\)"):
-        compute_derivatives(
-            system, system.everything, system.pack(full[None], 0.01), np.ones((1, 2)), np.ones((1, 1)), time
+        system.compute_derivatives(
+            system.everything, system.pack(full[None], 0.01), np.ones((1, 2)), np.ones((1, 1)), time
         )
 
 

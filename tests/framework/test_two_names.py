@@ -10,7 +10,6 @@ import pytest
 
 from lostmotion.contracts import Param, Term
 from lostmotion.errors import ContractError
-from lostmotion.likelihood.kernel_calls import compute_derivatives
 from lostmotion.likelihood.plan import make_law
 from lostmotion.likelihood.system import System
 from lostmotion.quantities import FORCE
@@ -161,8 +160,8 @@ def pushed(term, x):
     """Return the force of a term of size 3 N at `x`, by its compiled kernel."""
     system = System(RigidDrive(), (term,))
     full = system.vector({"m": 1.0, "c": 0.0, f"{term.name}.force": 3.0})
-    rates, _ = compute_derivatives(
-        system, system.everything, system.pack(full[None], 1e-3), np.array([[x, 0.0]]), np.zeros((1, 1))
+    rates, _ = system.compute_derivatives(
+        system.everything, system.pack(full[None], 1e-3), np.array([[x, 0.0]]), np.zeros((1, 1))
     )
     return rates[0, 1]
 

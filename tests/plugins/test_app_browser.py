@@ -96,15 +96,20 @@ def test_it_asks_no_other_address_and_escapes_what_files_say(tmp_path, serve):
         assert [one for one in browser.problems if "favicon" not in one] == []
 
 
+def open_recording(browser, server):
+    """Open the page, and choose the recording that `write_recording` wrote."""
+    browser.open(server.address)
+    browser.choose("Recording or case file", "rig.csv")
+    browser.wait_for("model: linear_oscillator")
+
+
 @pytest.mark.slow
 def test_the_whole_way_from_a_file_to_a_named_cause(tmp_path, serve):
     """The server is killed and the page reloaded in the middle."""
     write_recording(tmp_path)
     server = serve(tmp_path)
     with Chromium() as browser:
-        browser.open(server.address)
-        browser.choose("Recording or case file", "rig.csv")
-        browser.wait_for("model: linear_oscillator")
+        open_recording(browser, server)
         browser.click("Model")
         browser.wait_for("Prediction error of free runs")
         browser.choose("m (kg)", "known")
@@ -133,9 +138,7 @@ def test_a_run_is_cancelled_and_gives_the_answer_so_far(tmp_path, serve):
     write_recording(tmp_path)
     server = serve(tmp_path)
     with Chromium() as browser:
-        browser.open(server.address)
-        browser.choose("Recording or case file", "rig.csv")
-        browser.wait_for("model: linear_oscillator")
+        open_recording(browser, server)
         browser.click("Run")
         browser.wait_for("a process of its own")
         browser.click("Diagnose")

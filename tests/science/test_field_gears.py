@@ -12,7 +12,6 @@ from field import elsewhere
 from lostmotion.contracts import Assembly
 from lostmotion.inference.fit import maximise
 from lostmotion.likelihood.drive import Drive
-from lostmotion.likelihood.kernel_calls import compute_derivatives
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import NOISE, RANDOM, FreeParameter, Problem, Scales
 from lostmotion.likelihood.sensors import Sensor
@@ -72,7 +71,7 @@ def test_wheels_that_rattle_against_another_integrator_in_other_coordinates():
     assert np.sum(np.diff(np.abs(seen[:, 0]) > 0.01)) > 10
     np.testing.assert_allclose(motion.states, wheels(seen), atol=2e-5 * np.abs(wheels(seen)).max())
     inputs = pulled(t).T
-    _, shown = compute_derivatives(system, frozenset(), system.pack(full[None], 1e-3), wheels(seen), inputs, t)
+    _, shown = system.compute_derivatives(frozenset(), system.pack(full[None], 1e-3), wheels(seen), inputs, t)
     rates = np.array([apart(at, y) for at, y in zip(t, seen, strict=True)])
     absolute = np.stack([rates[:, 1] + RATIO * rates[:, 3] + inputs[:, 2], rates[:, 3] + inputs[:, 2]], axis=1)
     np.testing.assert_allclose(shown[:, [2, 5]], absolute, rtol=1e-9, atol=1e-9 * np.abs(absolute).max())

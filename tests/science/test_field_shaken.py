@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from field import elsewhere
 
-from lostmotion.likelihood.kernel_calls import compute_derivatives
 from lostmotion.likelihood.system import Clock, System
 from lostmotion_plugins.models.basic import LinearOscillator, RigidDrive
 from lostmotion_plugins.models.clearance_chain import ClearanceChain
@@ -47,7 +46,7 @@ def test_transmissibility_of_a_linear_oscillator(omega, motion):
     columns = [np.zeros_like, lambda t: np.cos(omega * t)]
     motion = system.moved(full, np.array([relative.real, (1j * omega * relative).real]), columns, Clock(0.01, 20, 400))
     inputs = np.stack([f(t) for f in columns], axis=1)
-    _, seen = compute_derivatives(system, frozenset(), system.pack(full[None], 1e-3), motion.states, inputs, t)
+    _, seen = system.compute_derivatives(frozenset(), system.pack(full[None], 1e-3), motion.states, inputs, t)
     np.testing.assert_allclose(seen[:, 2], (answer * np.exp(1j * omega * t)).real, atol=1e-7 * abs(answer))
 
 
@@ -120,7 +119,7 @@ def compared(system, values, rates, start, *between):
     carried = np.tile(np.stack([sway, speed], axis=1), len(start) // 2)
     np.testing.assert_allclose(motion.states, room - carried, atol=3e-5 * np.abs(room).max())
     inputs = np.stack([f(t) for f in columns], axis=1)
-    _, seen = compute_derivatives(system, frozenset(), system.pack(full[None], 1e-3), room - carried, inputs, t)
+    _, seen = system.compute_derivatives(frozenset(), system.pack(full[None], 1e-3), room - carried, inputs, t)
     slopes = np.array([rates(at, y) for at, y in zip(t, room, strict=True)])
     for body in range(len(start) // 2):
         np.testing.assert_allclose(seen[:, 3 * body + 2], slopes[:, 2 * body + 1], rtol=1e-9, atol=1e-9)
@@ -146,6 +145,6 @@ def test_a_body_behind_a_gap_that_is_pushed_too(model):
     relative = elsewhere(rates, t, start, max_step=2e-3)
     np.testing.assert_allclose(motion.states - np.stack([sway, speed], axis=1), relative, atol=3e-5)
     inputs = np.stack([f(t) for f in columns], axis=1)
-    _, seen = compute_derivatives(system, frozenset(), system.pack(full[None], 1e-3), motion.states, inputs, t)
+    _, seen = system.compute_derivatives(frozenset(), system.pack(full[None], 1e-3), motion.states, inputs, t)
     felt = -0.9 * relative[:, 1] - 500.0 * np.array([loose(x, 0.02) for x in relative[:, 0]])
     np.testing.assert_allclose(seen[:, 3], felt, atol=3e-2 * np.abs(felt).max())

@@ -11,7 +11,6 @@ from independent import Machine, lin_oscillator, recording
 
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.engine import Points, RunningSystem, SensorNoises, Smoothed
-from lostmotion.likelihood.kernel_calls import compute_derivatives
 from lostmotion.likelihood.lanes import Lanes
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.reference import Reference
@@ -55,7 +54,7 @@ def seen_of(system, full, drive, sensors, random):
     running = RunningSystem(system, system.everything, 4, random)
     truth = system.simulate(full, system.everything, np.array([0.6 * full[system.index["x0"]], 0.1]), drive, 4)
     packed = system.pack(full[None], drive.dt / 4)
-    _, channels = compute_derivatives(system, system.everything, packed, truth.states, drive.inputs)
+    _, channels = system.compute_derivatives(system.everything, packed, truth.states, drive.inputs)
     columns = [channels[:, system.model.channels.index(s.channel)] for s in sensors]
     z = np.stack([c + 1e-3 * c.std() * np.random.default_rng(0).standard_normal(len(c)) for c in columns], axis=1)
     z[7] = np.nan

@@ -140,25 +140,6 @@ def run_freely(
     return states, reached
 
 
-def compute_derivatives(
-    system: Layout,
-    active: frozenset[str],
-    packed: Array,
-    states: Array,
-    inputs: Array,
-    times: Any = None,
-    *,
-    muted: str | None = None,
-) -> tuple[Array, Array]:
-    """Return derivatives (points, n) of the states (points, n) under inputs (points, inputs), and the channels there.
-
-    `packed` are the parameters (1, params), `times` (points,) in s, zero if not given. Missing inputs are zero. The
-    force with the key `muted` is switched off, and its states stay.
-    """
-    rates, seen = compute_each(system, active, packed, states, inputs, times, muted=muted)
-    return rates[0], seen[0]
-
-
 def compute_each(
     system: Layout,
     active: frozenset[str],
@@ -170,11 +151,7 @@ def compute_each(
     muted: str | None = None,
     latent: tuple[int, ...] = (),
 ) -> tuple[Array, Array]:
-    """Return for each set of parameters `packed` (sets, params) what `compute_derivatives` returns for one.
-
-    The derivatives are (sets, points, n), the channels (sets, points, channels). `latent` are the numbers of states
-    that are random forces.
-    """
+    """Return the derivatives and channels of a system, as `System.compute_each` does; missing inputs are zero."""
     shape = (len(packed), len(states))
     rates, seen = np.zeros((*shape, states.shape[1])), np.zeros((*shape, len(system.model.channels)))
     made, wires = system.functions(), make_model_wires(system, active, latent, muted=muted)
