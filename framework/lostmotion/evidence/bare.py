@@ -18,7 +18,7 @@ from lostmotion.inference.commoner import rewrite_term
 from lostmotion.inference.curves import drop_all_curves
 from lostmotion.inference.fit import ROUGHLY, Fit, maximise, use_cores, use_one_core
 from lostmotion.inference.late import price_onset
-from lostmotion.inference.natural import find_term
+from lostmotion.inference.natural import find_term, find_wave
 from lostmotion.inference.other_shapes import has_other_shapes, refit_complete, refit_shapes
 from lostmotion.inference.penalties import compute_price, is_simpler
 from lostmotion.inference.shape_scan import scan_shapes
@@ -146,11 +146,12 @@ class BareFits:
     def list_promises(self, beside: Hypothesis, known: Iterable[Terms]) -> list[Promise]:
         """Return the terms that promise a better score beside a hypothesis, best first, without `known` sets.
 
-        A law that contains a simpler one, which promises something as well, waits until the simpler one is found.
+        A law that contains a simpler one, which promises something as well, waits until the simpler one is found; one
+        that a law of the hypothesis contains adds nothing.
         """
         bare, mine, have = beside.frame.problem, beside.frame.terms, set(known)
         own = self.fits[mine]
-        more = [key for key in self.keys if key not in mine and self._join(mine, key) not in have]
+        more = [key for key in self.keys if not self._holds(mine, key) and self._join(mine, key) not in have]
         prices = {key: self.temper * self._price(own, key) for key in more}
         every = list_promises(beside, more, self.shapes, prices, self.temper * price_onset(bare))
         if not mine:
@@ -159,9 +160,25 @@ class BareFits:
         keys = {p.key for p in found} & set(bare.system.keys)
         return [p for p in found if not any(self._contains(p.key, key) for key in keys)]
 
+    def leave_out_waves(self, terms: Terms) -> Terms:
+        """Return the largest fitted subset of a set without waves of the drive: a line of hum looks like one."""
+        problem = self.nominal.problem
+        laws = {key for key in terms if find_term(problem, key)[0].acts != "drive" or not find_wave(problem, key)}
+        return max((one for one in self.fits if one <= laws), key=lambda one: (len(one), self.weigh(self.fits[one])))
+
+    def reduce(self, terms: Terms, key: str) -> list[Terms]:
+        """Return a set without one of its terms, and with each simpler law that the term contains in its place."""
+        rest = terms - {key}
+        simpler = [law for law in self.keys if self._contains(key, law) and not self._holds(rest, law)]
+        return [rest, *(rest | {law} for law in simpler)]
+
     def find_simpler(self, terms: Terms, key: str) -> str:
         """Return the term of a set that another law contains; empty where there is none."""
         return next((mine for mine in sorted(terms) if self._contains(key, mine)), "")
+
+    def _holds(self, terms: Terms, key: str) -> bool:
+        """Return whether a set has a law, by itself or within another one."""
+        return key in terms or any(self._contains(law, key) for law in terms)
 
     def _join(self, terms: Terms, key: str) -> Terms:
         """Return a set with one more law, in place of the simpler one that it contains."""

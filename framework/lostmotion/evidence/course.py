@@ -72,6 +72,7 @@ class Course:
             if fit.status != "diverged":
                 whole.weigh(fit, found.values, found.choice)
         whole.skipped += first.skipped
+        whole.dropped |= {(terms, less) for terms, less in first.dropped if less in whole.found}
         whole.bare.promised |= first.bare.promised
         self._complete(whole)
         return whole

@@ -16,7 +16,7 @@ from lostmotion.evidence.discrepancy import LARGE, LENGTHS, SIZES, Choice, make_
 from lostmotion.evidence.effects import Promise
 from lostmotion.evidence.heldout import score_heldout
 from lostmotion.evidence.hypothesis import Hypothesis, fit_hypothesis
-from lostmotion.evidence.sensor_hum import keep_hums
+from lostmotion.evidence.sensor_hum import renew_hums
 from lostmotion.inference.candidates import ScoreTest, add_term
 from lostmotion.inference.curves import add_all_curves
 from lostmotion.inference.fit import ROUGHLY, Fit, maximise, restart
@@ -92,8 +92,8 @@ class ExplanationSearch:
     def _run(self) -> None:
         """Climb, weigh what is near the best set, and extend it."""
         self.bare.climb(self.budget.part(CLIMB))
-        lead = self.bare.fits[self.bare.lead]
-        self.use_errors(keep_hums(self.errors, lead, self.recordings or lead.problem.observations))
+        plain = self.bare.fits[self.bare.leave_out_waves(self.bare.lead)]
+        self.use_errors(renew_hums(self.errors, plain, self.recordings or plain.problem.observations))
         self.weigh(self.bare.fits[self.bare.lead])
         if frozenset() not in self.found:
             self._drop_all(self.best)
@@ -112,7 +112,7 @@ class ExplanationSearch:
         self.errors = self.bare.errors = errors
 
     def drop_each(self) -> None:
-        """Weigh the best set without each of its terms, until the best set stays the same."""
+        """Weigh the best set without each of its terms, and with simpler ones, until the best set stays the same."""
         tried: set[Terms] = set()
         while (best := self.best).terms not in tried:
             tried.add(best.terms)
@@ -127,13 +127,14 @@ class ExplanationSearch:
         while terms and terms in self.found and self.score(self.found[terms]) > least and not self.budget.spent:
             least = self.score(self.found[terms]) - REACH
             self._drop_every(self.found[terms])
-            fewer = [less for key in sorted(terms) if (less := terms - {key}) in self.found]
+            fewer = [less for key in sorted(terms) for less in self.bare.reduce(terms, key) if less in self.found]
             terms = max(fewer, key=lambda less: self.score(self.found[less]), default=frozenset())
 
     def _drop_every(self, target: Hypothesis) -> None:
-        """Weigh a set without each of its terms in turn."""
+        """Weigh a set without each of its terms in turn, and with each simpler law that the term contains."""
         for key in sorted(target.frame.terms):
-            self._drop(target, key)
+            for less in self.bare.reduce(target.terms, key):
+                self._drop(target, key, less)
 
     def weigh_unknown(self) -> None:
         """Fit the best sets, and the model without any term, with an unknown force."""
@@ -161,7 +162,7 @@ class ExplanationSearch:
         """Weigh the subsets of a set, and the sets with one more term that promise to be better."""
         for key in sorted(target.terms):
             if not self.budget.spent:
-                self._drop(target, key)
+                self._drop(target, key, target.terms - {key})
         self.bare.extend(target.terms)
         self._weigh_close()
         if target.smooth > 0.0 and not self.budget.spent:
@@ -238,15 +239,18 @@ class ExplanationSearch:
             fit = replace(fit, problem=replace(problem, nsub=max(problem.nsub, fit.problem.nsub)))
             self.weigh(fit, begin, promise.choice)
 
-    def _drop(self, target: Hypothesis, key: str) -> None:
-        """Fit the set without one of its terms, starting from the set."""
-        less = target.terms - {key}
+    def _drop(self, target: Hypothesis, key: str, less: Terms) -> None:
+        """Fit a set `less` without one of the terms, perhaps with a simpler law in its place, starting from the set."""
         known, least = self.found.get(less), self.score(self.best) - FAR
         far = known is not None and self.score(known) < least
         if far or (target.terms, less) in self.dropped:
             return
         self.dropped.add((target.terms, less))
-        problem = self.bare.fits[target.terms].problem.remove_term(key, self._get_own_values(target))
+        own = self._get_own_values(target)
+        problem = self.bare.fits[target.terms].problem.remove_term(key, own)
+        for simpler in less - target.terms:
+            shared = {simpler + name.removeprefix(key): v for name, v in own.items() if name.startswith(f"{key}.")}
+            problem = add_term(problem, ScoreTest(simpler, 0.0, shared, 1.0), {})
         fit = self.bare.fits.get(less) or maximise(problem, tolerance=ROUGHLY)
         if fit.status != "diverged":
             self.weigh(fit, _leave_out(target, [key]), target.choice)

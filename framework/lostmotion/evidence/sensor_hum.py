@@ -22,8 +22,9 @@ BAND, FLOOR = 0.9995, 10.0
 """The share of the variance of the motion within its band, above the noise: some medians of its spectrum."""
 MOST_LINES = 2
 """The largest number of lines of one sensor in a recording."""
-SURROUNDINGS, NEAR = 101, 2.0
-"""Over how many frequencies the median is taken, and how many belong to a line of the drive (steps of 1/duration)."""
+SURROUNDINGS, NEAR = 101, 1.5
+"""Over how many frequencies the median is taken, and how far a line reaches (steps of 1/duration): one, and half a one
+by rounding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,21 +70,12 @@ def list_hums(fit: Fit) -> Iterator[SensorHum]:
                     yield SensorHum(sensor, observation.name, pace, turn, noise)
 
 
-def keep_hums(errors: Sequence[T], fit: Fit, recordings: Sequence[Observation]) -> tuple[T, ...]:
-    """Return errors of channels without the hums that a fit with terms does not show: physics made these lines."""
-    if not any(isinstance(one, SensorHum) for one in errors):
-        return tuple(errors)
-    left = list(list_hums(replace(fit, problem=fit.problem.on(tuple(recordings)))))
-    duration = {o.name: len(o.time) * o.dt for o in recordings}
-
-    def is_left(hum: SensorHum) -> bool:
-        near = 2.0 * math.pi * NEAR / duration[hum.recording]
-        return any(
-            (one.sensor, one.recording) == (hum.sensor, hum.recording) and abs(one.pace - hum.pace) < near
-            for one in left
-        )
-
-    return tuple(one for one in errors if not isinstance(one, SensorHum) or is_left(one))
+def renew_hums(
+    errors: Sequence[T | SensorHum], fit: Fit, recordings: Sequence[Observation]
+) -> tuple[T | SensorHum, ...]:
+    """Return errors of channels with the hums that a better fit shows: missing physics makes lines and hides others."""
+    other = [one for one in errors if not isinstance(one, SensorHum)]
+    return (*other, *list_hums(replace(fit, problem=fit.problem.on(tuple(recordings)))))
 
 
 def find_lines(

@@ -13,7 +13,7 @@ import numpy as np
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.late import find_span
-from lostmotion.inference.natural import compute_size, sort_slots
+from lostmotion.inference.natural import compute_size, find_wave, sort_slots
 from lostmotion.inference.setup import choose_steps
 from lostmotion.inference.shape_scan import SmoothedMotion
 from lostmotion.likelihood.observation import Observation
@@ -35,7 +35,12 @@ def scan_waves(fit: Fit, observations: Sequence[Observation]) -> dict[str, list[
 
     `fit` is a model without curves; the recordings are those on which frequencies are told apart, usually all.
     """
-    keys = {key: slot for key in fit.problem.system.keys if key not in fit.problem.active if (slot := _find(fit, key))}
+    keys = {
+        key: slot
+        for key in fit.problem.system.keys
+        if key not in fit.problem.active
+        if (slot := find_wave(fit.problem, key))
+    }
     if not keys or not observations[0].harmonic.omega:
         return {}
     problem = choose_steps(fit.problem, fit.theta)
@@ -43,11 +48,6 @@ def scan_waves(fit: Fit, observations: Sequence[Observation]) -> dict[str, list[
     span = find_span(problem.on(tuple(observations)))
     found = {key: _list_waves(motions, span, key, slot) for key, slot in keys.items()}
     return {key: shapes for key, shapes in found.items() if shapes}
-
-
-def _find(fit: Fit, key: str) -> Slot | None:
-    """Return the frequency of the wave of a term; None for a term without one."""
-    return next((slot for slot in sort_slots(fit.problem, key)[1] if slot.param.wave), None)
 
 
 def _list_waves(

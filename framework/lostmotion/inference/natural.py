@@ -27,6 +27,11 @@ SHAPES = (0.3, 1.0, 3.0)
 """The values of a shape parameter that are tried, in units of its typical value."""
 
 
+def find_wave(problem: Problem, key: str) -> Slot | None:
+    """Return the frequency of the wave of a term; None for a term without one."""
+    return next((slot for slot in sort_slots(problem, key)[1] if slot.param.wave), None)
+
+
 def compute_size(param: Param, scales: Scales) -> float:
     """Return the typical size of a term's parameter in the natural scales of the recording."""
     time = scales.span if param.lasting else scales.time
