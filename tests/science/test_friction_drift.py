@@ -82,7 +82,9 @@ def test_friction_that_falls_over_two_times() -> None:
 
     drift = diagnose(run_machine(level, samples=3000), also=DRIFTS).found[0]
     assert drift.mechanism == "friction_drift_twice"
+    assert drift.parameters["time"].median == pytest.approx(0.8, rel=0.2)
     assert drift.parameters["slower"].median == pytest.approx(9.0, rel=0.2)
+    assert drift.parameters["force"].median == pytest.approx(4.0, rel=0.05)
 
 
 @pytest.mark.slow

@@ -43,6 +43,8 @@ from lostmotion.quantities import FORCE, TIME
 CREEP, FINEST = 0.02, 32
 SHARES = (1.0, 0.3, 0.01)
 """Fits begin with these shares of the amplitude that a score test predicts."""
+MOST_BEGUN = 3
+"""A law that replaces a simpler one is fitted from so many points at most, until it is better than that one."""
 SPREAD = (0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0)
 """Starting values of the shape of a law that replaces a simpler related law, in units of its typical value."""
 RAISED = 2.0
@@ -302,8 +304,12 @@ def replace_term(fit: Fit, key: str, hint: ScoreTest) -> Fit:
     own = [s for s in slots if shared[s.key] is None]
     begins = np.array([problem.start, *_list_shape_starts(problem, own), *_list_smaller_starts(problem, own)])
     begins = problem.clip(np.vstack([begins, [raise_random_force(problem, theta, RAISED) for theta in begins]]))
-    log_densities = problem.log_posteriors(begins)
-    return maximise(problem, begins[int(np.argmax(log_densities))], tolerance=ROUGHLY)
+    fits: list[Fit] = []
+    for i in np.argsort(-problem.log_posteriors(begins))[:MOST_BEGUN].tolist():
+        fits.append(maximise(problem, begins[i], tolerance=ROUGHLY))
+        if fits[-1].log_likelihood > fit.log_likelihood + 1.0:
+            break
+    return max(fits, key=lambda one: one.local.log_posterior)
 
 
 def _list_shape_starts(problem: Problem, slots: Sequence[Slot]) -> Iterator[Array]:

@@ -163,15 +163,20 @@ class FrictionDriftTwice(Term):
         "Dry friction opposes the motion: {force} at the start, {change} more with a time constant of {time}, and"
         " {later} more with {slower}"
     )
-    formula: ClassVar[str] = "-max(force + change * (1 - exp(-t/time)) + later * (1 - exp(-t/slower)), 0) * sign(v)"
+    formula: ClassVar[str] = (
+        "-max(force + change * (1 - exp(-t/time)) + later * (1 - exp(-t/slower)), 0) * sign(v), slower = ratio * time"
+    )
     paper: ClassVar[str] = "Simoni, Beschi, Legnani, Visioli, IEEE/RSJ Int. Conf. Intelligent Robots (2015) 3524-3529"
     params = (
         Param("force", "friction at the start", FORCE, low=0.0, null=0.0),
         Param("change", "change with the shorter time", FORCE, null=0.0, typical=0.5),
         Param("later", "change with the longer time", FORCE, null=0.0, typical=0.5),
         Param("time", "shorter time constant", TIME, low=0.0, scale="log", typical=0.06, lasting=True),
-        Param("slower", "longer time constant", TIME, low=0.0, scale="log", typical=0.6, lasting=True),
+        Param(
+            "ratio", "the longer one over the shorter", NUMBER, low=1.0, scale="log", typical=10.0, scan=(0.11, 10.0)
+        ),
     )
+    further = (Param("slower", "longer time constant", TIME),)
     needs = ("mobility",)
 
     def commoner(self, values: Mapping[str, float]) -> Mapping[str, Mapping[str, float]]:
@@ -183,10 +188,14 @@ class FrictionDriftTwice(Term):
         if abs(second) < small:
             return {"friction_drift": {"force": force, "change": first, "time": values["time"]}}
         if abs(first) < small:
-            return {"friction_drift": {"force": force, "change": second, "time": values["slower"]}}
+            return {"friction_drift": {"force": force, "change": second, "time": values["time"] * values["ratio"]}}
         return {}
 
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
-        changed = p[1] * (1.0 - math.exp(-t / p[3])) + p[2] * (1.0 - math.exp(-t / p[4]))
+        changed = p[1] * (1.0 - math.exp(-t / p[3])) + p[2] * (1.0 - math.exp(-t / (p[3] * p[4])))
         return resist_sliding(v, max(p[0] + changed, 0.0), (abs(p[0]) + abs(p[1]) + abs(p[2])) * p[5])
+
+    @staticmethod
+    def derived(p: Values) -> Values:
+        return (p[3] * p[4],)
