@@ -180,12 +180,13 @@ class ExplanationSearch:
                 self.weigh(fit)
 
     def _weigh_alike(self) -> None:
-        """Weigh single laws, and sets with one other law than the best one, where the discrepancy of that adds much.
+        """Weigh single laws, and sets with one other law than the best one, where fits alone do not rank them.
 
-        Fits without a discrepancy do not rank them there.
+        That is where a discrepancy adds much to the best set, or explains the fitted data as well as its laws.
         """
-        best, fits = self.best, self.bare.fits
-        if best.log_evidence - fits[best.frame.terms].log_evidence < CLOSE:
+        best, fits, nothing = self.best, self.bare.fits, self.found[frozenset()]
+        rival = bool(best.terms) and nothing.log_evidence > best.log_evidence - CLOSE
+        if not rival and best.log_evidence - fits[best.frame.terms].log_evidence < CLOSE:
             return
         alike = [t for t in fits if len(t) == 1 or (len(t) == len(best.terms) and len(t - best.terms) == 1)]
         new = sorted((t for t in alike if t not in self.found), key=lambda t: self.bare.weigh(fits[t]), reverse=True)
