@@ -43,6 +43,8 @@ LENGTHS = (0.15, 0.3, 0.6, 1.2)
 """Correlation lengths of a smooth force, in half widths of the range."""
 MOST_WAVES = 20
 """The largest number of waves of a smooth force: shorter waves have no weight at these correlation lengths."""
+USUAL = 3.0
+"""Known values and channels are wrong by at most this many of their standard deviations: a larger error has a name."""
 NUDGE, EXACT = 3e-4, 1e-6
 """Finite-difference steps: of a coefficient in units of the drive; of logarithms and shares of what scales a model."""
 SWEEPS = 4
@@ -111,6 +113,23 @@ class JointFrame:
         found = np.zeros(self.count - self.own)
         found[: self.known.stop - self.known.start] = [f.mean for f in self.problem.free[self.known]]
         return found
+
+    @cached_property
+    def bounds(self) -> tuple[Array, Array]:
+        """The lower and upper bounds (count,) of the coordinates; coefficients of smooth forces have none."""
+        low, high = np.full(self.count, -math.inf), np.full(self.count, math.inf)
+        free = self.problem.free[: self.own]
+        low[: self.own], high[: self.own] = [f.low for f in free], [f.high for f in free]
+        widths = USUAL * self.widths(self.none)
+        for part in (self.known, self.channels):
+            middle, width = (values[part.start - self.own : part.stop - self.own] for values in (self.middle, widths))
+            low[part], high[part] = middle - width, middle + width
+        return low, high
+
+    def list_pressed(self, at: Array) -> NDArray[np.intp]:
+        """Return the indices of the known values and channel errors that are at a bound at coordinates (count,)."""
+        low, high = self.bounds
+        return np.array([i for i in self.more if at[i] <= low[i] or at[i] >= high[i]], dtype=np.intp)
 
     @cached_property
     def names(self) -> tuple[str, ...]:
@@ -280,7 +299,8 @@ def list_known_values(problem: Problem) -> list[FreeParameter]:
 class Quadratic:
     """The log-likelihood over the discrepancy, with own coordinates re-optimised: gradient and information at zero.
 
-    Coordinates beyond those of the discrepancy are amplitudes of terms, with prior standard deviations `beside`.
+    Coordinates beyond those of the discrepancy are amplitudes of terms, with prior standard deviations `beside`. Known
+    values and channel errors at a bound stay there.
     """
 
     frame: JointFrame
@@ -295,7 +315,11 @@ class Quadratic:
         more = np.arange(frame.own, frame.count + len(widths))
         gradient, information = curvature.profile(np.arange(frame.own), more)
         shift = np.concatenate([frame.middle, np.zeros(len(widths))])
-        return cls(frame, gradient - information @ shift, information, widths)
+        held = frame.list_pressed(curvature.at[: frame.count])
+        shift[held - frame.own] = curvature.at[held]
+        gradient = gradient - information @ shift
+        gradient[held - frame.own] = information[held - frame.own] = information[:, held - frame.own] = 0.0
+        return cls(frame, gradient, information, widths)
 
     def evaluate(self, choice: Choice) -> float:
         """Return the log evidence that the discrepancy and the terms add, with some smooth forces."""

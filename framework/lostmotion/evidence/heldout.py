@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from lostmotion.contracts import Array
 from lostmotion.evidence.discrepancy import JointFrame
 from lostmotion.evidence.expansion import Expansion
-from lostmotion.evidence.hypothesis import Hypothesis, list_bounds
+from lostmotion.evidence.hypothesis import Hypothesis
 from lostmotion.inference.fit import choose_first_steps
 from lostmotion.likelihood.observation import Observation
 
@@ -36,7 +36,7 @@ def _score_piece(found: Hypothesis, observation: Observation, begin: int) -> flo
     steps = choose_first_steps(replace(fitted, free=fitted.free[: frame.own]))
     first = begin * len(observation.sensors)
 
-    bounds = list_bounds(frame)
+    bounds = frame.bounds
 
     def expand(step: Array) -> Expansion:
         return cut_before(one.expand(np.clip(found.at + step, *bounds), steps, found.choice), first)

@@ -35,8 +35,6 @@ ROUNDS, TOLERANCE = 10, 0.4
 """The largest number of rounds, and the gain in log posterior below which a fit has converged."""
 SHARES = (0.4, 0.1, 0.02)
 """Shares of a Gauss-Newton step that are tried where the whole step does not gain."""
-USUAL = 3.0
-"""Known values and channels are wrong by at most this many of their standard deviations: a larger error has a name."""
 MOST_LOG, MOST_LEVEL = 1.5, 4.0
 """The largest change of a logarithm in one step: of a parameter, and of a noise level."""
 
@@ -277,7 +275,7 @@ def compute_step(frame: JointFrame, expansion: Expansion, choice: Choice) -> tup
     free, at = frame.problem.free[: frame.own], expansion.at
     precision = _compute_precision(frame, expansion.precision, choice)
     gradient = _compute_pull(frame, expansion, precision)
-    low, high = list_bounds(frame)
+    low, high = frame.bounds
     pressed = ((at <= low) & (gradient < 0.0)) | ((at >= high) & (gradient > 0.0))
     step = solve_posterior(frame, expansion.curvature, choice, np.flatnonzero(pressed).tolist())
     for i, f in enumerate(free):
@@ -293,18 +291,6 @@ def _compute_pull(frame: JointFrame, expansion: Expansion, precision: Array) -> 
     """Return the gradient (count,) of the log posterior over all coordinates."""
     middle = np.concatenate([expansion.middle[: frame.own], frame.middle])
     return np.asarray(expansion.gradient - precision * (expansion.at - middle))
-
-
-def list_bounds(frame: JointFrame) -> tuple[Array, Array]:
-    """Return the bounds (count,) of the coordinates; coefficients of smooth forces have none."""
-    low, high = np.full(frame.count, -math.inf), np.full(frame.count, math.inf)
-    free = frame.problem.free[: frame.own]
-    low[: frame.own], high[: frame.own] = [f.low for f in free], [f.high for f in free]
-    widths = USUAL * frame.widths(frame.none)
-    for part in (frame.known, frame.channels):
-        middle, width = (values[part.start - frame.own : part.stop - frame.own] for values in (frame.middle, widths))
-        low[part], high[part] = middle - width, middle + width
-    return low, high
 
 
 def _compute_log_posterior(frame: JointFrame, expansion: Expansion, choice: Choice) -> float:
