@@ -28,13 +28,13 @@ def oscillator(force, extra):
     return moved(rates, T, [0.0, 0.0])[:, 0]
 
 
-def made_of(folder, extra, *, seed=0, stated=1.0, shown=lambda x: x):
+def made_of(folder, extra, *, seed=0, stated=1.0, shown=lambda x: x, late=0.0):
     """Return the prepared case of a recording under a multisine of 10 N, and the system of all terms.
 
-    The sensor has `shown` of the position, and the case states `stated` times the mass.
+    The sensor has `shown` of the position, the case states `stated` times the mass, and the force acts `late` s later.
     """
     force = multisine(10.0, 0.5, 5.0, seed)
-    x = oscillator(force, extra)
+    x = oscillator(lambda t: force(t - late), extra)
     columns = {"t": T, "F": force(T), "x": noisy(shown(x), 0.003, seed)}
     recording = {
         "excitation": {"column": "F", "quantity": "force", "unit": "N"},

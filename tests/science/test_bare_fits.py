@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from explained import made_of
 
+from lostmotion.evidence import bare
 from lostmotion.evidence.bare import BareFits, Budget, name_terms
 from lostmotion.evidence.channel_errors import list_channel_errors
 from lostmotion.evidence.load_cell import fit_loads
@@ -62,6 +63,21 @@ def test_a_law_that_contains_a_simpler_one_takes_its_place(climbed):
     assert climbed.find_simpler(FRICTION, "cubic_stiffness") == ""
     assert FRICTION in climbed.fits
     assert FRICTION | LEVELS not in climbed.fits
+
+
+def test_a_set_without_a_law_may_have_the_simpler_one_in_its_place(climbed):
+    offset = frozenset({"offset_force"})
+    assert climbed.reduce(LEVELS | offset, "directional_friction") == [offset, FRICTION | offset]
+    assert climbed.reduce(LEVELS | offset, "offset_force") == [LEVELS]
+    assert climbed.reduce(FRICTION, "coulomb_friction") == [NOTHING]
+
+
+def test_a_wave_of_the_drive_is_left_out_and_one_of_the_machine_is_not(climbed, monkeypatch):
+    gain = frozenset({"excitation_gain"})
+    assert climbed.leave_out_waves(FRICTION) == FRICTION
+    monkeypatch.setattr(bare, "find_wave", lambda problem, key: key)
+    assert climbed.leave_out_waves(FRICTION | gain) == FRICTION
+    assert climbed.leave_out_waves(gain) == NOTHING
 
 
 def test_a_rich_law_is_rewritten_as_a_sum_of_simple_ones(nominal):

@@ -13,6 +13,7 @@ from lostmotion.evidence.channel_errors import DriveError, SensorError, list_cha
 from lostmotion.evidence.corrections import CLEAR, Corrections, find_corrections
 from lostmotion.evidence.course import Course
 from lostmotion.evidence.discrepancy import make_frame
+from lostmotion.evidence.effects import list_promises
 from lostmotion.evidence.hypothesis import fit_hypothesis
 from lostmotion.inference.curves import add_all_curves
 from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
@@ -71,6 +72,17 @@ def test_a_clean_machine_needs_no_correction(hypothesis, clean):
     assert none.correct(observation) is observation
     assert none.refit(clean) is clean
     assert list(none.describe(observation)) == []
+
+
+@pytest.mark.parametrize(("late", "found"), [(0.4, True), (0.15, False)])
+def test_an_error_beyond_its_bound_is_proposed_as_a_law(tmp_path, late, found):
+    """A drive is late by 0.3 samples at most, or has a name: a promise must not assume that more is usual."""
+    fit = add_all_curves(nominal_of(tmp_path, nothing, late=late * (T[1] - T[0])))
+    frame = make_frame(fit.problem, fit.theta, list_channel_errors(fit, list(fit.problem.observations)))
+    empty = fit_hypothesis(frame, frame.start, 0.0)
+    assert (frame.count - 1 in frame.list_pressed(empty.at)) is found
+    (promise,) = list_promises(empty, ["excitation_delay"], {}, {"excitation_delay": 0.0}, 0.0)
+    assert (promise.gain > 10.0) is found
 
 
 @pytest.mark.parametrize(("deviations", "clear"), [(0.9 * CLEAR, False), (1.1 * CLEAR, True), (-1.1 * CLEAR, True)])

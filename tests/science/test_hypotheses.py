@@ -1,6 +1,8 @@
 """One score for each explanation: closed forms against their slow twins, and machines with known answers."""
 
+import copy
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -16,7 +18,7 @@ from lostmotion.evidence.channel_errors import DriveError, SensorError, list_cha
 from lostmotion.evidence.discrepancy import LENGTHS, make_frame
 from lostmotion.evidence.expansion import Expansion, compute_log_evidence
 from lostmotion.evidence.hypothesis import fit_hypothesis
-from lostmotion.evidence.search import Budget, ExplanationSearch, compute_probabilities
+from lostmotion.evidence.search import CLOSE, Budget, ExplanationSearch, compute_probabilities
 from lostmotion.inference.curves import add_all_curves
 from lostmotion.inference.fit import choose_first_steps
 from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
@@ -269,3 +271,16 @@ def test_the_evidence_is_that_of_the_forces_of_a_hypothesis(rubbing, option):
     seen = frame.log_likelihood(found.at, found.choice)
     assert seen == pytest.approx(float(found.expansion.here.log_likelihood), abs=1e-6)
     assert not np.any(found.at[frame.own :][frame.widths(found.choice) == 0.0])
+
+
+@pytest.mark.parametrize(("behind", "weighed"), [(0.5, True), (2.0, False)])
+def test_other_laws_are_weighed_where_a_smooth_force_explains_as_much(rubbing, monkeypatch, behind, weighed):
+    """`behind` is by how much the model without any term is worse, in the unit of what is close."""
+    best, fits = rubbing.best, []
+    search = copy.copy(rubbing)
+    nothing_found = replace(rubbing.found[frozenset()], log_evidence=best.log_evidence - behind * CLOSE)
+    search.found = {best.terms: best, frozenset(): nothing_found}
+    monkeypatch.setattr(ExplanationSearch, "weigh", lambda self, bare: fits.append(bare.problem.active))
+    search._weigh_alike()
+    assert bool(fits) is weighed
+    assert all(len(terms) == 1 and terms != best.terms for terms in fits)

@@ -1,6 +1,7 @@
 """Hum of a sensor: the lines that are found, how often noise shows one, and the score of an explanation with it."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,7 +9,7 @@ from explained import made_of
 from scipy.stats import binom
 
 from lostmotion.evidence.channel_errors import list_channel_errors
-from lostmotion.evidence.sensor_hum import FALSE_HUM, SensorHum, find_lines
+from lostmotion.evidence.sensor_hum import FALSE_HUM, SensorHum, find_lines, renew_hums
 from lostmotion.inference.setup import make_problem, search_maximum
 
 SAMPLES, RATE = 1000, 100.0
@@ -60,3 +61,17 @@ def test_a_hum_of_one_sensor_is_two_waves_of_its_noise(tmp_path):
         rcond=None,
     )[0]
     assert np.hypot(*sizes)[0] * hums[0].noise == pytest.approx(noise, rel=0.01)
+
+
+def test_a_better_fit_has_its_own_hums_and_the_other_errors_of_the_channels(tmp_path):
+    prepared, system = made_of(tmp_path, lambda x, v, t: 0.0)
+    (observation,) = prepared.observations
+    wave = 2e-4 * np.cos(2.0 * math.pi * 18.7 * observation.time)
+    humming = replace(observation, readings=observation.readings + wave[:, None])
+    nominal = search_maximum(make_problem(system, prepared.case, (humming,), jobs=1), np.random.default_rng(0))
+    others = [one for one in list_channel_errors(nominal, [humming]) if not isinstance(one, SensorHum)]
+    wrong = SensorHum(0, observation.name, 2.0 * math.pi * 21.0, 0.0, 1e-4)
+    renewed = renew_hums((*others, wrong), nominal, [humming])
+    assert list(renewed[: len(others)]) == others
+    assert [one.pace for one in renewed[len(others) :]] == pytest.approx([2.0 * math.pi * 18.7] * 2, rel=1e-3)
+    assert list(renew_hums((*others, wrong), nominal, [observation])) == others
