@@ -226,7 +226,7 @@ def explain_by(
         held=held,
         corrections=corrections,
         random_gain=compute_random_force_gain(after),
-        quantised=find_quantised(after),
+        quantised=find_quantised(after, split_heldout(d.recordings, d.settings.heldout)[0]),
         learned=learned,
         withdrawn=tuple(dict.fromkeys((*d.withdrawn, *sorted(kept - explained.terms)))),
         left=None,
@@ -248,9 +248,12 @@ def _check_moving(held: Sequence[Observation]) -> None:
             )
 
 
-def find_quantised(fit: Fit) -> dict[str, tuple[Values, Values]]:
-    """Return the sensor terms that are visible in the stored values and are a share of the noise, by key."""
-    observations, found = fit.problem.observations, {}
+def find_quantised(fit: Fit, observations: Sequence[Observation]) -> dict[str, tuple[Values, Values]]:
+    """Return the sensor terms that are visible in the stored values and are a share of the noise, by key.
+
+    `observations` are the recordings of the fit as they were stored: corrected values are no multiples of a step.
+    """
+    found: dict[str, tuple[Values, Values]] = {}
     for key, term in fit.problem.system.channel_terms.items():
         if not isinstance(term, SensorTerm) or not term.marked:
             continue
