@@ -26,12 +26,13 @@ CLEAR = 4.0
 class Corrections:
     """Errors of channels with their sizes, and factors of known values by name; both are empty without a clear one.
 
-    `clear` tells for each error of a channel whether it is one of the clear ones.
+    `clear` tells for each error of a channel whether it is one of the clear ones; `together` that none is clear alone.
     """
 
     errors: tuple[tuple[ChannelError, float], ...] = ()
     factors: tuple[tuple[str, float], ...] = ()
     clear: tuple[bool, ...] = ()
+    together: bool = False
 
     def __bool__(self) -> bool:
         """Whether anything is corrected."""
@@ -60,6 +61,8 @@ class Corrections:
         yield from dict.fromkeys(_describe_error(error, size, first) for error, size in clear)
         for name, factor in self.factors:
             yield f"{name} is {factor:.4g} times its known value"
+        if self.together:
+            yield "or one of these errors is larger and others are absent, since they have nearly the same effect"
 
 
 def _describe_error(error: ChannelError, size: float, first: Observation) -> str:
@@ -97,7 +100,7 @@ def find_corrections(found: Hypothesis) -> Corrections:
         errors = tuple((error, float(found.at[i])) for i, error in zip(channels, frame.errors, strict=True))
     if together or clear.intersection(known):
         factors = tuple((frame.problem.keys[i], math.exp(_find_size(found, i))) for i in known)
-    return Corrections(errors, factors, tuple(i in clear for i in channels) if errors else ())
+    return Corrections(errors, factors, tuple(i in clear for i in channels) if errors else (), together)
 
 
 def _find_size(found: Hypothesis, at: int) -> float:
