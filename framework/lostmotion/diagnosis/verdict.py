@@ -196,7 +196,7 @@ def summarise(facts: Facts, found: Sequence[Mechanism], rest: Sequence[OpenTerm]
     if not facts.augmented:
         return (*(entry.says for entry in found), *left)
     opening = list(_list_finding_sentences(found))
-    if len(found) == 1 and not is_uncertain(found[0]):
+    if len(found) == 1 and found[0].state == NAMED:
         opening[0] = f"{opening[0][:-1]}, and the model leaves it out."
     elif len(found) > 1 and all(entry.state == NAMED for entry in found):
         opening.append(f"The model leaves out {'both' if len(found) == 2 else f'all {len(found)} of them'}.")
