@@ -2,11 +2,13 @@
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from explained import VALUES, bend, explain_machine, made_of
 
+from lostmotion.diagnosis.gather_facts import _list_reaching
 from lostmotion.diagnosis.stages import diagnose, explain_by
 from lostmotion.diagnosis.unknowns import make_learned_entry
 from lostmotion.evidence.corrections import find_corrections
@@ -14,6 +16,7 @@ from lostmotion.evidence.explanations import Explanations
 from lostmotion.evidence.hypothesis import UNKNOWN, list_vague
 from lostmotion.inference.candidates import compute_slopes, run_score_test
 from lostmotion.inference.random_force import has_usual_random_force
+from lostmotion.results import Interval
 
 FRICTIONS = {"coulomb_friction", "stribeck_friction", "dahl_friction", "lugre_friction", "directional_friction"}
 SURE = 0.95
@@ -89,6 +92,12 @@ def test_an_amplitude_whose_region_reaches_zero_is_vague(rubbing, deviations, va
     at[place] = deviations * np.sqrt(best.scatter * best.covariance[place, place])
     moved = replace(best, expansion=replace(best.expansion, at=at))
     assert list_vague(moved, "coulomb_friction") == vague
+
+
+@pytest.mark.parametrize(("low", "vague"), [(-0.1, ["force"]), (0.1, [])])
+def test_an_amplitude_whose_stated_interval_reaches_zero_is_vague_as_well(rubbing, low, vague):
+    told = {"coulomb_friction.force": Interval(0.8, low, 1.5, "N")}
+    assert list(_list_reaching(SimpleNamespace(after=rubbing.chosen), "coulomb_friction", told)) == vague
 
 
 def test_a_refuted_set_has_no_probability_and_the_next_one_is_the_best(rubbing):

@@ -110,13 +110,12 @@ def rank_candidates(facts: Facts, found: Sequence[Mechanism]) -> tuple[Candidate
     failed = not is_valid(facts) and not facts.augmented
     unknown = 1.0 if failed else facts.unknown
     stated = {(entry.mechanism, entry.at): entry.probability for entry in found}
-    named = {one.key for one in facts.found}
     rows = [
         Candidate(
             mechanism=one.term.name,
             at=one.term.at,
             log_evidence_gain=one.gain,
-            probability=stated[one.term.name, one.term.at] if one.key in named else facts.inclusion(one.key),
+            probability=stated.get((one.term.name, one.term.at), facts.inclusion(one.key)),
             price=one.price,
             fitted=one.fitted,
         )

@@ -57,7 +57,7 @@ def _explain_order(evidence: Evidence, rows: list[Candidate]) -> str:
     clauses = []
     if any(_get_gain(one, -math.inf) > best and one.probability <= LIKELY for one in rows):
         clauses.append("one that gains more alone may belong to none of the best sets")
-    if any(_make_key(one) in found and _get_gain(one, math.inf) < STRONG for one in likely):
+    if len(found) > 1 and any(_make_key(one) in found and _get_gain(one, math.inf) < STRONG for one in likely):
         clauses.append("one that gains little alone may be needed beside another one")
     opening = " A bar is the gain of a candidate alone: where several act together, "
     return f"{opening}{', and '.join(clauses)}." if clauses else ""
