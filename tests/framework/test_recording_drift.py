@@ -11,6 +11,7 @@ import re
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from scipy.signal import lsim
 
 from lostmotion.recording import read_columns
 from lostmotion.recording.drift import clock_drift, note_drift
@@ -73,6 +74,16 @@ def test_nothing_is_told_without_a_drift() -> None:
         for noise in (0.0, 0.01, 0.3):
             both = linear(seed, tones=(1, 3, 60)[seed % 3], noise=noise, seconds=10.0)
             assert [*note_drift(*both, DT)] == []
+
+
+@pytest.mark.parametrize("damping", [0.02, 0.05, 0.1])
+def test_a_sweep_through_a_resonance_is_no_drift(damping: float) -> None:
+    """In a sweep each segment has frequencies of its own, so a change over time is one over frequency."""
+    time, own = 2.5e-3 * np.arange(8000), 2 * math.pi * 6.0
+    drive = np.sin(2 * math.pi * (time + 19.0 * time**2 / (2 * time[-1])))
+    _, place, _ = lsim(((1.0,), (1.0, 2 * damping * own, own**2)), drive, time)
+    place += 0.005 * place.std() * np.random.default_rng(4).normal(size=time.size)
+    assert [*note_drift(drive, place, 2.5e-3)] == []
 
 
 @pytest.mark.slow

@@ -197,6 +197,8 @@ def test_a_force_without_a_name_is_an_entry_where_something_is_missing(changes, 
 def test_a_delay_of_no_more_than_a_sample_is_usual(delay, told):
     late = make_found(DELAY, delay=delay)
     assert bool(doubt_short_delay.write(make_facts(late), late)) == told
+    whole = make_found(DELAY, delay=1.0)
+    assert doubt_short_delay.write(make_facts(whole), whole)[0].startswith("A delay of 1 sample is usual")
     assert not doubt_short_delay.write(make_facts(late), make_found(FRICTION))
 
 

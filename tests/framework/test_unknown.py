@@ -16,6 +16,7 @@ from lostmotion.inference.proposal import Axis, propose_formula
 from lostmotion.inference.surfaces import KINDS, OverHistory, Surface, list_all_curves
 from lostmotion.quantities import DAMPING, FORCE, LENGTH, SPEED
 from lostmotion.registry import default
+from lostmotion.results.diagnosis import Mechanism
 
 RUB = frozenset({FRICTION})
 X = Axis("x", LENGTH, FORCE, "translation")
@@ -177,6 +178,13 @@ def test_nothing_missing_and_something_unknown_are_not_both_probable(random_gain
     rows = {row.mechanism: row.probability for row in ranking}
     assert rows["nothing_missing"] + rows["unknown"] <= 1.0 + 1e-9
     assert rows["unknown"] == pytest.approx(max(smooth, 1.0 - math.exp(-random_gain)))
+
+
+def test_the_ranking_has_the_probability_of_every_finding():
+    """Also of quantisation, which is seen in the stored values and not found by likelihood."""
+    seen = Mechanism(mechanism=FRICTION, at="ground", probability=1.0, state="named", parameters={}, says="It is seen.")
+    rows = rank_candidates(make_facts(), (seen,))
+    assert next(row.probability for row in rows if row.mechanism == FRICTION) == 1.0
 
 
 def test_a_model_that_does_not_predict_lacks_something_whatever_the_evidence_says():

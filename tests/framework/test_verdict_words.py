@@ -75,6 +75,19 @@ def test_noise_that_may_be_motion_is_doubted():
     assert only.startswith("The estimated noise of rear is autocorrelated and is 90 %")
 
 
+def test_sets_that_were_not_extended_are_told_in_words():
+    (note,) = write_notes(make_facts(skipped=("coulomb_friction and offset_force", "no term")))
+    assert "beside Coulomb friction and offset force or no term was not tried" in note
+
+
+def test_only_a_named_law_is_left_out_of_the_model_by_words():
+    """A learned curve is a part of the augmented model and has no name."""
+    curve = Mechanism(mechanism="unknown", probability=1.0, state="open", parameters={}, says="It is learned.")
+    facts = make_facts(make_found(FRICTION))
+    assert summarise(facts, [FOUND])[0] == "Friction acts, and the model leaves it out."
+    assert summarise(facts, [curve])[0] == "It is learned."
+
+
 @pytest.mark.parametrize(
     ("changes", "start"),
     [

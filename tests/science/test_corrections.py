@@ -7,6 +7,7 @@ import pytest
 from explained import VALUES, T, made_of
 from sensed import multisine
 
+from lostmotion.diagnosis.stages import find_quantised
 from lostmotion.evidence import course as course_module
 from lostmotion.evidence.bare import Budget
 from lostmotion.evidence.channel_errors import DriveError, SensorError, list_channel_errors
@@ -16,6 +17,8 @@ from lostmotion.evidence.discrepancy import make_frame
 from lostmotion.evidence.effects import list_promises
 from lostmotion.evidence.hypothesis import fit_hypothesis
 from lostmotion.inference.curves import add_all_curves
+from lostmotion.inference.fit import maximise
+from lostmotion.inference.random_force import has_usual_random_force
 from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
 from lostmotion.noises import AR1_LEVEL, AR1_MEMORY
 
@@ -47,13 +50,18 @@ def clean(tmp_path_factory):
     return nominal_of(tmp_path_factory.mktemp("clean"), nothing)
 
 
+def suppose_nothing(nominal):
+    """Return the hypothesis that nothing is missing."""
+    wide = add_all_curves(nominal)
+    errors = list_channel_errors(nominal, list(nominal.problem.observations))
+    frame = make_frame(wide.problem, wide.theta, errors)
+    return fit_hypothesis(frame, frame.start, 0.0)
+
+
 @pytest.fixture(scope="module")
 def hypothesis(clean):
     """The hypothesis of nothing missing."""
-    wide = add_all_curves(clean)
-    errors = list_channel_errors(clean, list(clean.problem.observations))
-    frame = make_frame(wide.problem, wide.theta, errors)
-    return fit_hypothesis(frame, frame.start, 0.0)
+    return suppose_nothing(clean)
 
 
 def shifted(found, name, deviations):
@@ -110,6 +118,24 @@ def test_a_known_value_is_corrected_by_its_factor(hypothesis, clean):
     assert f"m is {factor:.4g} times its known value" in list(found.describe(clean.problem.observations[0]))
 
 
+def test_errors_that_only_together_are_clear_are_corrected_and_leave_no_force(tmp_path):
+    """A mass that is stated 4.5 % too large has the effect of a wrong scale of the force or of the position."""
+    nominal = nominal_of(tmp_path, nothing, stated=1.045)
+    found = suppose_nothing(nominal)
+    right = find_corrections(found)
+    ((name, factor),) = right.factors
+    assert name == "m"
+    assert factor == pytest.approx(1.0 - 0.015, abs=0.006)
+    sds = dict(zip(found.used.tolist(), np.sqrt(np.diag(found.joint_covariance)), strict=True))
+    sizes = [size / sds[i] for (_, size), i in zip(right.errors, range(found.frame.channels.start, 99), strict=False)]
+    assert max(map(abs, sizes)) < CLEAR
+    assert not has_usual_random_force(nominal)
+    assert has_usual_random_force(right.refit(nominal))
+    said = list(right.describe(nominal.problem.observations[0]))
+    assert [one.startswith(("the scale of", "m is")) for one in said] == [True, True, True, False]
+    assert said[-1].startswith("or one of these errors is larger")
+
+
 def test_a_recording_is_corrected_by_sizes_and_shapes(clean):
     observation = clean.problem.observations[0].part(FIRST, FIRST + SAMPLES)
     shape = np.arange(float(clean.problem.observations[0].samples))
@@ -123,6 +149,19 @@ def test_a_recording_is_corrected_by_sizes_and_shapes(clean):
         f"the scale of {observation.driven[0]} is wrong by 5 %",
     ]
     assert list(replace(right, clear=(False, True)).describe(observation)) == list(right.describe(observation))[1:]
+
+
+def test_quantisation_is_read_from_the_values_as_they_were_stored(clean):
+    """A correction, here of hum, moves the values from the multiples of the step."""
+    stored = clean.problem.observations[0]
+    step = 0.05 * float(np.std(stored.readings))
+    stored = replace(stored, readings=step * np.round(stored.readings / step))
+    hum = 0.2 * step * np.sin(2.0 * np.pi * 7.3 * stored.time)
+    fit = maximise(clean.problem.on((replace(stored, readings=stored.readings + hum[:, None]),)), clean.theta)
+    ((key, (values, _)),) = find_quantised(fit, (stored,)).items()
+    assert key.startswith("sensor_quantisation")
+    assert values == pytest.approx([step])
+    assert find_quantised(fit, fit.problem.observations) == {}
 
 
 def test_a_drive_that_is_late_is_corrected_to_when_it_acted(clean):

@@ -2,19 +2,25 @@
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from explained import VALUES, bend, explain_machine
+from explained import VALUES, bend, explain_machine, made_of
 
+from lostmotion.diagnosis.gather_facts import _list_reaching
+from lostmotion.diagnosis.stages import diagnose, explain_by
+from lostmotion.diagnosis.unknowns import make_learned_entry
 from lostmotion.evidence.corrections import find_corrections
 from lostmotion.evidence.explanations import Explanations
 from lostmotion.evidence.hypothesis import UNKNOWN, list_vague
 from lostmotion.inference.candidates import compute_slopes, run_score_test
+from lostmotion.inference.random_force import has_usual_random_force
+from lostmotion.results import Interval
 
 FRICTIONS = {"coulomb_friction", "stribeck_friction", "dahl_friction", "lugre_friction", "directional_friction"}
 SURE = 0.95
-NOTHING, FRICTION = frozenset(), frozenset({"coulomb_friction"})
+NOTHING, FRICTION, CURVES = frozenset(), frozenset({"coulomb_friction"}), frozenset({UNKNOWN})
 
 
 def nothing(x, v, t):
@@ -88,12 +94,41 @@ def test_an_amplitude_whose_region_reaches_zero_is_vague(rubbing, deviations, va
     assert list_vague(moved, "coulomb_friction") == vague
 
 
+@pytest.mark.parametrize(("low", "vague"), [(-0.1, ["force"]), (0.1, [])])
+def test_an_amplitude_whose_stated_interval_reaches_zero_is_vague_as_well(rubbing, low, vague):
+    told = {"coulomb_friction.force": Interval(0.8, low, 1.5, "N")}
+    assert list(_list_reaching(SimpleNamespace(after=rubbing.chosen), "coulomb_friction", told)) == vague
+
+
 def test_a_refuted_set_has_no_probability_and_the_next_one_is_the_best(rubbing):
     less = rubbing.refute()
     assert FRICTION not in less.probabilities
     assert less.terms != FRICTION
     assert sum(less.probabilities.values()) == pytest.approx(1.0)
-    assert less.refute().refuted == {FRICTION, less.terms}
+    assert less.refute().refuted == {FRICTION, less.terms or CURVES}
+
+
+def test_curves_beside_no_term_are_refuted_alone(rubbing):
+    """That nothing is missing stays an explanation: no term has its probability because a curve failed."""
+    made = with_scores(rubbing, {NOTHING: 20.0, FRICTION: 0.0})
+    less = made.refute()
+    assert less.refuted == {CURVES}
+    assert less.probabilities == made.probabilities
+
+
+def test_a_force_that_a_smooth_force_of_the_usual_size_explains_as_well_is_learned(tmp_path):
+    """It has no name, and neither the nominal model nor a term describes it: a curve does."""
+    prepared, system = made_of(tmp_path, bend(0.3))
+    few = replace(system, terms=tuple(term for term in system.terms if term.name == "coulomb_friction"))
+    found = diagnose(prepared.case, prepared.observations, few, rng=np.random.default_rng(0), jobs=1)
+    assert found.explained.best.terms == NOTHING
+    assert [term.over for term in found.learned.terms] == ["position"]
+    assert has_usual_random_force(found.after)
+    entry = make_learned_entry(found)
+    assert entry.probability == found.learned.probability > SURE
+    less = explain_by(found.explained.refute(), found, np.random.default_rng(0))
+    assert less.learned is None
+    assert less.found == ()
 
 
 def test_an_unknown_force_beside_a_refuted_set_is_refuted_with_it(rubbing):

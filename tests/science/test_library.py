@@ -11,7 +11,7 @@ import pytest
 from explained import explain
 from sensed import case_of, model_of, moved, multisine, noisy
 
-from lostmotion.inference.candidates import compute_slopes, make_term_parameters, run_score_test
+from lostmotion.inference.candidates import ScoreTest, compute_slopes, fit_term, make_term_parameters, run_score_test
 from lostmotion.inference.far_values import hold_shape
 from lostmotion.inference.late import (
     TIMES,
@@ -119,6 +119,30 @@ def test_friction_that_sets_in_late_is_named_with_its_onset(tmp_path):
     assert told.low <= LATE <= told.high
     assert told.high - told.low < 0.1
     assert explained.chosen.values["coulomb_friction.force"] == pytest.approx(RUBBED, rel=0.05)
+
+
+def begin_late(fit, key, amplitude, start, onset):
+    """Return the fit with one more term, begun at an amplitude and at an onset (s)."""
+    return fit_term(fit, ScoreTest(key, 1.0, {f"{key}.{amplitude}": start, onset_key(key): onset}, 1.0))
+
+
+def test_an_onset_is_found_over_several_cycles(tmp_path):
+    """A spring that breaks: the likelihood of its time has a maximum in every half cycle of 0.2 s."""
+    broken = lambda x, v, t: 60.0 * x if t > LATE else 0.0  # noqa: E731
+    found = begin_late(
+        nominal_of(tmp_path, [LinearStiffness()], extra=broken), "linear_stiffness", "coefficient", -10.0, LATE + 1.2
+    )
+    assert find_onset(found.problem, "linear_stiffness") == pytest.approx(LATE, abs=0.02)
+    assert found.values["linear_stiffness.coefficient"] == pytest.approx(-60.0, rel=0.03)
+    told = estimate_onset(found, "linear_stiffness")
+    assert told.low <= find_onset(found.problem, "linear_stiffness") <= told.high
+
+
+def test_a_term_that_promised_more_from_an_onset_acts_from_the_beginning_if_that_explains_as_much(tmp_path):
+    fit = nominal_of(tmp_path, [CoulombFriction()], extra=lambda x, v, t: -RUBBED * math.tanh(v / 1e-3))
+    found = begin_late(fit, "coulomb_friction", "force", 1.0, 0.5)
+    assert find_onset(found.problem, "coulomb_friction") == ALWAYS
+    assert found.values["coulomb_friction.force"] == pytest.approx(RUBBED, rel=0.05)
 
 
 def test_friction_from_the_beginning_has_no_onset(tmp_path):

@@ -22,11 +22,11 @@ from lostmotion.diagnosis.outcome import Outcome, compute_intervals
 from lostmotion.diagnosis.stages import SearchResult, list_fitted_keys, list_physical_keys
 from lostmotion.diagnosis.states import NAMED
 from lostmotion.diagnosis.unknowns import make_learned_entry, make_unnamed_entry, weigh_unknown
-from lostmotion.evidence.hypothesis import list_vague
+from lostmotion.evidence.hypothesis import group_amplitudes, list_vague
 from lostmotion.inference.contacts import list_short_contacts
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.late import estimate_onset
-from lostmotion.inference.natural import find_term
+from lostmotion.inference.natural import find_term, sort_slots
 from lostmotion.inference.origin import list_shifted, list_unlocated
 from lostmotion.inference.penalties import compute_penalty
 from lostmotion.inference.unseen import BodyPosition, smooth_body_position
@@ -218,7 +218,7 @@ def _make_found(outcome: Outcome, key: str, intervals: Mapping[str, Interval]) -
         term=term,
         parameters=parameters,
         share=float(np.max(np.abs(d.laws[key]))) / d.after.problem.scales.force,
-        support=_make_support(d, key),
+        support=_make_support(d, key, intervals),
         since=estimate_onset(d.after, key),
         place=term.at if term.at in list_other_places(system.model) else "",
         sensor=_name_sensor(d, term),
@@ -226,14 +226,24 @@ def _make_found(outcome: Outcome, key: str, intervals: Mapping[str, Interval]) -
     )
 
 
-def _make_support(d: SearchResult, key: str) -> Support:
+def _make_support(d: SearchResult, key: str, intervals: Mapping[str, Interval]) -> Support:
     return Support(
         gain=d.explained.gain_beside(key),
-        vague=tuple(list_vague(d.explained.best, key)),
+        vague=tuple(dict.fromkeys((*list_vague(d.explained.best, key), *_list_reaching(d, key, intervals)))),
         moved=tuple(_list_moved(d, key)),
         delay=_count_delay(d.after, key),
         complete=tuple(_list_complete(d, key)),
     )
+
+
+def _list_reaching(d: SearchResult, key: str, intervals: Mapping[str, Interval]) -> Iterator[str]:
+    """Yield the amplitudes whose interval, averaged over all explanations, contains the value that does nothing."""
+    problem = d.after.problem
+    slots = sort_slots(problem, key)[0]
+    for group in group_amplitudes(problem, key, slots):
+        own, told = slots[group[0]].param, intervals.get(slots[group[0]].key)
+        if len(group) == 1 and told and told.low <= (own.null or 0.0) <= told.high:
+            yield own.name
 
 
 def _list_moved(d: SearchResult, key: str) -> Iterator[AmplitudeChange]:

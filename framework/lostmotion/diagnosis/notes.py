@@ -9,6 +9,7 @@ from lostmotion.diagnosis.facts import Facts, Remark, remark, write_remarks
 from lostmotion.diagnosis.free_decays import note_restarts
 from lostmotion.diagnosis.repetition_notes import note_repetitions
 from lostmotion.diagnosis.states import doubt_moved_amplitudes, doubt_short_delay
+from lostmotion.report.words import to_words
 from lostmotion.results import percent, rounded
 
 SLOW = 0.3
@@ -97,7 +98,7 @@ def note_budget(facts: Facts) -> Iterator[str]:
     """Yield a note if the search ended before all sets of terms were extended."""
     yield (
         f"The search used up its processor time after {facts.explanations} explanations; what might be missing"
-        f" beside {' or '.join(facts.skipped)} was not tried. A larger `--budget` continues the search."
+        f" beside {' or '.join(map(to_words, facts.skipped))} was not tried. A larger `--budget` continues the search."
     )
 
 

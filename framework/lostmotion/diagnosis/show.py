@@ -63,10 +63,10 @@ def measure_behaviour(
         for name, (prediction, _) in both.items()
     }
     prediction, fit = both.get("after", both["before"])
-    noise = math.sqrt(fit.problem.measurement(fit.theta))
+    noises = [math.sqrt(fit.problem.measurement(fit.theta, 0, i)) for i in range(len(prediction.scales))]
     floor = NoiseFloor(
         heldout_log_score=prediction.expected_score,
-        free_run_error=noise / prediction.scales[0],
+        free_run_error=float(np.mean(np.divide(noises, prediction.scales))),
         attractor_distance=attractors.distances["noise_floor"],
         d2=attractors.dimensions["recorded"],
     )

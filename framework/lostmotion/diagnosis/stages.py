@@ -208,7 +208,7 @@ def explain_by(
         shown = replace(recordings[0], begun=before.problem.observations[0].begun)
     chosen = corrections.refit(explained.chosen)
     after, learned = polish_fit(chosen) if explained.terms else before, None
-    if UNKNOWN in explained.best.terms:
+    if UNKNOWN in explained.best.terms or _leaves_force(explained, before):
         curves = CurveSearch(len(list_fitted_keys(after.problem.system)), say)
         learned = curves.unknown(corrections.refit(explained.nominal), chosen)
     if learned is not None:
@@ -226,7 +226,7 @@ def explain_by(
         held=held,
         corrections=corrections,
         random_gain=compute_random_force_gain(after),
-        quantised=find_quantised(after),
+        quantised=find_quantised(after, split_heldout(d.recordings, d.settings.heldout)[0]),
         learned=learned,
         withdrawn=tuple(dict.fromkeys((*d.withdrawn, *sorted(kept - explained.terms)))),
         left=None,
@@ -235,6 +235,16 @@ def explain_by(
         law_curves={},
     )
     return _locate_forces(changed, rng)
+
+
+def _leaves_force(explained: Explanations, before: Fit) -> bool:
+    """Return whether nothing was found, and the nominal model leaves a force that curves may describe.
+
+    A smooth force of the usual size can explain as much as an unknown one: then no set is better than no term.
+    """
+    if explained.terms or frozenset({UNKNOWN}) in explained.refuted:
+        return False
+    return compute_random_force_gain(before) > before.problem.settings.locate.significant
 
 
 def _check_moving(held: Sequence[Observation]) -> None:
@@ -248,9 +258,12 @@ def _check_moving(held: Sequence[Observation]) -> None:
             )
 
 
-def find_quantised(fit: Fit) -> dict[str, tuple[Values, Values]]:
-    """Return the sensor terms that are visible in the stored values and are a share of the noise, by key."""
-    observations, found = fit.problem.observations, {}
+def find_quantised(fit: Fit, observations: Sequence[Observation]) -> dict[str, tuple[Values, Values]]:
+    """Return the sensor terms that are visible in the stored values and are a share of the noise, by key.
+
+    `observations` are the recordings of the fit as they were stored: corrected values are no multiples of a step.
+    """
+    found: dict[str, tuple[Values, Values]] = {}
     for key, term in fit.problem.system.channel_terms.items():
         if not isinstance(term, SensorTerm) or not term.marked:
             continue

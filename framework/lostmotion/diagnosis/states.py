@@ -131,9 +131,10 @@ def doubt_short_delay(_: Facts, found: FoundTerm) -> Iterator[str]:
     """Yield a doubt if the simplest explanation is a delay as short as in most acquisition systems."""
     samples = found.support.delay
     if samples is not None and samples <= SHORT:
+        count = f"{rounded(samples)} {'sample' if rounded(samples) == '1' else 'samples'}"
         yield (
-            f"A delay of {rounded(samples)} samples is usual in acquisition systems: it may be a property of the"
-            " measurement and not of the machine."
+            f"A delay of {count} is usual in acquisition systems: it may be a property of the measurement and not of"
+            " the machine."
         )
 
 

@@ -62,13 +62,14 @@ def make_learned_entry(d: SearchResult) -> Mechanism:
     share = rms / d.after.problem.scales.force
     size_of = f"{rounded(rms, 3)} {unit} rms, {percent(share)} of {d.yardstick}"
     alike, share_of_likeness, looks = _compare_with_library(d)
+    probability, log_odds = weigh_unknown(d)
     text = f"A force of {size_of}, is missing that no term of the library explains"
     return Mechanism(
         mechanism="unknown",
         at=unknown.terms[0].at,
-        probability=d.explained.inclusion(UNKNOWN),
+        probability=probability,
         state=OPEN,
-        log_odds=weigh_unknown(d)[1],
+        log_odds=log_odds,
         depends_on=tuple(depends),
         parameters={"rms": size},
         curve=curves[0],
@@ -228,7 +229,12 @@ def _find_formula(d: SearchResult, band: Band) -> tuple[str, float] | None:
 
 
 def weigh_unknown(d: SearchResult) -> tuple[float, float]:
-    """Return the probability of a force that the library does not contain, and its log evidence."""
+    """Return the probability of a force that the library does not contain, and its log evidence.
+
+    Curves that were learned beside no term, where a smooth force of the usual size explains as much, have their own.
+    """
+    if d.learned and UNKNOWN not in d.explained.best.terms:
+        return d.learned.probability, d.learned.gain
     scores = {terms: one.score() for terms, one in d.explained.found.items()}
     random = d.random_gain if d.unexplained and not d.found else 0.0
     return compute_unknown_odds(d.explained.inclusion(UNKNOWN), scores, random)

@@ -110,13 +110,12 @@ def rank_candidates(facts: Facts, found: Sequence[Mechanism]) -> tuple[Candidate
     failed = not is_valid(facts) and not facts.augmented
     unknown = 1.0 if failed else facts.unknown
     stated = {(entry.mechanism, entry.at): entry.probability for entry in found}
-    named = {one.key for one in facts.found}
     rows = [
         Candidate(
             mechanism=one.term.name,
             at=one.term.at,
             log_evidence_gain=one.gain,
-            probability=stated[one.term.name, one.term.at] if one.key in named else facts.inclusion(one.key),
+            probability=stated.get((one.term.name, one.term.at), facts.inclusion(one.key)),
             price=one.price,
             fitted=one.fitted,
         )
@@ -196,7 +195,7 @@ def summarise(facts: Facts, found: Sequence[Mechanism], rest: Sequence[OpenTerm]
     if not facts.augmented:
         return (*(entry.says for entry in found), *left)
     opening = list(_list_finding_sentences(found))
-    if len(found) == 1 and not is_uncertain(found[0]):
+    if len(found) == 1 and found[0].state == NAMED:
         opening[0] = f"{opening[0][:-1]}, and the model leaves it out."
     elif len(found) > 1 and all(entry.state == NAMED for entry in found):
         opening.append(f"The model leaves out {'both' if len(found) == 2 else f'all {len(found)} of them'}.")

@@ -6,31 +6,33 @@ They are no missing physics, but fits and predictions without them would show a 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.stats import chi2, norm
 
 from lostmotion.evidence.channel_errors import ChannelError, DriveError
 from lostmotion.evidence.hypothesis import Hypothesis
 from lostmotion.evidence.sensor_hum import SensorHum
-from lostmotion.inference.fit import Fit, maximise
+from lostmotion.inference.fit import Fit, maximise, solve_scaled
 from lostmotion.likelihood.observation import Observation
 
 CLEAR = 4.0
-"""Errors are corrected where one of them is so many standard deviations from zero."""
+"""Errors are corrected where one of them is so many standard deviations from zero, or all together are so clear."""
 
 
 @dataclass(frozen=True)
 class Corrections:
     """Errors of channels with their sizes, and factors of known values by name; both are empty without a clear one.
 
-    `clear` tells for each error of a channel whether it is one of the clear ones.
+    `clear` tells for each error of a channel whether it is one of the clear ones; `together` that none is clear alone.
     """
 
     errors: tuple[tuple[ChannelError, float], ...] = ()
     factors: tuple[tuple[str, float], ...] = ()
     clear: tuple[bool, ...] = ()
+    together: bool = False
 
     def __bool__(self) -> bool:
         """Whether anything is corrected."""
@@ -59,6 +61,8 @@ class Corrections:
         yield from dict.fromkeys(_describe_error(error, size, first) for error, size in clear)
         for name, factor in self.factors:
             yield f"{name} is {factor:.4g} times its known value"
+        if self.together:
+            yield "or one of these errors is larger and others are absent, since they have nearly the same effect"
 
 
 def _describe_error(error: ChannelError, size: float, first: Observation) -> str:
@@ -79,19 +83,36 @@ def _describe_error(error: ChannelError, size: float, first: Observation) -> str
 
 
 def find_corrections(found: Hypothesis) -> Corrections:
-    """Return the corrections of a hypothesis: those of the channels, of the known values, each if one is clear."""
-    frame, sds = found.frame, np.sqrt(np.diag(found.joint_covariance))
-    spread = dict(zip(found.used.tolist(), sds.tolist(), strict=True))
-    middle = np.concatenate([np.zeros(frame.own), frame.middle])
+    """Return the corrections of a hypothesis: those of the channels, of the known values, each if one is clear.
 
-    def is_clear(i: int) -> bool:
-        return bool(abs(found.at[i] - middle[i]) > CLEAR * spread.get(i, math.inf))
-
+    Where errors have the same effect, such as the scales of two channels, none may be clear alone. Then all are
+    corrected if they are clear together, and those beyond their usual size are told.
+    """
+    frame = found.frame
     channels, known = range(frame.channels.start, frame.count), range(frame.known.start, frame.known.stop)
+    clear = {i for i in (*channels, *known) if _is_clear(found, [i])}
+    if together := not clear and _is_clear(found, [*channels, *known]):
+        widths = frame.widths(frame.none)
+        clear = {i for i in (*channels, *known) if abs(_find_size(found, i)) > widths[i - frame.own]}
     errors: tuple[tuple[ChannelError, float], ...] = ()
     factors: tuple[tuple[str, float], ...] = ()
-    if any(map(is_clear, channels)):
+    if together or clear.intersection(channels):
         errors = tuple((error, float(found.at[i])) for i, error in zip(channels, frame.errors, strict=True))
-    if any(map(is_clear, known)):
-        factors = tuple((frame.problem.keys[i], math.exp(float(found.at[i] - middle[i]))) for i in known)
-    return Corrections(errors, factors, tuple(map(is_clear, channels)) if errors else ())
+    if together or clear.intersection(known):
+        factors = tuple((frame.problem.keys[i], math.exp(_find_size(found, i))) for i in known)
+    return Corrections(errors, factors, tuple(i in clear for i in channels) if errors else (), together)
+
+
+def _find_size(found: Hypothesis, at: int) -> float:
+    """Return how far an error of a channel or the logarithm of a known value is from its expectation."""
+    return float(found.at[at] - found.frame.middle[at - found.frame.own])
+
+
+def _is_clear(found: Hypothesis, places: Sequence[int]) -> bool:
+    """Return whether errors together are as far from zero as one that is `CLEAR` standard deviations away."""
+    rows = [row for row, at in enumerate(found.used.tolist()) if at in places]
+    if not rows:
+        return False
+    apart = np.array([_find_size(found, int(found.used[row])) for row in rows])
+    square = float(apart @ solve_scaled(found.joint_covariance[np.ix_(rows, rows)], apart))
+    return square > float(chi2.isf(2.0 * norm.sf(CLEAR), len(rows)))

@@ -99,8 +99,8 @@ class Explanations:
         return max(self.best.log_evidence - self.chosen.log_evidence, 0.0)
 
     def refute(self) -> Explanations:
-        """Return the explanations without the most probable set of terms."""
-        return replace(self, refuted=self.refuted | {self.terms})
+        """Return the explanations without the most probable set of terms; without any, no curves are learned."""
+        return replace(self, refuted=self.refuted | {self.terms if self.best.terms else frozenset({UNKNOWN})})
 
     def draw(self, keys: list[str], count: int, rng: np.random.Generator) -> Array:
         """Return draws (count, keys) of parameters of the chosen fit, averaged over all hypotheses by probability.

@@ -57,13 +57,21 @@ def make_onset_parameter(problem: Problem, key: str, start: float) -> FreeParame
 
 
 def refine_onset(fit: Fit, key: str) -> Fit:
-    """Return the fit with the onset of a term held at the nearest maximum; unchanged for a term without one."""
-    if not find_onset(fit.problem, key) > ALWAYS:
+    """Return the fit with the onset of a term held at the highest maximum; unchanged for a term without one.
+
+    If the term explains as much from the beginning on, apart from the price of an onset, it has none: where the drive
+    reaches a resonance late, a term promises more from then on.
+    """
+    if fit.status == "diverged" or not find_onset(fit.problem, key) > ALWAYS:
         return fit
-    wider = restart(fit).extend((make_onset_parameter(fit.problem, key, find_onset(fit.problem, key)),), ())
-    found = maximise(wider, np.append(fit.theta, find_onset(fit.problem, key)))
-    held = restart(fit).hold_values({onset_key(key): float(found.theta[-1])})
-    late = maximise(held, found.theta[:-1])
+    onset = find_onset(fit.problem, key)
+    wider = restart(fit).extend((make_onset_parameter(fit.problem, key, onset),), ())
+    found = maximise(wider, _scan_time(wider, np.append(fit.theta, onset), len(fit.theta)))
+    late, ever = (
+        maximise(restart(fit).hold_values({onset_key(key): at}), found.theta[:-1]) for at in (found.theta[-1], ALWAYS)
+    )
+    if ever.log_evidence > max(late.log_evidence, fit.log_evidence) - price_onset(fit.problem):
+        return ever
     return late if late.local.log_posterior > fit.local.log_posterior else fit
 
 
@@ -78,23 +86,30 @@ def find_change_time(problem: Problem, key: str) -> int | None:
 
 
 def refine_change(fit: Fit, key: str) -> Fit:
-    """Return the fit with the time of a change at the highest of many maxima; unchanged for a term without one.
+    """Return the fit with the time of a change at the highest maximum; unchanged for a term without one."""
+    if fit.status == "diverged" or (at := find_change_time(fit.problem, key)) is None:
+        return fit
+    found = maximise(fit.problem, _scan_time(fit.problem, fit.theta, at))
+    return found if found.local.log_posterior > fit.local.log_posterior else fit
+
+
+def _scan_time(problem: Problem, theta: Array, at: int) -> Array:
+    """Return coordinates with a time in the recording, the one at index `at`, at the highest of many maxima.
 
     The likelihood of such a time has a maximum in nearly every cycle of the motion, so it is computed on a grid over
     the recording, then between the neighbours of the best time.
     """
-    if fit.status == "diverged" or (at := find_change_time(fit.problem, key)) is None:
-        return fit
-    best, grid = fit.theta.copy(), list_onsets(fit.problem, GRID)
+    best, grid = theta.copy(), list_onsets(problem, GRID)
     for _ in range(2):
-        thetas = np.repeat(best[None], len(grid), axis=0)
-        thetas[:, at] = np.log(grid)
-        thetas = fit.problem.clip(thetas)
-        best = thetas[int(np.nanargmax(fit.problem.log_posteriors(thetas)))]
-        grid = math.exp(best[at]) + np.linspace(-1.0, 1.0, TIMES + 1) * (grid[1] - grid[0])
+        times = np.append(grid, math.exp(best[at]) if problem.free[at].log else best[at])
+        thetas = np.repeat(best[None], len(times), axis=0)
+        thetas[:, at] = np.log(times) if problem.free[at].log else times
+        thetas = problem.clip(thetas)
+        chosen = int(np.nanargmax(problem.log_posteriors(thetas)))
+        best = thetas[chosen]
+        grid = times[chosen] + np.linspace(-1.0, 1.0, TIMES + 1) * (grid[1] - grid[0])
         grid = grid[grid > 0.0]
-    found = maximise(fit.problem, best)
-    return found if found.local.log_posterior > fit.local.log_posterior else fit
+    return best
 
 
 def estimate_onset(fit: Fit, key: str) -> Interval | None:

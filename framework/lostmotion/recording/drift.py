@@ -24,6 +24,9 @@ SEGMENTS, FEWEST, SHORTEST = 16, 10, 64
 """Segments of a recording, the least number to which a line is fitted, and the least number of samples in one."""
 HEARD = 1e-3
 """Frequencies with at least this share of the strongest power of the input are used: below it lies leakage."""
+HELD = 0.25
+"""The least share of the segments in which the input must have its power at a frequency, in the mean over all
+frequencies: in a sweep, which has each of them once, a resonance looks like a delay that grows."""
 MOST = 5e-3
 """The largest drift (s per s) of two clocks: a larger one has another cause."""
 FLOOR = 1e-12
@@ -81,6 +84,10 @@ def clock_drift(excitation: Array, response: Array, dt: float) -> Drift | None:
     if not omega.size or not loud.max():
         return None
     drive, seen = drive[:, heard], seen[:, heard]
+    power = np.abs(drive) ** 2
+    alike = np.sum(power, axis=0) ** 2 / np.sum(power**2, axis=0)
+    if np.average(alike, weights=loud[heard]) < HELD * count:
+        return None
     at = np.asarray((np.arange(count) - 0.5 * (count - 1)) * size * dt)
     pair = _Pair(drive, seen, omega, at)
     # A periodic motion fits many drifts: the one with the least residual is taken.

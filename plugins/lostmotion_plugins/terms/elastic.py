@@ -16,7 +16,7 @@ class LinearStiffness(Term):
 
     at: str = "ground"
     name: ClassVar[str] = "linear_stiffness"
-    physics: ClassVar[str] = "A spring of {coefficient} pulls towards position zero"
+    physics: ClassVar[str] = "A further spring of {coefficient} acts about position zero"
     formula: ClassVar[str] = "-coefficient * x"
     paper: ClassVar[str] = "Nayfeh, Mook, Nonlinear Oscillations (1979), section 1.1"
     params = (Param("coefficient", "stiffness", STIFFNESS, null=0.0),)

@@ -16,6 +16,8 @@ CANDIDATES_SHOWN = 16
 LARGEST_LOSS = 20.0
 LIKELY = 0.5
 """A candidate above this probability is among the best sets of terms."""
+STRONG = 5.0
+"""The gain in log evidence that the caption calls strong."""
 
 
 def draw(evidence: Evidence) -> Figure | None:
@@ -40,21 +42,25 @@ def caption(evidence: Evidence) -> str:
     cut = " ◂ marks a truncated bar." if gains and min(gains) < _find_reach(gains)[1] else ""
     return (
         "Each candidate was fitted with all parameters of the model free. The bar is the gain in log evidence over the "
-        "nominal model; a gain of 5 is strong, and a gain near zero or below means that the term is not needed. The "
-        "column on the right is the posterior probability among all candidates: that of the best sets of terms, each "
-        f"with a small smooth force in addition{_describe_price(evidence)}." + _explain_order(rows) + cut + rest
+        f"nominal model; a gain of {STRONG:.0f} is strong, and a gain near zero or below means that the term alone does"
+        " not help. The column on the right is the posterior probability among all candidates: that of the best sets of"
+        f" terms, each with a small smooth force in addition{_describe_price(evidence)}."
+        f"{_explain_order(evidence, rows)}{cut}{rest}"
     )
 
 
-def _explain_order(rows: list[Candidate]) -> str:
-    """Return why a long bar may come with a small probability, where the figure shows that."""
-    best = max((_get_gain(one, -math.inf) for one in rows if one.probability > LIKELY), default=math.inf)
-    if not any(_get_gain(one, -math.inf) > best and one.probability <= LIKELY for one in rows):
-        return ""
-    return (
-        " A bar is the gain of a candidate alone: where several act together, one that gains more alone may belong to"
-        " none of the best sets."
-    )
+def _explain_order(evidence: Evidence, rows: list[Candidate]) -> str:
+    """Return why a long bar may come with a small probability, or a short one with a large, where the figure has it."""
+    found = {_make_key(one) for one in evidence.result.found}
+    likely = [one for one in rows if one.probability > LIKELY]
+    best = max((_get_gain(one, -math.inf) for one in likely), default=math.inf)
+    clauses = []
+    if any(_get_gain(one, -math.inf) > best and one.probability <= LIKELY for one in rows):
+        clauses.append("one that gains more alone may belong to none of the best sets")
+    if len(found) > 1 and any(_make_key(one) in found and _get_gain(one, math.inf) < STRONG for one in likely):
+        clauses.append("one that gains little alone may be needed beside another one")
+    opening = " A bar is the gain of a candidate alone: where several act together, "
+    return f"{opening}{', and '.join(clauses)}." if clauses else ""
 
 
 def _describe_price(evidence: Evidence) -> str:
