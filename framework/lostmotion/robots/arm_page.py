@@ -46,7 +46,7 @@ def render(evidence: RobotEvidence) -> str:
     result = evidence.result
     with style.use_style("rad"):
         sections = list(draw_sections(SECTIONS, evidence))
-    words = "Something is missing" if result.found else "Nothing is missing"
+    words = "Nothing is missing" if result.verdict == "adequate" else "Something is missing"
     return load_template("page.html.j2", "lostmotion.robots").render(
         title=typeset(result.title),
         kind=result.verdict if not _is_unknown(result) else "unknown",
@@ -82,7 +82,7 @@ def make_joint_table(evidence: RobotEvidence) -> Grid:
     ]
     head = [
         "joint", "missing there", "torque (sd)", "random torque before", "after", "error of free runs before", "after",
-        "variance of one-step errors before", "after",
+        "variance of one-step errors (1 is expected) before", "after",
     ]  # fmt: skip
     return Grid(head, rows)
 

@@ -21,6 +21,8 @@ SHORTEST = 200
 """The smallest number of samples of a log."""
 GAP = 20.0
 """A pause of more than so many steps is a gap, over which readings are missing."""
+ROUNDING = 1e-3
+"""The rounding of stamps, as a share of the step."""
 JITTER = 0.02
 """The jitter of the stamps (sd, as a share of the step) above which a note is written."""
 
@@ -147,10 +149,11 @@ def resample(time: Array, columns: Array, clock: LogClock, *, step: bool) -> tup
     """Return columns (samples, k) on the even grid of a clock, and which of its points lie in a gap of the log.
 
     Torques that a controller holds (`step`) are not interpolated over a jump, but averaged over the step that follows.
+    No point lies after the last stamp by more than rounding: there is no reading to interpolate.
     """
     kept = np.concatenate([[True], np.diff(time) > 0.0])
     time, columns = time[kept], columns[kept]
-    grid = np.arange(time[0], time[-1] + 0.25 * clock.step, clock.step)
+    grid = np.arange(time[0], time[-1] + ROUNDING * clock.step, clock.step)
     after = np.clip(np.searchsorted(time, grid), 1, len(time) - 1)
     gaps = (time[after] - time[after - 1]) > GAP * clock.dt
     if step:
