@@ -19,6 +19,8 @@ STALE = 0.3
 """The largest share of samples in which all joints repeat the reading before; with more, the arm rests."""
 SHORTEST = 200
 """The smallest number of samples of a log."""
+SLOWEST = 0.2
+"""The longest step (s) of a log: with a longer one the motion between samples is not known."""
 GAP = 20.0
 """A pause of more than so many steps is a gap, over which readings are missing."""
 ROUNDING = 1e-3
@@ -140,6 +142,11 @@ def measure_clock(time: Array, source: str) -> LogClock:
     if not len(moving):
         raise DataError(f"{source}: all time stamps are equal: give the column of the time of each sample")
     dt = float(np.median(moving))
+    if dt > SLOWEST:
+        raise DataError(
+            f"{source} has a sample every {dt:g} s, a diagnosis needs one every {SLOWEST:g} s at least: if the stamps"
+            ' are in ms, write time = { column = "...", unit = "ms" }'
+        )
     even = moving[moving < GAP * dt]
     every = max(1, math.ceil(FINEST / dt))
     return LogClock(dt, float(np.std(even) / dt), len(steps) - len(moving), float(moving.max()), every)
