@@ -82,6 +82,7 @@ def test_the_page_shows_each_joint(diagnosed):
     page = (diagnosed[1] / "report.html").read_text()
     assert "Joint by joint" in page
     assert "Dry friction of" in page
+    assert "counts as the simpler one there" in page
 
 
 def negate(columns):
