@@ -53,7 +53,7 @@ def check_log(arm: TapedArm, simulator: Simulator) -> tuple[Check, ...]:
     base = _compare(arm, arm.log.torque)
     faults = [*_check_angles(arm, simulator, base)] or [*_check_order(arm, base)]
     faults = faults or [*_check_gravity(arm, simulator, base)] or [*_check_signs(arm, base)]
-    faults = faults or [*_check_positions(arm, simulator, base)] or [*_check_scale(arm, base)]
+    faults = faults or [*_check_positions(arm, simulator, base)] or [*_check_scale(arm, simulator, base)]
     found += faults
     if not faults:
         found += [*_check_side(arm)]
@@ -161,14 +161,13 @@ def _list_readings(arm: TapedArm, simulator: Simulator) -> Iterator[tuple[str, s
     place = {pick: i for i, pick in enumerate(arm.log.picks)}
     for j, (joint, moves) in enumerate(zip(arm.joints, simulator.moves, strict=True)):
         own = [i for (k, _), i in place.items() if k == j]
-        for factor, says in (
-            (-1.0, "have the opposite sign: give factor = -1"),
-            (1.0 / DEGREE, 'be in degrees: give unit = "deg"'),
-        ):
+        turns = moves == "rotation"
+        unit = (1.0 / DEGREE, 'be in degrees: give unit = "deg"') if turns else (1e-3, 'be in mm: give unit = "mm"')
+        for factor, says in ((-1.0, "have the opposite sign: give factor = -1"), unit):
             other = readings.copy()
             other[:, own] *= factor
             yield joint, f"The positions of {joint} seem to {says} for its position.", other, torque
-        for quarters in (-1, 1, 2) if moves == "rotation" else ():
+        for quarters in (-1, 1, 2) if turns else ():
             other = readings.copy()
             other[:, place[j, 0]] += 0.5 * math.pi * quarters
             says = f"The zero of the encoder of {joint} seems to be shifted: add {90 * quarters} degrees to its column"
@@ -248,15 +247,19 @@ def _check_signs(arm: TapedArm, base: _Fit) -> Iterator[Check]:
             )  # fmt: skip
 
 
-def _check_scale(arm: TapedArm, base: _Fit) -> Iterator[Check]:
+def _check_scale(arm: TapedArm, simulator: Simulator, base: _Fit) -> Iterator[Check]:
     """Yield a check for each joint whose torque has another size, or does not agree at all."""
     for j, joint in enumerate(arm.joints):
         slope, agrees = float(base.slope[j]), base.correlation[j] > AGREES
         if agrees and not 0.4 < slope < 2.5:
-            hint = "N mm or a percentage" if slope > 2.5 else "kN m, a motor current or a torque before the gear"
+            turns = simulator.moves[j] == "rotation"
+            word, small, large = ("torque", "N mm", "kN m") if turns else ("force", "mN", "kN")
+            hint = (
+                f"{small} or a percentage" if slope > 2.5 else f"{large}, a motor current or a {word} before the gear"
+            )
             yield Check(
                 "unit", joint, False,
-                f"The torque of {joint} is {slope:.3g} times that of the model: it may be in {hint}; give its unit or"
+                f"The {word} of {joint} is {slope:.3g} times that of the model: it may be in {hint}; give its unit or"
                 " a factor.", stop=True,
             )  # fmt: skip
         elif not agrees:
