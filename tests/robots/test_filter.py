@@ -7,9 +7,11 @@ import numpy as np
 import pytest
 
 from lostmotion.robots.arm import Column
+from lostmotion.robots.arm_effects import measure_scales
 from lostmotion.robots.arm_preparation import make_arm
 from lostmotion.robots.gears import Gear
 from lostmotion_plugins.terms.friction import CoulombFriction
+from lostmotion_plugins.terms.friction_kinds import FrictionDrift
 from lostmotion_trials.integrators.arm import Arm
 
 LEVELS = (np.array([0.1, 0.03]) ** 2 * 0.002, np.array([3e-5, 3e-5]) ** 2)
@@ -104,6 +106,25 @@ def test_friction_is_most_likely_at_its_true_value(make):
     told = {f: arm.filter({KEY: f}, (term,), LEVELS).seen.log_likelihood for f in (0.0, 0.27, 0.3, 0.33)}
     assert max(told, key=told.get) == 0.3
     assert told[0.3] - told[0.0] > 500.0
+
+
+def test_a_run_that_begins_later_has_the_clock_of_the_log(empty):
+    """Friction that rose from 0.1 to 0.3 N m within the first 0.2 s is 0.3 N m in a run that begins at 2 s."""
+    drift = {f"friction_drift@elbow.{name}": x for name, x in (("force", 0.1), ("change", 0.2), ("time", 0.05))}
+    start = (1000, np.concatenate([empty.tape.path.q[1000], empty.tape.path.v[1000]]), 1e-10 * np.eye(4))
+    blind = np.full_like(empty.log.readings, math.nan)
+    runs = [
+        empty.filter(values, (term,), LEVELS, last=1100, keep=True, readings=blind, start=start).states
+        for values, term in ((drift, FrictionDrift(at="elbow")), ({KEY: 0.3}, CoulombFriction(at="elbow")))
+    ]
+    assert np.abs(runs[0] - runs[1]).max() < 1e-9
+
+
+def test_a_lasting_time_has_the_scale_of_the_whole_log(empty):
+    scales = measure_scales(empty)[1]
+    lasting = next(q for q in FrictionDrift.params if q.name == "time")
+    assert scales.size(lasting) == pytest.approx(0.3 * empty.log.samples * empty.log.dt)
+    assert scales.size(replace(lasting, lasting=False)) == pytest.approx(0.3 * scales.length / scales.speed)
 
 
 def test_a_stiff_gear_is_no_gear(empty):

@@ -8,6 +8,7 @@ import pytest
 from lostmotion.evidence.search import compute_probabilities
 from lostmotion.robots.arm_preparation import SearchOptions, make_arm, prepare_search
 from lostmotion.robots.arm_search import find_probabilities
+from lostmotion.robots.promises import _gain_in_one_step
 from lostmotion_trials.integrators.arm import Arm
 
 NAMES = ("coulomb_friction", "stribeck_friction", "viscous_damping", "cogging", "excitation_delay", "offset_force")
@@ -30,6 +31,22 @@ def test_play_in_the_gear_of_the_shoulder(search_of, helpers):
     key, share = lead(search)
     assert (key, share > 0.95) == ("backlash@shoulder.gear", True)
     assert search.best.values["backlash@shoulder.gear.gap"] == pytest.approx(1e-3, rel=0.05)
+
+
+def test_a_gear_is_not_refused_for_what_fitted_values_undo(helpers, terms):
+    """A constant torque that the fit knows costs 20 nats as it is, and nothing after one step."""
+    simulator = helpers.make_simulator()
+    arm = make_arm(simulator, helpers.record(Arm(), samples=1500))
+    search, start = prepare_search(arm, simulator, terms, {}, SearchOptions(asked=("coulomb_friction",)))
+    search.weigh((), [start])
+    nominal = search.found[frozenset()]
+    names = [c.name for c in nominal.frame.discrepancy.columns]
+    place = len(nominal.frame.own) + names.index("elbow.zero")
+    at = nominal.at.copy()
+    at[place] += 7.0 / np.sqrt(nominal.expansion.information[place, place])
+    seen = nominal.frame.run(at).seen
+    assert seen.log_likelihood < nominal.expansion.here.log_likelihood - 20.0
+    assert abs(_gain_in_one_step(nominal, seen)) < 1.0
 
 
 def test_nothing_is_named_where_nothing_is_hidden(search_of, helpers):

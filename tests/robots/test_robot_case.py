@@ -72,7 +72,9 @@ def test_friction_is_named_with_its_joint(diagnosed):
     force = told["found"][0]["parameters"]["force"]
     assert force["low"] < 0.4 < force["high"]
     assert force["unit"] == "N m"
+    assert told["model"]["after"] == "my_model.py + coulomb_friction@elbow"
     after, before = told["fit"]["after"], told["fit"]["before"]
+    assert after["heldout_log_score"] > before["heldout_log_score"]
     assert after["heldout_nrmse_by_sensor"]["elbow"] < 0.2 * before["heldout_nrmse_by_sensor"]["elbow"]
 
 
@@ -80,6 +82,7 @@ def test_the_page_shows_each_joint(diagnosed):
     page = (diagnosed[1] / "report.html").read_text()
     assert "Joint by joint" in page
     assert "Dry friction of" in page
+    assert "counts as the simpler one there" in page
 
 
 def negate(columns):
@@ -107,9 +110,44 @@ def shift(columns):
     return columns
 
 
+def swap_positions(columns):
+    columns[:, [3, 4]] = columns[:, [4, 3]]
+    return columns
+
+
+def swap_joints(columns):
+    return swap_positions(swap(columns))
+
+
+def mirror(columns):
+    columns[:, 4] *= -1.0
+    return columns
+
+
+def turn_elbow(columns):
+    columns[:, 4] = np.degrees(columns[:, 4])
+    return columns
+
+
+def move_zero(columns):
+    columns[:, 4] += 0.5 * np.pi
+    return columns
+
+
+def slow(columns):
+    columns[:, 0] *= 1000.0
+    return columns
+
+
 @pytest.mark.parametrize(
     ("change", "says"),
     [
+        (swap_positions, "positions of shoulder and elbow look swapped"),
+        (swap_joints, "joints shoulder and elbow look swapped"),
+        (mirror, "elbow .*opposite sign"),
+        (turn_elbow, "positions .*degrees"),
+        (move_zero, "zero of the encoder of elbow seems to be shifted: add -90 degrees"),
+        (slow, "a sample every 2 s.* if the stamps are in ms"),
         (negate, "torque of elbow has the opposite sign"),
         (swap, "torques of shoulder and elbow look swapped"),
         (turn, "positions look like degrees"),
@@ -131,6 +169,14 @@ def test_gravity_in_the_other_direction_is_named(tmp_path):
     done = run(case, tmp_path / "out")
     assert done.exit_code == 2
     assert "gravity in the opposite direction" in " ".join(done.output.split())
+
+
+def test_a_model_without_gravity_is_named(tmp_path):
+    case = write(tmp_path / "case")
+    (tmp_path / "case" / "my_model.py").write_text(MODEL.replace("9.81", "0.0"), encoding="utf-8")
+    done = run(case, tmp_path / "out")
+    assert done.exit_code == 2
+    assert "switch gravity on in the model" in " ".join(done.output.split())
 
 
 def test_the_side_of_the_torque_is_asked_for(tmp_path):

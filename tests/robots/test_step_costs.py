@@ -61,5 +61,5 @@ def test_the_written_model_keeps_the_gain(tmp_path, registry, machine, term, lea
     result = diagnose_robot(case, registry, terms=(term,)).result
     assert [f"{one.mechanism}@{one.at}" for one in result.found] == [term]
     assert result.written.share > least
-    assert any("arm_found.xml, stepped by its simulator, keeps" in says for says in result.says)
+    assert any("and with arm_found.xml, stepped by its simulator" in says for says in result.says)
     assert result.written.exact < result.written.before

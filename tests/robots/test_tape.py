@@ -5,7 +5,8 @@ import pytest
 from lostmotion_template.simulators import TwoLink
 
 from lostmotion.errors import CaseError, ContractError
-from lostmotion.robots.tape import Path, make_part, make_tape, smooth_path
+from lostmotion.robots.log import measure_clock, resample
+from lostmotion.robots.tape import Path, make_part, make_shares, make_tape, smooth_path
 from lostmotion.robots.user import FunctionSimulator
 from lostmotion_trials.integrators.arm import Arm, plan_motion
 
@@ -41,6 +42,24 @@ def test_a_payload_is_one_more_linear_part():
     heavy = make_tape(TwoLink(payload=0.3), path)
     assert np.allclose(tape.mass + 0.3 * part.mass, heavy.mass, rtol=1e-9)
     assert np.allclose(tape.bias + 0.3 * part.bias, heavy.bias, rtol=1e-9, atol=1e-9)
+
+
+def test_the_shares_of_a_function_are_its_whole_torque():
+    path, simulator = path_of(), FunctionSimulator(Arm().torque, ("shoulder", "elbow"))
+    tape = make_tape(simulator, path)
+    shares = make_shares(simulator, tape)
+    whole = sum(part.weigh(path.a) for name, part in shares.items() if name != "shoulder.gravity_elbow")
+    assert np.allclose(whole, tape.torque, atol=1e-9 * np.abs(tape.torque).max())
+    heavier = FunctionSimulator(lambda q, v, a: 1.02 * Arm().torque(q, v, a), simulator.names)
+    assert np.allclose(make_tape(heavier, path).torque - tape.torque, 0.02 * whole, atol=1e-6)
+
+
+def test_a_log_is_not_read_after_its_last_stamp():
+    time = 0.004 * np.arange(300) + 0.0004 * np.random.default_rng(0).random(300)
+    time[-1] -= 0.0012
+    columns, _ = resample(time, time[:, None], measure_clock(time, "log"), step=False)
+    grid = time[0] + measure_clock(time, "log").step * np.arange(len(columns))
+    assert np.abs(columns[:, 0] - grid).max() < 1e-5
 
 
 def test_a_smoothed_path_has_the_derivatives_of_the_true_one():

@@ -104,7 +104,7 @@ def _average_laws(t, q, v, sq, sv, j, mobility, step, joints, addresses, firsts,
 @numba.njit(cache=True, nogil=True, error_model="numpy")
 def filter_chain(  # type: ignore[no-untyped-def]
     z, picks, dt, coarse, fine, inverses, Kq, KV, h, q0, v0, tau, S, R, motors, gears, joints, addresses, firsts,
-    widths, needs, numbers, x0, P0, errors, variances, states, accelerations, gains, moves, pushes,
+    widths, needs, numbers, begin, x0, P0, errors, variances, states, accelerations, gains, moves, pushes,
 ):  # fmt: skip
     """Write one-step errors and their variances, (samples, readings); return the number of samples that were filtered.
 
@@ -113,9 +113,9 @@ def filter_chain(  # type: ignore[no-untyped-def]
     lengths hs of a step. `h` already holds - Kv v0. `tau` (samples, n) acts over the sample
     that follows, `S` (n,) is the intensity of the random force (N m)^2 s and `R` (readings,) the variance of readings.
     `motors` (n,) is the position of the motor of a joint in the state, or -1; `gears` (n, 5) holds half of its play,
-    stiffness, damping, one over its inertia, and its viscous damping. Laws have a joint, an address, and numbers. Where
-    `moves` has a row for each sample, `states`, `gains`, `accelerations`, and the transitions `moves` (samples, L, L)
-    and `pushes` (samples, L, n) are written too.
+    stiffness, damping, one over its inertia, and its viscous damping. Laws have a joint, an address, and numbers; the
+    time of the first sample is `begin` (s). Where `moves` has a row for each sample, `states`, `gains`,
+    `accelerations`, and the transitions `moves` (samples, L, L) and `pushes` (samples, L, n) are written too.
     """
     N, m = z.shape
     n = Kq.shape[1]
@@ -300,8 +300,8 @@ def filter_chain(  # type: ignore[no-untyped-def]
                 ease = W[k, i, i] if w < 0 else gears[i, 3]
                 sq, sv = math.sqrt(max(P[b, b], 1e-24)), math.sqrt(max(P[c, c], 1e-24))
                 mean, slant, slope, left = _average_laws(
-                    (k + (s + 0.5) / steps) * dt, x[b] - 0.5 * hs * x[c], x[c], sq, sv, i, hs * ease, hs, joints,
-                    addresses, firsts, widths, needs, numbers, own, desk)  # fmt: skip
+                    begin + (k + (s + 0.5) / steps) * dt, x[b] - 0.5 * hs * x[c], x[c], sq, sv, i, hs * ease, hs,
+                    joints, addresses, firsts, widths, needs, numbers, own, desk)  # fmt: skip
                 for a in range(L):
                     g[a] = 0.0
                 if w < 0:

@@ -199,8 +199,8 @@ class TapedArm:
         *_, q0, v0 = self._middle
         reached = _run_filter(
             z, picks, log.dt, coarse, fine, inverses[:, part], kq[part], kv[part], free[part], q0[part], v0[part],
-            np.ascontiguousarray(tau[part]), levels[0], levels[1], motors, plain, *table, mean, cov, errors,
-            variances, made["states"], made["accelerations"], made["gains"], made["moves"], made["pushes"],
+            np.ascontiguousarray(tau[part]), levels[0], levels[1], motors, plain, *table, first * log.dt, mean, cov,
+            errors, variances, made["states"], made["accelerations"], made["gains"], made["moves"], made["pushes"],
         )  # fmt: skip
         errors[: max(self.settling - first, 0)], variances[: max(self.settling - first, 0)] = 0.0, 1.0 / (2.0 * math.pi)
         seen = Innovations.of(errors[None], variances[None], np.array([reached]))[0]

@@ -40,23 +40,25 @@ USUAL_GAP, USUAL_MESH = 1e-3, 60.0
 
 @dataclass(frozen=True)
 class JointScales:
-    """The natural scales of a joint: torque (N m), angle (rad) and speed (rad/s), or N, m and m/s."""
+    """The natural scales of a joint: torque (N m), angle (rad), speed (rad/s), or N, m, m/s; `span` of the log (s)."""
 
     force: float
     length: float
     speed: float
+    span: float
 
-    def size(self, dimension: Dimension) -> float:
-        """Return the natural size of a quantity of this dimension."""
-        return dimension.scale(self.force, self.length, self.length / self.speed)
+    def size(self, param: Param) -> float:
+        """Return the typical size of a parameter; one that is `lasting` has the time scale of the whole log."""
+        time = self.span if param.lasting else self.length / self.speed
+        return param.typical * param.dimension.scale(self.force, self.length, time)
 
 
 def measure_scales(arm: TapedArm) -> tuple[JointScales, ...]:
     """Return the natural scales of each joint, from its torque and its motion."""
-    torque, path = arm.log.torque, arm.tape.path
+    torque, path, span = arm.log.torque, arm.tape.path, arm.log.samples * arm.log.dt
     rms = np.sqrt(np.mean(path.v**2, axis=0))
     sizes = zip(np.std(torque, axis=0), np.std(path.q, axis=0), rms, strict=True)
-    return tuple(JointScales(*(max(float(x), 1e-12) for x in size)) for size in sizes)
+    return tuple(JointScales(*(max(float(x), 1e-12) for x in (*size, span))) for size in sizes)
 
 
 @dataclass(frozen=True)
@@ -165,7 +167,7 @@ class LawEffect:
         return tuple(self._make_coordinate(q) for q in self.term.params if not q.choices)
 
     def _make_coordinate(self, q: Param) -> ArmCoordinate:
-        unit = q.typical * self.scales.size(q.dimension)
+        unit = self.scales.size(q)
         causal = isinstance(self.term, DriveTerm) and q.dimension == TIME
         low = max(q.low, 0.0) if causal else q.low  # a torque from the future holds the noise of a later reading
         key = f"{self.key}.{q.name}"
@@ -174,7 +176,7 @@ class LawEffect:
         return ArmCoordinate(key, unit, 0.0, 1.0, False, low, q.high, q.null is not None, q.dimension)
 
     def _list_grid(self, q: Param) -> tuple[float, ...]:
-        unit = q.typical * self.scales.size(q.dimension)
+        unit = self.scales.size(q)
         if q.choices:
             return q.choices
         if q.name == PITCH:
@@ -198,7 +200,7 @@ class LawEffect:
 
     def _make_column(self, amplitude: Param, shape: Mapping[str, float], path: Path) -> Column:
         """Return the force of one unit of an amplitude, in units of its scale."""
-        unit = amplitude.typical * self.scales.size(amplitude.dimension)
+        unit = self.scales.size(amplitude)
         size = (
             NUDGE * unit if not isinstance(self.term, DriveTerm) or amplitude.name == "share" else 0.1 * self.arm.log.dt
         )

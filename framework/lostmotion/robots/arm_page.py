@@ -26,6 +26,13 @@ SECONDS = 2.0
 """The length of the held-out data that are drawn (s)."""
 
 
+RANKED = (
+    "The probability of a mechanism is the sum over the sets that contain it. A law that contains a simpler one, and"
+    " explains hardly more than it, counts as the simpler one there."
+)
+"""How the probabilities of sets and those of the answer belong together."""
+
+
 @dataclass(frozen=True, eq=False)
 class RobotEvidence:
     """The result and the arrays of a page."""
@@ -46,7 +53,7 @@ def render(evidence: RobotEvidence) -> str:
     result = evidence.result
     with style.use_style("rad"):
         sections = list(draw_sections(SECTIONS, evidence))
-    words = "Something is missing" if result.found else "Nothing is missing"
+    words = "Nothing is missing" if result.verdict == "adequate" else "Something is missing"
     return load_template("page.html.j2", "lostmotion.robots").render(
         title=typeset(result.title),
         kind=result.verdict if not _is_unknown(result) else "unknown",
@@ -82,7 +89,7 @@ def make_joint_table(evidence: RobotEvidence) -> Grid:
     ]
     head = [
         "joint", "missing there", "torque (sd)", "random torque before", "after", "error of free runs before", "after",
-        "variance of one-step errors before", "after",
+        "variance of one-step errors (1 is expected) before", "after",
     ]  # fmt: skip
     return Grid(head, rows)
 
@@ -174,6 +181,6 @@ SECTIONS: tuple[PageSection[RobotEvidence], ...] = (
     PageSection("joints", "Joint by joint", table=make_joint_table),
     PageSection("missing", "The torque that the model does not explain", draw_missing, caption_missing),
     PageSection("prediction", "Predictions of held-out data", draw_prediction, caption_prediction),
-    PageSection("ranking", "Sets of mechanisms that were fitted", table=make_ranking_table),
+    PageSection("ranking", "Sets of mechanisms that were fitted", table=make_ranking_table, words=lambda _: RANKED),
     PageSection("checks", "Before any fit", table=make_check_table, look="told"),
 )

@@ -19,7 +19,7 @@ from lostmotion.robots.arm_hypothesis import ArmFrame, fit_hypothesis, list_base
 from lostmotion.robots.arm_search import ArmSearch, Say
 from lostmotion.robots.log import RobotLog
 from lostmotion.robots.promises import list_effects, make_screen, relinearise
-from lostmotion.robots.tape import Path, make_inertial_parts, make_part, make_tape, smooth_path
+from lostmotion.robots.tape import Path, make_inertial_parts, make_part, make_shares, make_tape, smooth_path
 from lostmotion.simulators import Simulator
 
 FITTED = 0.7
@@ -99,6 +99,8 @@ def prepare_search(
     arm = renew_tape(arm, simulator, path)
     sizes = simulator.inertial
     inertial = {name: (part, sizes[name]) for name, part in make_inertial_parts(simulator, arm.tape).items()}
+    if not (inertial or simulator.linear):
+        inertial = {name: (part, 1.0) for name, part in make_shares(simulator, arm.tape).items()}
     usual, large = (
         make_discrepancy(arm, scales, options.tolerance, set(estimated), inertial, widths) for widths in (SIZES, LARGE)
     )

@@ -26,11 +26,14 @@ from lostmotion.results.robots import Check, RobotDiagnosis, StepCost, WrittenMo
 from lostmotion.robots.arm import TapedArm, can_act
 from lostmotion.robots.arm_case import RobotCase, load_robot_case
 from lostmotion.robots.arm_hypothesis import ArmHypothesis
+from lostmotion.robots.arm_model import RobotModel
 from lostmotion.robots.arm_page import write_robot_report
 from lostmotion.robots.arm_preparation import SECONDS, SearchOptions, make_arm, prepare_search
-from lostmotion.robots.arm_search import ArmSearch
+from lostmotion.robots.arm_search import NOTHING, ArmSearch, find_probabilities
 from lostmotion.robots.arm_words import (
+    LIKELY,
     describe_dependence,
+    find_told,
     list_confusions,
     list_findings,
     list_joints,
@@ -38,11 +41,12 @@ from lostmotion.robots.arm_words import (
     rank_sets,
 )
 from lostmotion.robots.free_runs import HORIZON, HeldOutRuns, predict_heldout
+from lostmotion.robots.gears import GEARS
 from lostmotion.robots.log_checks import average, check_log, predict_torque
 from lostmotion.robots.step_costs import TOLD, describe_steps, measure_steps
 from lostmotion.robots.tape import Path as RobotPath
 from lostmotion.robots.write_back import measure_written
-from lostmotion.simulators import FoundMechanism
+from lostmotion.simulators import INVERSE, FoundMechanism
 from lostmotion.storage import StoredArray, dataset_of, folder_for, save_datasets, save_json, save_text
 
 if TYPE_CHECKING:
@@ -130,9 +134,10 @@ def _make_output(
 ) -> RobotOutput:
     simulator = case.model.simulator
     motions = dict(zip(simulator.joints, simulator.moves, strict=True))
-    nominal, best = search.found[frozenset()], search.best
+    nominal, best = search.found[frozenset()], find_told(search)
     before, after = predict_heldout(nominal), predict_heldout(best)
-    found = list_findings(search, motions)
+    found = list_findings(search, best, motions)
+    nothing = find_probabilities(search).get(NOTHING, 0.0)
     missing = average(case.log.torque - predict_torque(plain), case.log.dt)
     path = plain.tape.path
     seen = replace(plain, tape=replace(plain.tape, path=_average_path(path, case.log.dt)))
@@ -142,23 +147,22 @@ def _make_output(
     changes = _list_changes(found)
     stepped = measure_written(nominal, best, simulator, changes, case.known)
     steps = measure_steps(nominal, simulator)
+    written = simulator.write_found(changes, case.known)
     result = RobotDiagnosis(
         title=case.title,
-        verdict="mismatch" if found else "adequate",
+        verdict="mismatch" if found or nothing < LIKELY else "adequate",
         says=(
-            *_summarise(found, before, after, case.log.joints),
+            *(_summarise(found, before, after, case.log.joints) if found else _tell_nothing(search, nothing)),
             *_list_remarks(steps, stepped, _list_friction(case, plain, found)),
         ),
         checks=tuple(checks),
         found=found,
         ranking=rank_sets(search),
-        confused_with=list_confusions(search),
+        confused_with=list_confusions(search, best),
         unexplained=UnexplainedForce(left > USUAL * worst.torque, left, worst.unit, left / worst.torque),
         where=describe_dependence(missing, seen),
         parameters=ParameterSets(_list_values(nominal, motions), _list_values(best, motions)),
-        fit=HeldOutScores(
-            _score(before, case.log.joints), _score(after, case.log.joints), float(np.mean(after.floor)), "s", 1.0
-        ),
+        fit=HeldOutScores(_score(nominal, before), _score(best, after), float(np.mean(after.floor)), "s", 1.0),
         model=Labels(case.model.label, " + ".join([case.model.label, *sorted(best.terms)])),
         joints=rows,
         noise=_list_noise(best, motions),
@@ -169,10 +173,9 @@ def _make_output(
                 case.log.name, case.log.samples, 1.0 / case.log.dt, None, tuple(f"{j}.torque" for j in case.log.joints)
             ),
         ),
-        notes=_write_notes(case, search, registry, steps),
+        notes=(*_write_notes(case, plain, search, registry, steps), *_list_unwritten(written, found)),
         provenance=make_robot_origin(case, registry, search.budget.seconds),
     )
-    written = simulator.write_found(changes, case.known)
     arrays, coords = _list_arrays(case, seen, missing, (before, after))
     return RobotOutput(
         result, search, dataset_of(arrays, coords, {"title": case.title}), None if written is None else written[0]
@@ -191,17 +194,29 @@ def _summarise(
     found: Sequence[Mechanism], before: HeldOutRuns, after: HeldOutRuns, joints: Sequence[str]
 ) -> tuple[str, ...]:
     """Return the result in sentences."""
-    if not found:
-        return (
-            "This log shows no missing physics: every mechanism that was tried is less likely than the model as it is.",
-        )
     told = [m.says if m.state == "named" else f"Likely (probability {m.probability:.2f}): {m.says}" for m in found]
     best = int(np.argmax(before.nrmse / np.maximum(after.nrmse, 1e-300)))
+    fell = after.nrmse[best] < before.nrmse[best]
     told.append(
-        f"Free runs of {HORIZON:g} s over held-out data: the error of {joints[best]} falls from"
+        f"Free runs of {HORIZON:g} s over held-out data, both models with known values corrected within the tolerance:"
+        f" the error of {joints[best]} {'falls' if fell else 'does not fall, but rises'} from"
         f" {100.0 * before.nrmse[best]:.3g} % to {100.0 * after.nrmse[best]:.3g} % of its motion."
     )
     return tuple(told)
+
+
+def _tell_nothing(search: ArmSearch, nothing: float) -> tuple[str, ...]:
+    """Return the result in a sentence where no mechanism is more likely than not; `nothing` is probably missing."""
+    if nothing >= LIKELY:
+        return (
+            "This log shows no missing physics: every mechanism that was tried is less likely than the model as it is.",
+        )
+    lead = [(key, share) for key, share in find_probabilities(search).items() if key != NOTHING][:3]
+    told = ", ".join(f"{key} ({share:.2f})" for key, share in lead)
+    return (
+        f"Something is missing with a probability of {1.0 - nothing:.2f}, but this log does not tell what: the most"
+        f" likely mechanisms are {told}. Record a longer or faster motion.",
+    )
 
 
 def _list_friction(case: RobotCase, plain: TapedArm, found: Sequence[Mechanism]) -> tuple[str, ...]:
@@ -219,18 +234,20 @@ def _list_remarks(steps: tuple[StepCost, ...], stepped: WrittenModel | None, fri
     told = []
     if stepped is not None:
         told.append(
-            f"{FOUND_MODEL}, stepped by its simulator, keeps {100.0 * stepped.share:.0f} % of what this improves: the"
-            f" error falls from {100.0 * stepped.before:.3g} % to {100.0 * stepped.nrmse:.3g} % of the motion, with the"
-            f" exact motion to {100.0 * stepped.exact:.3g} % (known values as in the file)."
+            f"With all known values as in the file, the error of free runs is {100.0 * stepped.before:.3g} % of the"
+            f" motion, with what was found in its exact motion {100.0 * stepped.exact:.3g} %, and with {FOUND_MODEL},"
+            f" stepped by its simulator, {100.0 * stepped.nrmse:.3g} %."
         )
     if any(one.nats > TOLD for one in steps):
         told.append(describe_steps(steps))
     return [*told, *friction]
 
 
-def _score(told: HeldOutRuns, joints: Sequence[str]) -> HeldOutScore:
-    by_joint = {joint: float(x) for joint, x in zip(joints, told.nrmse, strict=True)}
-    return HeldOutScore(told.log_score, float(np.mean(told.nrmse)), by_joint, HORIZON)
+def _score(one: ArmHypothesis, runs: HeldOutRuns) -> HeldOutScore:
+    """Return the scores of a hypothesis: the mean log density of a held-out sample is that by which it was ranked."""
+    log = one.frame.arm.log
+    by_joint = {joint: float(x) for joint, x in zip(log.joints, runs.nrmse, strict=True)}
+    return HeldOutScore(one.heldout / (log.samples - runs.first), float(np.mean(runs.nrmse)), by_joint, HORIZON)
 
 
 def _list_values(one: ArmHypothesis, motions: dict[str, str]) -> dict[str, Interval]:
@@ -265,7 +282,7 @@ def _list_noise(one: ArmHypothesis, motions: dict[str, str]) -> dict[str, Interv
 
 
 def _write_notes(
-    case: RobotCase, search: ArmSearch, registry: Registry, steps: tuple[StepCost, ...]
+    case: RobotCase, plain: TapedArm, search: ArmSearch, registry: Registry, steps: tuple[StepCost, ...]
 ) -> tuple[str, ...]:
     """Return limitations and remarks."""
     notes = list(case.log.notes)
@@ -273,15 +290,36 @@ def _write_notes(
         notes.append(describe_steps(steps))
     if search.skipped:
         notes.append("The processor time was used up before the search had ended: give --budget SECONDS for more.")
-    terms = _make_library(registry)
-    aside = sorted(term.name for term in terms if not can_act(term) and term.acts == "motion")
+    tried = {effect.key.partition("@")[0] for effect in search.screen.effects}
+    others = (term for term in _make_library(registry) if not can_act(term) and term.acts == "motion")
+    aside = sorted({term.name for term in others} - tried)
     notes.append(f"Not tried at joints, because they have states or need other places: {', '.join(aside)}.")
+    if case.model.side == "motor":
+        notes += _list_gearless(case.model, plain)
     if search.temper > 1.5:
         notes.append(
             f"One-step errors scatter by a factor of {search.temper:.1f} more than independent ones: all evidence is"
             " divided by it."
         )
     return tuple(notes)
+
+
+def _list_gearless(model: RobotModel, plain: TapedArm) -> list[str]:
+    """Return a note on joints whose gear was not tried, because the inertia of the motor is not known."""
+    without = [joint for joint in model.joints if plain.values.get(f"{joint}.armature", 0.0) <= 0.0]
+    if not without:
+        return []
+    own = " and leave it out of the function" if model.kind == INVERSE else ""
+    return [
+        f"{' and '.join(law.name for law in GEARS)} were not tried in the gear of {', '.join(without)}: the inertia of"
+        f' the motor is not known there. Give it in [model.known], "{without[0]}.armature" = ...{own}.'
+    ]
+
+
+def _list_unwritten(written: tuple[str, tuple[str, ...]] | None, found: Sequence[Mechanism]) -> list[str]:
+    """Return what the changed model does not express, or expresses by a change beyond what was found."""
+    said = {m.says for m in found}
+    return [] if written is None else [f"{FOUND_MODEL}: {note}" for note in written[1] if note not in said]
 
 
 def make_robot_origin(case: RobotCase, registry: Registry, budget: float | None) -> Origin:
@@ -302,10 +340,15 @@ def _list_arrays(
     path = seen.tape.path
     window = ("window", "joint")
     held = ("time", "reading")
+    turns = [one == "rotation" for one in case.model.simulator.moves]
+    torque, angle, speed = (
+        ", ".join(dict.fromkeys(pair[not one] for one in turns))
+        for pair in (("N m", "N"), ("rad", "m"), ("rad/s", "m/s"))
+    )
     arrays = {
-        "missing_torque": StoredArray(window, missing, "N m", "recorded torque less that of the model"),
-        "position": StoredArray(window, path.q, "rad", "position"),
-        "velocity": StoredArray(window, path.v, "rad/s", "velocity"),
+        "missing_torque": StoredArray(window, missing, torque, "recorded torque less that of the model"),
+        "position": StoredArray(window, path.q, angle, "position"),
+        "velocity": StoredArray(window, path.v, speed, "velocity"),
         "recorded": StoredArray(held, log.readings[first:], "", "held-out readings"),
         "before": StoredArray(held, both[0].shown, "", "free runs of the nominal model"),
         "after": StoredArray(held, both[1].shown, "", "free runs with the found mechanisms"),

@@ -29,6 +29,8 @@ SMALL = 0.1
 """The random force of a second start, as a share of the fitted one: a gap is else taken for noise."""
 SAME_LAW = 3.0
 """A law that contains a simpler one must gain so much log evidence over it (odds of 20) to count as another one."""
+NOTHING = "nothing_missing"
+"""The name of the set without any effect."""
 UNKNOWN_PRICE = 1.0
 """The log odds of an unknown force against those of one effect of the library."""
 
@@ -266,12 +268,12 @@ def find_probabilities(search: ArmSearch) -> dict[str, float]:
     """
     shares: dict[str, float] = {}
     for terms, share in compute_probabilities(search.found.values(), search.temper).items():
-        for key in _simplify(search, terms) or {"nothing_missing"}:
+        for key in simplify(search, terms) or {NOTHING}:
             shares[key] = shares.get(key, 0.0) + share
     return dict(sorted(shares.items(), key=lambda pair: -pair[1]))
 
 
-def _simplify(search: ArmSearch, terms: Terms) -> Terms:
+def simplify(search: ArmSearch, terms: Terms) -> Terms:
     """Return the terms of a set with each law in its simplest form that explains as much."""
     one = search.found[terms]
     for effect in one.frame.effects:
@@ -280,5 +282,5 @@ def _simplify(search: ArmSearch, terms: Terms) -> Terms:
             if plain is not None:
                 gain = one.log_evidence + one.heldout - plain.log_evidence - plain.heldout
                 if gain < SAME_LAW * search.temper:
-                    return _simplify(search, plain.terms)
+                    return simplify(search, plain.terms)
     return terms

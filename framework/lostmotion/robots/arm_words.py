@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -17,7 +18,7 @@ from lostmotion.results.robots import Dependence, JointRow
 from lostmotion.robots.arm import TapedArm
 from lostmotion.robots.arm_effects import ArmCoordinate, ArmEffect, GearEffect, LawEffect, MassEffect
 from lostmotion.robots.arm_hypothesis import ArmHypothesis
-from lostmotion.robots.arm_search import ArmSearch, find_probabilities
+from lostmotion.robots.arm_search import NOTHING, ArmSearch, find_probabilities, simplify
 from lostmotion.robots.free_runs import HeldOutRuns
 
 SURE, LIKELY = 0.95, 0.5
@@ -54,16 +55,31 @@ def describe_effect(
     if isinstance(effect, GearEffect):
         return f"{effect.law.physics.format(**words)} (in the gear of {found.frame.arm.joints[effect.joint]}).", told
     if isinstance(effect, MassEffect):
-        if effect.name == "payload":
-            return f"A mass of {words['mass']} is carried at {at}.", told
-        kind = "The moment of inertia of the motor" if effect.value.endswith(".armature") else "The mass"
-        unit = "" if effect.value.endswith(".armature") else " (mass of the body, inertia in proportion)"
-        known = found.frame.arm.values.get(effect.value, 0.0)
-        return f"{kind} of {at} is {known + told['change'].median:.4g}, not {known:.4g}{unit}.", told
+        return _describe_mass(effect, told, motion, found.frame.arm.values.get(effect.value, 0.0))
     assert isinstance(effect, LawEffect)  # noqa: S101 - the three kinds of effects
     words |= _word_choices(effect.term, effect.fixed)
     where = f" at {effect.arm.joints[effect.joint]}"
     return f"{effect.term.physics.format(**words)}{where}.", told
+
+
+def _describe_mass(
+    effect: MassEffect, told: dict[str, Interval], motion: str, known: float
+) -> tuple[str, dict[str, Interval]]:
+    """Return the finding of a mass or of a moment of inertia, which the model has as `known`, and its parameters."""
+    at = find_place(effect)
+    if effect.name == "payload":
+        return f"A mass of {told['mass'].median:.4g} kg is carried at {at}.", told
+    of_joint = effect.value.endswith(".armature")
+    change = told["change"] if of_joint else replace(told["change"], unit="kg")
+    told, turns = {"change": change}, of_joint and motion == "rotation"
+    size = attach_unit(f"{known + change.median:.4g}", change.unit)
+    word = "moment of inertia" if turns else "mass"
+    if known == 0.0:
+        more = attach_unit(f"{abs(change.median):.4g}", change.unit)
+        way = "larger" if change.median > 0.0 else "smaller"
+        return f"The {word} that moves with {at} is {more} {way} than in the model.", told
+    owner, inertia = (f"the motor of {at}", "") if of_joint else (at, " (with its inertia in proportion)")
+    return f"The {word} of {owner} is {size}, not {attach_unit(f'{known:.4g}', change.unit)}{inertia}.", told
 
 
 def _word_choices(term: Term, fixed: Mapping[str, float]) -> dict[str, str]:
@@ -76,18 +92,33 @@ def _word_choices(term: Term, fixed: Mapping[str, float]) -> dict[str, str]:
     return found
 
 
-def list_findings(search: ArmSearch, motions: Mapping[str, str]) -> tuple[Mechanism, ...]:
-    """Return the mechanisms that are more likely than not, the surest first."""
+def find_told(search: ArmSearch) -> ArmHypothesis:
+    """Return the hypothesis that the answer is about: that of the mechanisms which are more likely than not.
+
+    Where these were not fitted together it is the best one, with each law in its simplest form that explains as much.
+    """
+    named = frozenset(key for key, share in find_probabilities(search).items() if share >= LIKELY)
+    known = search.found.get(named - {NOTHING})
+    return known if known is not None else search.found[simplify(search, search.best.terms)]
+
+
+def list_findings(search: ArmSearch, told_of: ArmHypothesis, motions: Mapping[str, str]) -> tuple[Mechanism, ...]:
+    """Return the mechanisms that are more likely than not: named ones first, and those that explain most.
+
+    Their parameters are those of the hypothesis `told_of`, where it has them.
+    """
     shares, found = find_probabilities(search), []
-    arm = search.frame.arm
+    arm, gains = search.frame.arm, []
     for key, share in shares.items():
-        if share < LIKELY or key == "nothing_missing":
+        if share < LIKELY or key == NOTHING:
             continue
         state = "named" if share >= SURE else "likely"
         holders = [one for one in search.found.values() if key in one.terms]
-        best = max(holders, key=lambda one: one.score(search.temper))
+        best = told_of if key in told_of.terms else max(holders, key=lambda one: one.score(search.temper))
+        less = search.found.get(best.terms - {key})
+        gains.append(best.score(search.temper) - less.score(search.temper) if less is not None else 0.0)
         if key == UNKNOWN:
-            found.append(_describe_unknown(best, share, state))
+            found.append(_describe_unknown(best, share, state, motions))
             continue
         effect = next(e for e in best.frame.effects if e.key == key)
         says, told = describe_effect(best, effect, motions)
@@ -100,7 +131,8 @@ def list_findings(search: ArmSearch, motions: Mapping[str, str]) -> tuple[Mechan
                 share_of_drive=drive, says=says,
             )
         )  # fmt: skip
-    return tuple(found)
+    order = sorted(range(len(found)), key=lambda i: (found[i].state != "named", -gains[i]))
+    return tuple(found[i] for i in order)
 
 
 def _measure_share(found: ArmHypothesis, effect: ArmEffect, arm: TapedArm) -> float | None:
@@ -116,14 +148,15 @@ def _measure_share(found: ArmHypothesis, effect: ArmEffect, arm: TapedArm) -> fl
     return size / max(float(np.std(arm.log.torque[:, effect.joint])), 1e-300)
 
 
-def _describe_unknown(found: ArmHypothesis, share: float, state: str) -> Mechanism:
+def _describe_unknown(found: ArmHypothesis, share: float, state: str, motions: Mapping[str, str]) -> Mechanism:
     """Return a torque without a name: its joint, its size, and what it depends on."""
     sizes = measure_forces(found)
     joint = max(found.frame.arm.joints, key=lambda j: sum(v for (name, _), v in sizes.items() if name == j))
     over = sorted(((v, o) for (name, o), v in sizes.items() if name == joint), reverse=True)
     depends = tuple(o for v, o in over if v > 0.3 * over[0][0])
+    word, unit = ("torque", "N m") if motions[joint] == "rotation" else ("force", "N")
     says = (
-        f"A torque of {over[0][0]:.3g} N m (rms) at {joint} that no mechanism of the library explains depends on"
+        f"A {word} of {over[0][0]:.3g} {unit} (rms) at {joint} that no mechanism of the library explains depends on"
         f" {' and '.join(depends)}."
     )
     return Mechanism(
@@ -149,7 +182,7 @@ def rank_sets(search: ArmSearch) -> tuple[Candidate, ...]:
     temper, shares = search.temper, compute_probabilities(search.found.values(), search.temper)
     rows = []
     for terms, one in sorted(search.found.items(), key=lambda pair: -pair[1].score(temper)):
-        names = sorted(terms) or ["nothing_missing"]
+        names = sorted(terms) or [NOTHING]
         gain = (one.log_evidence + one.heldout - plain.log_evidence - plain.heldout) / temper
         mechanism = " + ".join(name.partition("@")[0] for name in names)
         at = " + ".join(dict.fromkeys(name.partition("@")[2] for name in names))
@@ -166,12 +199,16 @@ def rank_sets(search: ArmSearch) -> tuple[Candidate, ...]:
     return tuple(rows)
 
 
-def list_confusions(search: ArmSearch) -> tuple[Confusion, ...]:
-    """Return the effects that may stand in place of one of the best set."""
-    best, found = search.best, []
+def list_confusions(search: ArmSearch, best: ArmHypothesis) -> tuple[Confusion, ...]:
+    """Return the effects that may stand in place of one of a hypothesis.
+
+    A law that explains hardly more than a simpler one, which it contains, is counted as that one.
+    """
+    found = []
     for terms, one in search.found.items():
         more, less = terms - best.terms, best.terms - terms
-        if len(more) == 1 and len(less) == 1 and one.score(search.temper) > best.score(search.temper) - CLOSE:
+        close = one.score(search.temper) > best.score(search.temper) - CLOSE
+        if len(more) == 1 and len(less) == 1 and close and simplify(search, terms) != best.terms:
             (new,), (old,) = more, less
             name, _, at = new.partition("@")
             share = find_probabilities(search).get(new, 0.0)
@@ -222,8 +259,8 @@ def describe_dependence(torque: Array, arm: TapedArm) -> Dependence:
     told = {name: max(0.0, _explain(torque[:, j], x)) for name, x in over.items()}
     best = max(told, key=lambda name: told[name])
     says = (
-        f"The missing torque is largest at {arm.joints[j]} ({percent(float(shares[j]))} of its torque) and depends most"
-        f" on {best} (which explains {percent(told[best])} of it)."
+        f"What the model leaves of the torque is largest at {arm.joints[j]} ({percent(float(shares[j]))} of its"
+        f" torque) and depends most on {best} (which explains {percent(told[best])} of it)."
     )
     return Dependence(says, {**told, "phase": 0.0})
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,12 +17,11 @@ HORIZON = 0.2
 class HeldOutRuns:
     """Free runs over held-out data: errors over the standard deviation of each position, (n,), and what they show.
 
-    `log_score` is the mean log density of a sample, `white` (n,) the variance of standardised one-step errors, `shown`
-    (samples, readings) the predicted readings from sample `first` on.
+    `white` (n,) is the variance of standardised one-step errors, `shown` (samples, readings) are the predicted readings
+    from sample `first` on.
     """
 
     nrmse: Array
-    log_score: float
     white: Array
     shown: Array
     floor: Array
@@ -55,7 +53,6 @@ def predict_heldout(found: ArmHypothesis, *, alone: bool = False) -> HeldOutRuns
     spread = np.nanstd(readings[:, places], axis=0)
     nrmse = np.sqrt(np.nanmean(left**2, axis=0)) / spread
     e, v = whole.seen.errors[first:], whole.seen.variances[first:]
-    density = -0.5 * (e**2 / v + np.log(2.0 * math.pi * v))
     white = np.mean((e**2 / v)[:, places], axis=0)
     noise = np.array([found.values[c.key] for c in frame.own if c.key.endswith(".position_noise")])
-    return HeldOutRuns(nrmse, float(density.sum() / len(e)), white, shown, noise / spread, first)
+    return HeldOutRuns(nrmse, white, shown, noise / spread, first)

@@ -19,8 +19,12 @@ STALE = 0.3
 """The largest share of samples in which all joints repeat the reading before; with more, the arm rests."""
 SHORTEST = 200
 """The smallest number of samples of a log."""
+SLOWEST = 0.2
+"""The longest step (s) of a log: with a longer one the motion between samples is not known."""
 GAP = 20.0
 """A pause of more than so many steps is a gap, over which readings are missing."""
+ROUNDING = 1e-3
+"""The rounding of stamps, as a share of the step."""
 JITTER = 0.02
 """The jitter of the stamps (sd, as a share of the step) above which a note is written."""
 
@@ -138,6 +142,11 @@ def measure_clock(time: Array, source: str) -> LogClock:
     if not len(moving):
         raise DataError(f"{source}: all time stamps are equal: give the column of the time of each sample")
     dt = float(np.median(moving))
+    if dt > SLOWEST:
+        raise DataError(
+            f"{source} has a sample every {dt:g} s, a diagnosis needs one every {SLOWEST:g} s at least: if the stamps"
+            ' are in ms, write time = { column = "...", unit = "ms" }'
+        )
     even = moving[moving < GAP * dt]
     every = max(1, math.ceil(FINEST / dt))
     return LogClock(dt, float(np.std(even) / dt), len(steps) - len(moving), float(moving.max()), every)
@@ -147,10 +156,11 @@ def resample(time: Array, columns: Array, clock: LogClock, *, step: bool) -> tup
     """Return columns (samples, k) on the even grid of a clock, and which of its points lie in a gap of the log.
 
     Torques that a controller holds (`step`) are not interpolated over a jump, but averaged over the step that follows.
+    No point lies after the last stamp by more than rounding: there is no reading to interpolate.
     """
     kept = np.concatenate([[True], np.diff(time) > 0.0])
     time, columns = time[kept], columns[kept]
-    grid = np.arange(time[0], time[-1] + 0.25 * clock.step, clock.step)
+    grid = np.arange(time[0], time[-1] + ROUNDING * clock.step, clock.step)
     after = np.clip(np.searchsorted(time, grid), 1, len(time) - 1)
     gaps = (time[after] - time[after - 1]) > GAP * clock.dt
     if step:

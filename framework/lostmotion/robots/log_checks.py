@@ -8,15 +8,16 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from lostmotion.parts import Array
 from lostmotion.results.robots import Check
 from lostmotion.robots.arm import TapedArm
-from lostmotion.robots.arm_preparation import estimate_noise, make_arm
+from lostmotion.robots.arm_preparation import estimate_noise
 from lostmotion.robots.log import RobotLog
+from lostmotion.robots.tape import Tape, smooth_path
 from lostmotion.simulators import Simulator
 
 WINDOW = 0.05
@@ -46,13 +47,13 @@ class _Fit:
 
 def check_log(arm: TapedArm, simulator: Simulator) -> tuple[Check, ...]:
     """Return the checks of a log, each with the remedy; those that `stop` make a diagnosis meaningless."""
-    found = [*_check_motion(arm)]
+    found = [*_check_motion(arm, simulator)]
     if any(check.stop for check in found):
         return tuple(found)
     base = _compare(arm, arm.log.torque)
     faults = [*_check_angles(arm, simulator, base)] or [*_check_order(arm, base)]
     faults = faults or [*_check_gravity(arm, simulator, base)] or [*_check_signs(arm, base)]
-    faults = faults or [*_check_scale(arm, base)]
+    faults = faults or [*_check_positions(arm, simulator, base)] or [*_check_scale(arm, simulator, base)]
     found += faults
     if not faults:
         found += [*_check_side(arm)]
@@ -109,16 +110,17 @@ def _list_friction(speed: Array) -> Array:
     return np.column_stack([np.ones_like(speed), speed, np.tanh(speed / (0.05 * np.std(speed) + 1e-12))])
 
 
-def _check_motion(arm: TapedArm) -> Iterator[Check]:
+def _check_motion(arm: TapedArm, simulator: Simulator) -> Iterator[Check]:
     """Yield a check for each joint that hardly moves."""
     noise = estimate_noise(arm.log.positions)
     for j, joint in enumerate(arm.joints):
         travel = float(np.ptp(arm.log.positions[:, j]))
+        unit = "rad" if simulator.moves[j] == "rotation" else "m"
         if travel < LEAST_TRAVEL * noise[j] or travel < 1e-3:
             yield Check(
                 "motion", joint, False,
-                f"{joint} moves by {travel:.3g} only: what it lacks cannot be seen; leave it out of [model] joints, or"
-                " record a motion of this joint.",
+                f"{joint} moves by {travel:.3g} {unit} only: what it lacks cannot be seen; leave it out of [model]"
+                " joints, or record a motion of this joint.",
             )  # fmt: skip
 
 
@@ -138,8 +140,45 @@ def _check_angles(arm: TapedArm, simulator: Simulator, base: _Fit) -> Iterator[C
 def _reread(arm: TapedArm, simulator: Simulator, readings: Array, torque: Array) -> _Fit:
     """Return the agreement for other readings and torques."""
     log = RobotLog(arm.log.name, arm.joints, arm.log.dt, torque, readings, arm.log.picks, arm.log.hold)
-    other = make_arm(simulator, log, arm.side, parts=False)
-    return _compare(other, torque)
+    path, still = smooth_path(log.positions, log.dt), np.zeros_like(arm.tape.mass)
+    tape = Tape(path, still, np.asarray(simulator.inverse(path.q, path.v, path.a)), still, still)
+    return _compare(replace(arm, log=log, tape=tape, _cache={}), torque)
+
+
+def _check_positions(arm: TapedArm, simulator: Simulator, base: _Fit) -> Iterator[Check]:
+    """Yield a check if the torques agree with the model for other positions of a joint, or of two joints swapped."""
+    if base.left.max() < CLEAR:
+        return
+    tried = [(_reread(arm, simulator, *other), joint, says) for joint, says, *other in _list_readings(arm, simulator)]
+    best, joint, says = min(tried, key=lambda one: float(one[0].left.mean()))
+    if best.left.mean() < BETTER * base.left.mean() and best.correlation.min() > AGREES:
+        yield Check("order" if "swapped" in says else "unit", joint, False, says, stop=True)
+
+
+def _list_readings(arm: TapedArm, simulator: Simulator) -> Iterator[tuple[str, str, Array, Array]]:
+    """Yield a joint, a sentence, and readings and torques (samples, ...) as they may be meant."""
+    readings, torque = arm.log.readings, arm.log.torque
+    place = {pick: i for i, pick in enumerate(arm.log.picks)}
+    for j, (joint, moves) in enumerate(zip(arm.joints, simulator.moves, strict=True)):
+        own = [i for (k, _), i in place.items() if k == j]
+        turns = moves == "rotation"
+        unit = (1.0 / DEGREE, 'be in degrees: give unit = "deg"') if turns else (1e-3, 'be in mm: give unit = "mm"')
+        for factor, says in ((-1.0, "have the opposite sign: give factor = -1"), unit):
+            other = readings.copy()
+            other[:, own] *= factor
+            yield joint, f"The positions of {joint} seem to {says} for its position.", other, torque
+        for quarters in (-1, 1, 2) if turns else ():
+            other = readings.copy()
+            other[:, place[j, 0]] += 0.5 * math.pi * quarters
+            says = f"The zero of the encoder of {joint} seems to be shifted: add {90 * quarters} degrees to its column"
+            yield joint, f"{says}, or correct the zero of the joint in the model.", other, torque
+        for k in range(j):
+            turned = [place[{j: k, k: j}.get(i, i), order] for i, order in arm.log.picks if (i, order) in place]
+            names, other = f"{arm.joints[k]} and {joint}", readings[:, turned]
+            yield joint, f"The positions of {names} look swapped: check the order of the columns.", other, torque
+            both = torque.copy()
+            both[:, [j, k]] = both[:, [k, j]]
+            yield joint, f"The joints {names} look swapped: check the names of their columns.", other, both
 
 
 def _check_order(arm: TapedArm, base: _Fit) -> Iterator[Check]:
@@ -167,6 +206,13 @@ def _check_gravity(arm: TapedArm, simulator: Simulator, base: _Fit) -> Iterator[
     none = np.zeros_like(arm.tape.path.q)
     weight = np.asarray(simulator.inverse(arm.tape.path.q, none, none))
     model = predict_torque(arm)
+    if float(np.max(np.abs(weight))) < 1e-9 and _seems_heavy(arm, model, base):
+        yield Check(
+            "gravity", "", False,
+            "The model has no gravity, but most of the torque that it leaves depends on the positions as a weight does:"
+            " switch gravity on in the model.", stop=True,
+        )  # fmt: skip
+        return
     for share, says in (
         (2.0, "The torques agree with gravity in the opposite direction: check the direction of gravity in the model"),
         (1.0, "The torques agree with the model without gravity: the log has the torque after a compensation of"
@@ -176,6 +222,17 @@ def _check_gravity(arm: TapedArm, simulator: Simulator, base: _Fit) -> Iterator[
         if other.left.mean() < BETTER * base.left.mean() and np.median(other.correlation) > AGREES:
             yield Check("gravity", "", False, f"{says}.", stop=True)
             return
+
+
+def _seems_heavy(arm: TapedArm, model: Array, base: _Fit) -> bool:
+    """Return whether waves over the positions, and over sums of neighbours, explain most of what a model leaves."""
+    q, v = (average(x, arm.log.dt) for x in (arm.tape.path.q, arm.tape.path.v))
+    rest = average(arm.log.torque - model, arm.log.dt)
+    angles = np.hstack([q, q[:, 1:] + q[:, :-1], q[:, 1:] - q[:, :-1]])
+    j = int(np.argmax(base.left))
+    full = np.hstack([np.cos(angles), np.sin(angles), _list_friction(v[:, j])])
+    left = rest[:, j] - full @ np.linalg.lstsq(full, rest[:, j], rcond=None)[0]
+    return bool(np.std(left) < BETTER * base.left[j] * np.std(average(arm.log.torque[:, j], arm.log.dt)))
 
 
 def _check_signs(arm: TapedArm, base: _Fit) -> Iterator[Check]:
@@ -190,15 +247,19 @@ def _check_signs(arm: TapedArm, base: _Fit) -> Iterator[Check]:
             )  # fmt: skip
 
 
-def _check_scale(arm: TapedArm, base: _Fit) -> Iterator[Check]:
+def _check_scale(arm: TapedArm, simulator: Simulator, base: _Fit) -> Iterator[Check]:
     """Yield a check for each joint whose torque has another size, or does not agree at all."""
     for j, joint in enumerate(arm.joints):
         slope, agrees = float(base.slope[j]), base.correlation[j] > AGREES
         if agrees and not 0.4 < slope < 2.5:
-            hint = "N mm or a percentage" if slope > 2.5 else "kN m, a motor current or a torque before the gear"
+            turns = simulator.moves[j] == "rotation"
+            word, small, large = ("torque", "N mm", "kN m") if turns else ("force", "mN", "kN")
+            hint = (
+                f"{small} or a percentage" if slope > 2.5 else f"{large}, a motor current or a {word} before the gear"
+            )
             yield Check(
                 "unit", joint, False,
-                f"The torque of {joint} is {slope:.3g} times that of the model: it may be in {hint}; give its unit or"
+                f"The {word} of {joint} is {slope:.3g} times that of the model: it may be in {hint}; give its unit or"
                 " a factor.", stop=True,
             )  # fmt: skip
         elif not agrees:

@@ -15,11 +15,12 @@ import numpy as np
 from lostmotion.contracts import DriveTerm, Term
 from lostmotion.defaults import INERTIA_CHANGE
 from lostmotion.evidence.expansion import compute_log_evidence
+from lostmotion.likelihood.engine import Innovations
 from lostmotion.parts import Array
 from lostmotion.robots.arm import Column, FilteredLog, TapedArm, can_act
 from lostmotion.robots.arm_effects import ArmEffect, GearEffect, JointScales, LawEffect, MassEffect, Shape
 from lostmotion.robots.arm_hypothesis import ArmHypothesis
-from lostmotion.robots.gears import GEARS
+from lostmotion.robots.gears import ELASTICITY, GEARS
 from lostmotion.robots.pitch_scan import find_pitches
 from lostmotion.robots.tape import Path
 
@@ -177,7 +178,11 @@ def _weigh_shape(
 def list_gear_promises(
     screen: Screen, beside: ArmHypothesis, levels: Array, price: float, temper: float
 ) -> list[ArmPromise]:
-    """Return what gears promise, from filters at a few values; `levels` are coordinates of the levels to use."""
+    """Return what gears promise, from filters at a few values; `levels` are coordinates of the levels to use.
+
+    What a flexible gear does is smooth: inertias and smooth forces take its place. It is tried at the fitted levels as
+    well, with the gain of all fitted coordinates in one step from there.
+    """
     frame, found = beside.frame, []
     at = beside.at.copy()
     at[: len(levels)] = levels
@@ -191,12 +196,28 @@ def list_gear_promises(
         best, start = -math.inf, {}
         for values in effect.list_starts():
             own = [c.place(values[c.key]) for c in effect.coordinates]
-            told = float(wider.run(np.concatenate([at[: len(frame.own)], own]), force=force).seen.log_likelihood)
+            told = (
+                float(wider.run(np.concatenate([at[: len(frame.own)], own]), force=force).seen.log_likelihood) - plain
+            )
+            if effect.law is ELASTICITY:
+                seen = wider.run(np.concatenate([beside.at[: len(frame.own)], own]), force=force).seen
+                told = max(told, _gain_in_one_step(beside, seen))
             if told > best:
                 best, start = told, values
         if math.isfinite(best):
-            found.append(ArmPromise(effect, start, (best - plain) / temper - price - effect.price))
+            found.append(ArmPromise(effect, start, best / temper - price - effect.price))
     return sorted(found, key=lambda p: -p.gain)
+
+
+def _gain_in_one_step(beside: ArmHypothesis, seen: Innovations) -> float:
+    """Return the gain of other one-step errors over a hypothesis, after a step with the derivatives of that one."""
+    expansion, used = beside.expansion, beside.used
+    weights = beside.frame.weigh(beside.choice)[used]
+    pull = expansion.score(seen)[used] - weights * (expansion.at[used] - expansion.middle[used])
+    if not (seen.finite and np.isfinite(pull).all()):
+        return -math.inf
+    step = np.linalg.solve(beside.precision, pull)
+    return float(seen.log_likelihood - expansion.here.log_likelihood) + 0.5 * float(pull @ step)
 
 
 def relinearise(kept: FilteredLog, joints: int) -> Path:

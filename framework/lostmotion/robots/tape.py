@@ -111,6 +111,33 @@ def make_inertial_parts(simulator: Simulator, tape: Tape) -> dict[str, Part]:
     return {name: Part(widen(part.mass), widen(part.bias)) for name, part in made.items()}
 
 
+def make_shares(simulator: Simulator, tape: Tape) -> dict[str, Part]:
+    """Return the parts of a simulator that has no values of its own, each a torque of which a share may be wrong.
+
+    These are the mean and the variation of each entry of the mass matrix; at each joint the mean damping, and what else
+    depends on velocities; and the torque of gravity of each joint, there and at the joints before it.
+    """
+    path, (samples, n), names = tape.path, tape.path.q.shape, simulator.joints
+    still = np.zeros((samples, n))
+    weight = _ask(simulator, path.q, still, still)
+    middle, loss = tape.mass.mean(axis=0), np.diagonal(tape.damping.mean(axis=0)) * path.v
+    torques = [(i, f"gravity_{names[j]}", weight[:, j]) for i in range(n) for j in range(i, n)]
+    torques += [(i, "damping_share", loss[:, i]) for i in range(n)]
+    torques += [(i, "coriolis_share", (tape.bias - weight - loss)[:, i]) for i in range(n)]
+    made = {}
+    for i, word, torque in torques:
+        bias = still.copy()
+        bias[:, i] = torque
+        made[f"{names[i]}.{word}"] = Part(np.zeros_like(tape.mass), bias)
+    for i in range(n):
+        for j in range(i, n):
+            for word, entry in (("mean", middle[i, j]), ("variation", tape.mass[:, i, j] - middle[i, j])):
+                mass = np.zeros_like(tape.mass)
+                mass[:, i, j] = mass[:, j, i] = entry
+                made[f"{names[i]}.{word}_{names[j]}"] = Part(mass, still)
+    return made
+
+
 def _find_mass(simulator: Simulator, path: Path) -> tuple[Array, Array]:
     """Return the mass matrix (samples, n, n) and the torque without acceleration (samples, n) along a path."""
     samples, n = path.q.shape

@@ -111,7 +111,7 @@ class FrictionDrift(Term):
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
         level = max(p[0] + p[1] * (1.0 - math.exp(-t / p[2])), 0.0)
-        return resist_sliding(v, level, (abs(p[0]) + abs(p[1])) * p[3])
+        return resist_sliding(v, level, level * p[3])
 
 
 @dataclass(frozen=True)
@@ -145,7 +145,7 @@ class FrictionDriftTravel(Term):
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
         level = max(p[0] + p[1] * (1.0 - math.exp(-s[0] / p[2])), 0.0)
-        return resist_sliding(v, level, (abs(p[0]) + abs(p[1])) * p[3])
+        return resist_sliding(v, level, level * p[3])
 
     @staticmethod
     def rate(t: float, x: float, v: float, u: Array, p: Values, s: Values, dsdt: Array) -> None:
@@ -194,7 +194,8 @@ class FrictionDriftTwice(Term):
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
         changed = p[1] * (1.0 - math.exp(-t / p[3])) + p[2] * (1.0 - math.exp(-t / (p[3] * p[4])))
-        return resist_sliding(v, max(p[0] + changed, 0.0), (abs(p[0]) + abs(p[1]) + abs(p[2])) * p[5])
+        level = max(p[0] + changed, 0.0)
+        return resist_sliding(v, level, level * p[5])
 
     @staticmethod
     def derived(p: Values) -> Values:
