@@ -31,8 +31,9 @@ from lostmotion.progress import Step
 Say = Callable[[str], None]
 Terms = frozenset[str]
 """The keys of a set of terms."""
-MOST_FITTED = 5
-"""The largest number of terms that are fitted beside a set."""
+MOST_SINGLE, MOST_FITTED = 10, 5
+"""The largest numbers of terms that are fitted alone, and beside a set. Where the nominal fit is far from the truth,
+slopes say little of a large effect, and a wrong first law is rarely left again."""
 MOST_TERMS = 4
 
 
@@ -134,7 +135,7 @@ class BareFits:
         self.say(f"score tests beside {name_terms(terms)}")
         frame = make_frame(bare.problem, bare.theta, self.errors)
         alone = Hypothesis(frame, frame.expand(frame.start, bare.local.steps, frame.none), frame.none, 0.0, 0.0, 0.0)
-        promises = self.list_promises(alone, set(self.fits))[:MOST_FITTED]
+        promises = self.list_promises(alone, set(self.fits))[: MOST_FITTED if terms else MOST_SINGLE]
         self.say(f"fits beside {name_terms(terms)}: {', '.join(p.key for p in promises) or 'none'}")
         single = use_one_core(bare)
         for fit in each(lambda p: self._fit(single, p), promises, bare.problem.jobs):
