@@ -161,7 +161,7 @@ class FrictionDriftTwice(Term):
     extends: ClassVar[tuple[str, ...]] = ("friction_drift", "coulomb_friction")
     physics: ClassVar[str] = (
         "Dry friction opposes the motion: {force} at the start, {change} more with a time constant of {time}, and"
-        " {later} more with {slower}"
+        " {later} more with one {ratio} times as long"
     )
     formula: ClassVar[str] = (
         "-max(force + change * (1 - exp(-t/time)) + later * (1 - exp(-t/slower)), 0) * sign(v), slower = ratio * time"
