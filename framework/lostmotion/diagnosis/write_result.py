@@ -121,12 +121,12 @@ def count_bodies(d: SearchResult) -> int:
 
 
 def explains_scale(found: Sequence[Mechanism], left: float) -> bool:
-    """Return whether laws of usual size, one of them named, explain the recording: then no scale of a column is wrong.
+    """Return whether laws of usual size, all of them named, explain the recording: then no scale of a column is wrong.
 
     `left` is the share of the missing force that they leave; a scale that is told leaves less than `LEFT` of it.
     """
-    usual = all((e.share_of_drive or 0.0) < ABSURD for e in found)
-    return left < LEFT and usual and any(e.state == NAMED for e in found)
+    usual = all(e.state == NAMED and (e.share_of_drive or 0.0) < ABSURD for e in found)
+    return left < LEFT and usual and bool(found)
 
 
 def _expect(d: SearchResult, angle: str, rng: np.random.Generator) -> Expectation | None:

@@ -43,8 +43,8 @@ from lostmotion.quantities import FORCE, TIME
 CREEP, FINEST = 0.02, 32
 SHARES = (1.0, 0.3, 0.01)
 """Fits begin with these shares of the amplitude that a score test predicts."""
-MOST_BEGUN = 3
-"""A law that replaces a simpler one is fitted from so many points at most, until it is better than that one."""
+MOST_BEGUN, KEPT = 3, 0.5
+"""A law that replaces a simpler one is fitted from so many points at most, until it gains this share of its promise."""
 SPREAD = (0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0)
 """Starting values of the shape of a law that replaces a simpler related law, in units of its typical value."""
 RAISED = 2.0
@@ -307,7 +307,7 @@ def replace_term(fit: Fit, key: str, hint: ScoreTest) -> Fit:
     fits: list[Fit] = []
     for i in np.argsort(-problem.log_posteriors(begins))[:MOST_BEGUN].tolist():
         fits.append(maximise(problem, begins[i], tolerance=ROUGHLY))
-        if fits[-1].log_likelihood > fit.log_likelihood + 1.0:
+        if fits[-1].log_likelihood > fit.log_likelihood + max(KEPT * hint.gain, 1.0):
             break
     return max(fits, key=lambda one: one.local.log_posterior)
 
