@@ -10,7 +10,7 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.likelihood.observation import Observation
-from lostmotion.results import rounded
+from lostmotion.results import join_names, rounded
 from lostmotion.signals.repetition import SAME, Repetition, repeated_share, repetition_of
 
 
@@ -64,7 +64,8 @@ def _note_repeated_heldout(train: Sequence[Observation], held: Sequence[Observat
     if not again:
         return []
     least = math.floor(1000.0 * min(share for _, share in again)) / 10.0
-    what = "The held-out part repeats" if len(held) == 1 else f"The held-out part of {_join_names(again)} repeats"
+    names = join_names(list(dict.fromkeys(o.name for o, _ in again)))
+    what = "The held-out part repeats" if len(held) == 1 else f"The held-out part of {names} repeats"
     looks = [count_cycles(o) for o, _ in again]
     cyclic = all(one is not None and one.distinct < OPTIONS.distinct for one in looks)
     return [
@@ -88,11 +89,6 @@ def _note_equal_cycles(observations: Sequence[Observation]) -> list[str]:
                 " another level, frequency or waveform to obtain another motion."
             )
     return notes
-
-
-def _join_names(again: Sequence[tuple[Observation, float]]) -> str:
-    names = list(dict.fromkeys(o.name for o, _ in again))
-    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
 
 
 def _fill_gaps(observation: Observation) -> Array:

@@ -18,7 +18,6 @@ from lostmotion.inference.curves import Band, compute_band, smooth_motions
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.learned import list_covariates
 from lostmotion.inference.likeness import find_likeness
-from lostmotion.inference.locate import join_names
 from lostmotion.inference.natural import find_term
 from lostmotion.inference.odds import compute_p_values
 from lostmotion.inference.proposal import Axis, propose_formula
@@ -28,7 +27,7 @@ from lostmotion.inference.unexplained import UnknownForce
 from lostmotion.likelihood.problem import RANDOM
 from lostmotion.quantities import LENGTH, NUMBER, SPEED, TIME, Dimension
 from lostmotion.report.words import to_words
-from lostmotion.results import Interval, percent, rounded
+from lostmotion.results import Interval, join_names, percent, rounded
 from lostmotion.results.diagnosis import LearnedCurve, LookAlike, Mechanism, ProposedFormula
 from lostmotion.results.mismatch import ForceDependence
 

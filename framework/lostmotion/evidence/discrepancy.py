@@ -129,7 +129,7 @@ class JointFrame:
     def list_pressed(self, at: Array) -> NDArray[np.intp]:
         """Return the indices of the known values and channel errors that are at a bound at coordinates (count,)."""
         low, high = self.bounds
-        return np.array([i for i in self.more if at[i] <= low[i] or at[i] >= high[i]], dtype=np.intp)
+        return self.more[((at <= low) | (at >= high))[self.own :]]
 
     @cached_property
     def names(self) -> tuple[str, ...]:
@@ -300,13 +300,14 @@ class Quadratic:
     """The log-likelihood over the discrepancy, with own coordinates re-optimised: gradient and information at zero.
 
     Coordinates beyond those of the discrepancy are amplitudes of terms, with prior standard deviations `beside`. Known
-    values and channel errors at a bound stay there.
+    values and channel errors at a bound, with the indices `held`, stay there.
     """
 
     frame: JointFrame
     gradient: Array
     information: Array
     beside: Array
+    held: NDArray[np.intp]
 
     @classmethod
     def of(cls, frame: JointFrame, curvature: Curvature, beside: Array | None = None) -> Quadratic:
@@ -319,7 +320,7 @@ class Quadratic:
         shift[held - frame.own] = curvature.at[held]
         gradient = gradient - information @ shift
         gradient[held - frame.own] = information[held - frame.own] = information[:, held - frame.own] = 0.0
-        return cls(frame, gradient, information, widths)
+        return cls(frame, gradient, information, widths, held)
 
     def evaluate(self, choice: Choice) -> float:
         """Return the log evidence that the discrepancy and the terms add, with some smooth forces."""

@@ -282,7 +282,7 @@ def _predict(found: Hypothesis, effect: TermEffect, joined: Curvature, less: flo
         return lost
     quadratic = Quadratic.of(frame, joined, effect.widths)
     choice = max(dict.fromkeys((frame.none, found.choice)), key=quadratic.evaluate)
-    step = solve_posterior(frame, joined, choice, frame.list_pressed(found.at).tolist())
+    step = solve_posterior(frame, joined, choice, quadratic.held)
     sizes, low = step[n:], np.array([slot.param.low for slot in effect.amplitudes])
     if np.all(sizes < low):
         return lost

@@ -245,7 +245,9 @@ def _compute_precision(frame: JointFrame, precision: Array, choice: Choice) -> A
     return found
 
 
-def solve_posterior(frame: JointFrame, curvature: Curvature, choice: Choice, held: Sequence[int] = ()) -> Array:
+def solve_posterior(
+    frame: JointFrame, curvature: Curvature, choice: Choice, held: Sequence[int] | NDArray[np.intp] = ()
+) -> Array:
     """Return the step (n,) to the maximum of the quadratic posterior; `held` coordinates stay.
 
     Coefficients of smooth forces that are absent go to zero. Coordinates beyond those of the frame are amplitudes of
@@ -277,7 +279,7 @@ def compute_step(frame: JointFrame, expansion: Expansion, choice: Choice) -> tup
     gradient = _compute_pull(frame, expansion, precision)
     low, high = frame.bounds
     pressed = ((at <= low) & (gradient < 0.0)) | ((at >= high) & (gradient > 0.0))
-    step = solve_posterior(frame, expansion.curvature, choice, np.flatnonzero(pressed).tolist())
+    step = solve_posterior(frame, expansion.curvature, choice, np.flatnonzero(pressed))
     for i, f in enumerate(free):
         if f.log or f.key.startswith("log_"):
             most = MOST_LOG if f.physical else MOST_LEVEL

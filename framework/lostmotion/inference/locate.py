@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,7 +14,7 @@ from lostmotion.inference.odds import LikelihoodRatio, list_likely
 from lostmotion.inference.shares import Covariate, Share, list_significant
 from lostmotion.likelihood.latent import LatentForce
 from lostmotion.likelihood.observation import Observation
-from lostmotion.results import percent
+from lostmotion.results import join_names, percent
 from lostmotion.settings import DEFAULT, LocateSettings
 
 BINS = 25
@@ -172,11 +172,6 @@ def _prefer_sign(name: str, found: Mapping[str, Share], as_much: float) -> str:
 def _are_unrelated(one: str, other: str) -> bool:
     """Return whether two names are not those of a velocity and its sign."""
     return one not in other and other not in one
-
-
-def join_names(names: Sequence[str]) -> str:
-    """Return names as they stand in a sentence: "a, b and c"."""
-    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
 
 
 def compute_autocorrelation(errors: Array, variances: Array, lags: int = 40) -> Array:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -31,6 +31,11 @@ def percent(share: float, digits: int = 2) -> str:
     if 0.0 < abs(share) < TINY:
         return f"less than {rounded(100.0 * TINY)} %"
     return f"{rounded(100.0 * share, digits)} %" if abs(share) < 1.0 else f"{100.0 * share:.0f} %"
+
+
+def join_names(names: Sequence[str]) -> str:
+    """Return names as they stand in a sentence: "a, b and c"."""
+    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
 
 
 def attach_unit(number: str, unit: str) -> str:

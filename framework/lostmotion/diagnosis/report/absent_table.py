@@ -12,6 +12,7 @@ from lostmotion.diagnosis.report.page_data import Evidence
 from lostmotion.report import style
 from lostmotion.report.pages import Grid
 from lostmotion.report.words import DASH, format_size, percent, sentence, to_words, typeset
+from lostmotion.results import join_names
 from lostmotion.results.absent import AbsentTerm, UnlimitedTerm
 from lostmotion.results.expectation import Detection
 
@@ -91,12 +92,7 @@ def group_unlimited(rows: Sequence[UnlimitedTerm], what: str) -> list[str]:
     reasons: dict[str, dict[str, None]] = {}
     for one in rows:
         reasons.setdefault(one.says.partition(": ")[2].rstrip("."), {})[to_words(one.mechanism)] = None
-    return [f"No {what} for {join_words(list(names))}, because {why}." for why, names in reasons.items()]
-
-
-def join_words(names: Sequence[str]) -> str:
-    """Return names as a list in words: "a, b and c"."""
-    return " and ".join(filter(None, [", ".join(names[:-1]), names[-1]]))
+    return [f"No {what} for {join_names(list(names))}, because {why}." for why, names in reasons.items()]
 
 
 def label_absent(one: AbsentTerm | Detection, rows: Sequence[AbsentTerm | Detection]) -> str:
