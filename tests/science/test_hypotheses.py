@@ -16,11 +16,12 @@ from lostmotion.diagnosis.stages import list_fitted_keys
 from lostmotion.evidence import discrepancy
 from lostmotion.evidence.channel_errors import DriveError, SensorError, list_channel_errors
 from lostmotion.evidence.discrepancy import LENGTHS, make_frame
+from lostmotion.evidence.effects import Promise
 from lostmotion.evidence.expansion import Expansion, compute_log_evidence
 from lostmotion.evidence.hypothesis import fit_hypothesis
 from lostmotion.evidence.search import CLOSE, Budget, ExplanationSearch, compute_probabilities
 from lostmotion.inference.curves import add_all_curves
-from lostmotion.inference.fit import choose_first_steps
+from lostmotion.inference.fit import ROUGHLY, choose_first_steps, hold_free, maximise
 from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
 from lostmotion.kernels.linear_response import respond, respond_plainly
 from lostmotion.likelihood.engine import Innovations
@@ -258,6 +259,18 @@ def test_a_hypothesis_from_its_own_maximum_stays_there(rubbing):
     again = fit_hypothesis(best.frame, best.at, best.price, best.choice)
     assert again.log_evidence == pytest.approx(best.log_evidence, abs=0.5)
     assert add_all_curves(rubbing.bare.nominal) is rubbing.bare.nominal
+
+
+def test_a_promise_in_other_parameters_is_fitted_anew(rubbing):
+    """The known fit of the law may hold what the promise has as a free parameter."""
+    search, key, nothing = copy.copy(rubbing), "coulomb_friction", rubbing.found[frozenset()]
+    problem = rubbing.bare.fits[frozenset({key})].problem
+    held = maximise(hold_free(problem, problem.keys.index(f"{key}.force"), 0.5), tolerance=ROUGHLY)
+    search.found, search.bare = {frozenset(): nothing}, replace(rubbing.bare, fits={frozenset(): rubbing.bare.nominal})
+    search.bare.keep(held)
+    promise = Promise(key, 10.0, {f"{key}.force": 0.8}, np.zeros(nothing.frame.count), nothing.frame.none)
+    search._weigh_beside(nothing, promise)
+    assert search.found[frozenset({key})].values[f"{key}.force"] == pytest.approx(0.8, abs=0.02)
 
 
 @pytest.mark.parametrize("option", [0, 5, 10])

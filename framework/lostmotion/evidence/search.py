@@ -235,9 +235,11 @@ class ExplanationSearch:
         begin |= {f.key: f.start for f in problem.free if f.key.startswith(f"{promise.key}.")}
         theta = problem.clip(np.array([begin[key] for key in problem.keys]))
         begin |= dict(zip(problem.keys, theta.tolist(), strict=True))
-        fit = self.bare.fits.get(problem.active) or maximise(problem, theta, tolerance=ROUGHLY)
-        if fit.status != "diverged":
-            fit = replace(fit, problem=replace(problem, nsub=max(problem.nsub, fit.problem.nsub)))
+        known = self.bare.fits.get(problem.active)
+        if known is None or known.problem.keys != problem.keys:
+            known = maximise(problem, theta, tolerance=ROUGHLY)
+        if known.status != "diverged":
+            fit = replace(known, problem=replace(problem, nsub=max(problem.nsub, known.problem.nsub)))
             self.weigh(fit, begin, promise.choice)
 
     def _drop(self, target: Hypothesis, key: str, less: Terms) -> None:
