@@ -286,10 +286,10 @@ def test_the_evidence_is_that_of_the_forces_of_a_hypothesis(rubbing, option):
     assert not np.any(found.at[frame.own :][frame.widths(found.choice) == 0.0])
 
 
-@pytest.mark.parametrize(("behind", "weighed"), [(0.5, True), (2.0, False)])
-def test_other_laws_are_weighed_where_a_smooth_force_explains_as_much(rubbing, monkeypatch, behind, weighed):
-    """`behind` is by how much the model without any term is worse, in the unit of what is close."""
-    best, fits = rubbing.best, []
+@pytest.mark.parametrize(("behind", "smooth", "weighed"), [(0.5, 3.0, True), (2.0, 3.0, False), (0.5, 0.0, False)])
+def test_other_laws_are_weighed_where_a_smooth_force_explains_as_much(rubbing, monkeypatch, behind, smooth, weighed):
+    """`behind` is by how much the model without any term is worse; the best law leaves `smooth` to a smooth force."""
+    best, fits = replace(rubbing.best, smooth=smooth), []
     search = copy.copy(rubbing)
     nothing_found = replace(rubbing.found[frozenset()], log_evidence=best.log_evidence - behind * CLOSE)
     search.found = {best.terms: best, frozenset(): nothing_found}

@@ -182,10 +182,11 @@ class ExplanationSearch:
     def _weigh_alike(self) -> None:
         """Weigh single laws, and sets with one other law than the best one, where fits alone do not rank them.
 
-        That is where a discrepancy adds much to the best set, or explains the fitted data as well as its laws.
+        That is where a discrepancy adds much to the best set, or adds something to it and explains the fitted data as
+        well as its laws.
         """
         best, fits, nothing = self.best, self.bare.fits, self.found[frozenset()]
-        rival = bool(best.terms) and nothing.log_evidence > best.log_evidence - CLOSE
+        rival = bool(best.terms) and best.smooth > 0.0 and nothing.log_evidence > best.log_evidence - CLOSE
         if not rival and best.log_evidence - fits[best.frame.terms].log_evidence < CLOSE:
             return
         alike = [t for t in fits if len(t) == 1 or (len(t) == len(best.terms) and len(t - best.terms) == 1)]
