@@ -10,7 +10,7 @@ of each smooth force are those of the largest evidence.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -76,6 +76,14 @@ class Hypothesis:
     def score(self, temper: float = 1.0) -> float:
         """Return the log posterior weight: the log evidence of all data over the temper, less the price."""
         return (self.log_evidence + self.heldout) / temper - self.price
+
+    @property
+    def log_profile(self) -> float:
+        """The log evidence of all data at the maximum of own coordinates, without the widths of their priors."""
+        free = self.frame.problem.free[: self.frame.own]
+        prior = sum(f.log_prior(float(at)) for f, at in zip(free, self.theta, strict=True))
+        occam = 0.5 * float(np.linalg.slogdet(2.0 * math.pi * self.covariance)[1])
+        return self.log_evidence + self.heldout - prior - occam
 
     @property
     def theta(self) -> Array:
@@ -190,10 +198,11 @@ def _maximise(frame: JointFrame, expansion: Expansion, choice: Choice, *, free: 
         if free:
             quadratic = Quadratic.of(frame, expansion.curvature)
             new, _ = quadratic.choose(choice) if turn else quadratic.choose_anew(choice)
-            less = _leave_out_absent(frame, expansion, new)
+            fewer = tuple(one if other >= 0 else -1 for one, other in zip(choice, new, strict=True))
+            less = _leave_out_absent(frame, expansion, fewer)
             if less is not expansion:
                 told = _compute_log_evidence(frame, expansion, choice)
-                free = _compute_log_evidence(frame, less, new) > told
+                free = _compute_log_evidence(frame, less, fewer) > told
             if free:
                 expansion, choice = less, new
         step, promise = compute_step(frame, expansion, choice)
@@ -246,24 +255,25 @@ def _compute_precision(frame: JointFrame, precision: Array, choice: Choice) -> A
 
 
 def solve_posterior(
-    frame: JointFrame, curvature: Curvature, choice: Choice, held: Sequence[int] | NDArray[np.intp] = ()
+    frame: JointFrame, curvature: Curvature, choice: Choice, held: NDArray[np.intp], moved: Array | None = None
 ) -> Array:
-    """Return the step (n,) to the maximum of the quadratic posterior; `held` coordinates stay.
+    """Return the step (n,) to the maximum of the quadratic posterior.
 
-    Coefficients of smooth forces that are absent go to zero. Coordinates beyond those of the frame are amplitudes of
-    terms with the prior of the curvature.
+    `held` coordinates change by those of `moved` (n,), or stay. Coefficients of smooth forces that are absent go to
+    zero. Coordinates beyond those of the frame are amplitudes of terms with the prior of the curvature.
     """
     at, n = curvature.at, len(curvature.at)
     precision, middle = curvature.precision.copy(), curvature.middle.copy()
     precision[: frame.count] = _compute_precision(frame, curvature.precision, choice)
     middle[frame.own : frame.count] = frame.middle
-    used = np.setdiff1d(np.append(_list_used(frame, choice), np.arange(frame.count, n)), held)
-    gone = np.setdiff1d(np.arange(frame.own, n), used)
+    present = np.append(_list_used(frame, choice), np.arange(frame.count, n))
+    used, gone = np.setdiff1d(present, held), np.setdiff1d(np.arange(frame.own, n), present)
     step = np.zeros(n)
+    step[held] = 0.0 if moved is None else moved[held]
     step[gone] = -at[gone]
-    pulled = (curvature.gradient - precision * (at - middle))[used] - curvature.information[np.ix_(used, gone)] @ step[
-        gone
-    ]
+    rest = np.setdiff1d(np.arange(n), used)
+    pulled = (curvature.gradient - precision * (at - middle))[used]
+    pulled -= curvature.information[np.ix_(used, rest)] @ step[rest]
     inner = curvature.information[np.ix_(used, used)] + np.diag(precision[used])
     step[used] = solve_scaled(inner + 1e-6 * np.diag(np.diag(inner)), pulled)
     return step
@@ -272,21 +282,40 @@ def solve_posterior(
 def compute_step(frame: JointFrame, expansion: Expansion, choice: Choice) -> tuple[Array, float]:
     """Return the step (count,) to the maximum of the quadratic posterior within the bounds, and its predicted gain.
 
-    Own coordinates that are pressed against a bound stay, and logarithms change by a limited amount.
+    Logarithms change by a limited amount.
     """
-    free, at = frame.problem.free[: frame.own], expansion.at
     precision = _compute_precision(frame, expansion.precision, choice)
     gradient = _compute_pull(frame, expansion, precision)
-    low, high = frame.bounds
-    pressed = ((at <= low) & (gradient < 0.0)) | ((at >= high) & (gradient > 0.0))
-    step = solve_posterior(frame, expansion.curvature, choice, np.flatnonzero(pressed))
-    for i, f in enumerate(free):
-        if f.log or f.key.startswith("log_"):
-            most = MOST_LOG if f.physical else MOST_LEVEL
-            step[i] = min(max(step[i], -most), most)
-    step = np.clip(at + step, low, high) - at
+    low, high = _limit_step(frame, expansion.at)
+    curvature = expansion.curvature
+    step = solve_within(lambda held, moved: solve_posterior(frame, curvature, choice, held, moved), gradient, low, high)
     curved = float(step @ expansion.information @ step) + float(np.sum(precision * step**2))
     return step, float(gradient @ step) - 0.5 * curved
+
+
+def solve_within(solve: Callable[[NDArray[np.intp], Array], Array], gradient: Array, low: Array, high: Array) -> Array:
+    """Return the step (n,) to the maximum of a quadratic function between `low` and `high`, each (n,), by active sets.
+
+    `solve(held, moved)` returns the step that maximises it while the coordinates `held` change by those of `moved`. One
+    that is pressed against its bound by the `gradient` (n,) stays; one that would go beyond a bound goes there, and the
+    others are optimised given this: a step that is cut off afterwards may be one in the wrong direction.
+    """
+    held = np.flatnonzero(((low >= 0.0) & (gradient < 0.0)) | ((high <= 0.0) & (gradient > 0.0)))
+    step = solve(held, np.zeros(len(gradient)))
+    while len(beyond := np.flatnonzero((step < low) | (step > high))):
+        held = np.union1d(held, beyond)
+        step = solve(held, np.clip(step, low, high))
+    return step
+
+
+def _limit_step(frame: JointFrame, at: Array) -> tuple[Array, Array]:
+    """Return the lowest and the highest change (count,) of coordinates in one step; zero is within."""
+    low, high = (np.asarray(bound - at) for bound in frame.bounds)
+    for i, f in enumerate(frame.problem.free[: frame.own]):
+        if f.log or f.key.startswith("log_"):
+            most = MOST_LOG if f.physical else MOST_LEVEL
+            low[i], high[i] = max(low[i], -most), min(high[i], most)
+    return np.minimum(low, 0.0), np.maximum(high, 0.0)
 
 
 def _compute_pull(frame: JointFrame, expansion: Expansion, precision: Array) -> Array:
