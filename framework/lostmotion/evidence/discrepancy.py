@@ -166,7 +166,11 @@ class JointFrame:
 
     def log_likelihood(self, at: Array, choice: Choice) -> float:
         """Return the log-likelihood of the filter at some coordinates (count,)."""
-        return float(self._wake(self.place(at), choice).log_likelihoods(at[None, : len(self.problem.free)])[0])
+        return float(self.log_likelihoods(at[None], choice)[0])
+
+    def log_likelihoods(self, at: Array, choice: Choice) -> Array:
+        """Return the log-likelihoods (points,) at coordinates (points, count) that have the same channel errors."""
+        return self.bare(at[0], choice).log_likelihoods(at[:, : len(self.problem.free)])
 
     def expand(self, at: Array, steps: Array, choice: Choice) -> Expansion:
         """Return one-step errors and their derivatives at some coordinates; `steps` (own,) are those of own ones.

@@ -35,6 +35,8 @@ ROUNDS, TOLERANCE = 10, 0.4
 """The largest number of rounds, and the gain in log posterior below which a fit has converged."""
 SHARES = (0.4, 0.1, 0.02)
 """Shares of a Gauss-Newton step that are tried where the whole step does not gain."""
+REACHES = (1.0, 3.0, 9.0)
+"""The multiples of the step of noise levels that are tried."""
 MOST_LOG, MOST_LEVEL = 1.5, 4.0
 """The largest change of a logarithm in one step: of a parameter, and of a noise level."""
 
@@ -230,7 +232,7 @@ def _leave_out_absent(frame: JointFrame, expansion: Expansion, choice: Choice) -
     here, steps = expansion.at.copy(), _tune_steps(frame, expansion)
     here[absent] = 0.0
     there = expansion.at + compute_step(frame, expansion, choice)[0]
-    at = max(here, there, key=lambda one: _add_priors(frame, one, choice, frame.log_likelihood(one, choice)))
+    at = max(here, there, key=lambda one: _add_priors(frame, one, frame.log_likelihood(one, choice), choice))
     return frame.expand(at, steps, choice)
 
 
@@ -326,10 +328,10 @@ def _compute_pull(frame: JointFrame, expansion: Expansion, precision: Array) -> 
 
 def _compute_log_posterior(frame: JointFrame, expansion: Expansion, choice: Choice) -> float:
     """Return the log posterior up to a constant, at the point of an expansion."""
-    return _add_priors(frame, expansion.at, choice, float(expansion.here.log_likelihood))
+    return _add_priors(frame, expansion.at, float(expansion.here.log_likelihood), choice)
 
 
-def _add_priors(frame: JointFrame, at: Array, choice: Choice, log_likelihood: float) -> float:
+def _add_priors(frame: JointFrame, at: Array, log_likelihood: float, choice: Choice) -> float:
     """Return a log-likelihood of the filter with the log prior of all coordinates."""
     widths = frame.widths(choice)
     used = widths > 0.0
@@ -339,17 +341,22 @@ def _add_priors(frame: JointFrame, at: Array, choice: Choice, log_likelihood: fl
 
 
 def _climb(frame: JointFrame, expansion: Expansion, step: Array, choice: Choice) -> Expansion | None:
-    """Return the expansion after the largest share of a step that gains; None where none gains.
+    """Return the expansion after the best whole step, or after the largest share of it that gains; None without any.
 
-    The whole step is expanded at once, because it usually gains.
+    Whole steps differ in how far noise levels go: the information about a level that is too high is too large, and its
+    steps are too short.
     """
-    steps, value = _tune_steps(frame, expansion), _compute_log_posterior(frame, expansion, choice)
-    whole = frame.expand(expansion.at + step, steps, choice)
-    if _compute_log_posterior(frame, whole, choice) > value:
-        return whole
+    at, steps, value = expansion.at, _tune_steps(frame, expansion), _compute_log_posterior(frame, expansion, choice)
+    levels = np.array([name.startswith("log_") for name in frame.names])
+    low, high = frame.bounds
+    whole = np.array([at + step * np.where(levels, reach, 1.0) for reach in REACHES])
+    whole[:, levels] = np.clip(whole, low, high)[:, levels]
+    gained = [_add_priors(frame, *one, choice) for one in zip(whole, frame.log_likelihoods(whole, choice), strict=True)]
+    if max(gained) > value:
+        return frame.expand(whole[int(np.argmax(gained))], steps, choice)
     for share in SHARES:
-        trial = expansion.at + share * step
-        if _add_priors(frame, trial, choice, frame.log_likelihood(trial, choice)) > value:
+        trial = at + share * step
+        if _add_priors(frame, trial, frame.log_likelihood(trial, choice), choice) > value:
             return frame.expand(trial, steps, choice)
     return None
 
