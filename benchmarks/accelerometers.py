@@ -228,7 +228,7 @@ def _measure_more(d: Any, machine: Machine, states: Array, observation: Any) -> 
     from lostmotion.inference.unseen import smooth_body_position
 
     problem, theta = d.after.problem, d.after.theta
-    process, white = problem.random_force(theta), problem.noise(theta).white
+    process, white = problem.recordings[0].random_force(theta), problem.recordings[0].noise(theta).white
     place = smooth_body_position(d.after, d.shown)
     true, highest = EXCITATION_NOISE * machine.peak, float(np.abs(states[:, 0]).max())
     return {

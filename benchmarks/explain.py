@@ -39,7 +39,7 @@ def explain(path: Path, seconds: float) -> ExplanationSearch:
 
 def describe(hypothesis, best):
     """Return the lines of a hypothesis."""
-    keys = hypothesis.frame.problem.free[: hypothesis.frame.own]
+    keys = hypothesis.frame.problem.space.free[: hypothesis.frame.own]
     sds = np.sqrt(np.maximum(np.diag(hypothesis.covariance), 0.0))
     rows = []
     for f, at, sd in zip(keys, hypothesis.theta, sds, strict=True):

@@ -130,7 +130,7 @@ def fit_nominal(folder: Path) -> float:
     prepared = prepare(folder / "case.toml", default())
     train, _ = split_heldout(prepared.observations)
     problem = make_problem(System(prepared.model, prepared.terms), prepared.case, train, jobs=1)
-    return search_maximum(choose_steps(problem, problem.start), np.random.default_rng(0)).log_likelihood
+    return search_maximum(choose_steps(problem, problem.space.start), np.random.default_rng(0)).log_likelihood
 
 
 def check_motion(rig: BlindMachine, motion: np.ndarray, pilot: Pilot) -> None:

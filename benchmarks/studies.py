@@ -75,10 +75,10 @@ def findings(d):
         "status": {"+".join(sorted(k)): f"{fit.status} {fit.rounds}" for k, fit in explained.fits.items()},
         "random_gain": d.random_gain,
         "verdict": [*d.named, *["unknown"] * d.unknown] or ["random_force"] * d.unexplained,
-        "levels": {n: dict(zip(f.problem.keys, map(float, f.theta), strict=True)) for n, f in wide.items()},
+        "levels": {n: dict(zip(f.problem.space.keys, map(float, f.theta), strict=True)) for n, f in wide.items()},
         "usual": {n: {k: float(s) for k, s in f.sd.items()} for n, f in wide.items()},
         "intervals": {n: to_plain(compute_intervals(f, draw_parameters(f, rng))) for n, f in wide.items()},
-        "nsub": [d.before.problem.nsub, d.after.problem.nsub],
+        "nsub": [d.before.problem.dynamics.nsub, d.after.problem.dynamics.nsub],
     }
 
 
@@ -110,10 +110,10 @@ def predictions(d, observation, hidden):
 def truth_of(d, hidden):
     """Return the fit with every parameter at its true value and the noise levels as they were found."""
     fit, system = d.after, d.after.problem.system
-    kept = [i for i, free in enumerate(fit.problem.free) if not free.physical]
+    kept = [i for i, free in enumerate(fit.problem.space.free) if not free.physical]
     full = system.vector({**TRUE, FORCE: hidden})
-    free = tuple(fit.problem.free[i] for i in kept)
-    problem = replace(fit.problem, known=full, free=free, active=frozenset({FRICTION}))
+    free = tuple(fit.problem.space.free[i] for i in kept)
+    problem = replace(fit.problem, known=full).over(free).acting({FRICTION})
     return replace(fit, problem=problem, local=replace(fit.local, theta=fit.theta[kept]))
 
 

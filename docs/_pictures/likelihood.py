@@ -10,8 +10,8 @@ import numpy as np
 
 from lostmotion.inference.setup import choose_steps, make_problem
 from lostmotion.likelihood.predict import filter_recording, observe_states, simulate_run
-from lostmotion.likelihood.problem import NOISE
 from lostmotion.likelihood.system import System
+from lostmotion.noises import NOISE
 from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import default
 from lostmotion.simulation.simulated_machine import Plan, assembly_of, simulate
@@ -60,10 +60,10 @@ def compute_measures():
         (Path(folder) / "case.toml").write_text(CASE, encoding="utf-8")
         prepared = prepare(Path(folder) / "case.toml", registry)
     problem = make_problem(System(prepared.model, ()), prepared.case, prepared.observations)
-    problem = choose_steps(problem, problem.start)
+    problem = choose_steps(problem, problem.space.start)
     observation = prepared.observations[0]
-    theta = problem.start.copy()
-    gap, noise = problem.keys.index("x0"), problem.keys.index(NOISE)
+    theta = problem.space.start.copy()
+    gap, noise = problem.space.keys.index("x0"), problem.space.keys.index(NOISE)
     theta[noise] = np.log(0.01 * np.std(observation.response))
     free, likelihood = [], []
     for value in np.log(GAPS):

@@ -137,7 +137,9 @@ def test_the_same_case_in_python(folder):
     one = lm.Case(recording, cart, estimate=priors).prepare(default())
     two = prepare(folder / "case.toml", Registry.discover())
     there, here = (make_problem(make_system(p.model, p.terms), p.case, p.observations, jobs=1) for p in (one, two))
-    assert here.log_likelihoods(here.start[None]) == pytest.approx(there.log_likelihoods(there.start[None]), rel=1e-6)
+    assert here.log_likelihood(here.space.start[None]) == pytest.approx(
+        there.log_likelihood(there.space.start[None]), rel=1e-6
+    )
 
 
 def test_a_case_made_in_python_is_written_with_the_file_of_its_class(folder, tmp_path):
@@ -268,16 +270,16 @@ def ask(wagon):
     """Ask a machine for all that a fit asks."""
     problem = wagon_problem(wagon)
     problem.system.senses_force("position")
-    problem.system.own_inertia(problem.full(problem.start), wagon.places[0])
-    problem.log_likelihoods(problem.start[None])
+    problem.system.own_inertia(problem.recordings[0].full(problem.space.start), wagon.places[0])
+    problem.log_likelihood(problem.space.start[None])
 
 
 def test_arguments_of_a_step_are_read_only_inputs_and_a_divergence_is_marked():
     problem = wagon_problem(Wagon())
-    assert np.isfinite(problem.log_likelihoods(problem.start[None])).all()
-    wild = replace(problem, system=make_system(Wagon("nan"), ()))
+    assert np.isfinite(problem.log_likelihood(problem.space.start[None])).all()
+    wild = replace(problem, dynamics=replace(problem.dynamics, system=make_system(Wagon("nan"), ())))
     assert problem.system.model != wild.system.model
-    assert wild.log_likelihoods(problem.start[None]) == [-np.inf]
+    assert wild.log_likelihood(problem.space.start[None]) == [-np.inf]
 
 
 def test_a_term_that_asks_for_what_steps_cannot_tell_has_no_place():

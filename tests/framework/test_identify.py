@@ -12,8 +12,8 @@ from lostmotion.errors import CaseError, DataError
 from lostmotion.identification.convergence import group_walkers, measure_quality
 from lostmotion.identification.moves import make_state
 from lostmotion.identification.sampling import SamplingPlan, ShownCoordinate, Task, TMixture, identify, make_task
-from lostmotion.likelihood.problem import FreeParameter
 from lostmotion.likelihood.sensors import Sensor
+from lostmotion.likelihood.space import FreeParameter, ParameterSpace
 from lostmotion.storage import save_datasets
 
 MEAN = np.array([1.0, -2.0, 0.3])
@@ -29,10 +29,11 @@ class Bell:
     pressed: bool = False
     asked: list = field(default_factory=list)
 
-    def log_prior(self, theta):
-        return sum(f.log_prior(float(c)) for f, c in zip(self.free, theta, strict=True))
+    @property
+    def space(self):
+        return ParameterSpace(self.free)
 
-    def log_likelihoods(self, points):
+    def log_likelihood(self, points):
         self.asked.extend(points)
         return np.array([self.height(t) for t in points])
 
@@ -44,8 +45,8 @@ class Bell:
 
 
 def task_at(problem, theta=MEAN, covariance=COVARIANCE):
-    shown = tuple(ShownCoordinate(f.key, f.unit, 1.0 if f.log else 0.0) for f in problem.free)
-    return Task(problem, TMixture.of_modes(theta[None], [covariance], np.ones(1), problem.free), shown, theta)
+    shown = tuple(ShownCoordinate(f.key, f.unit, 1.0 if f.log else 0.0) for f in problem.space.free)
+    return Task(problem, TMixture.of_modes(theta[None], [covariance], np.ones(1), problem.space.free), shown, theta)
 
 
 def fit_of(theta=(0.1, -5.0, 1.0, 2.0, -3.0), log_posterior=0.0, log_evidence=0.0):
@@ -57,7 +58,9 @@ def fit_of(theta=(0.1, -5.0, 1.0, 2.0, -3.0), log_posterior=0.0, log_evidence=0.
     keys = ("c", "x0", "offset[two]", "log_noise[two]", "log_random_force[two]")
     free = tuple(FreeParameter(k, "?", 0.0, -40.0, 40.0, log=k == "x0") for k in keys)
     problem = SimpleNamespace(
-        free=free, observations=observations, system=SimpleNamespace(model=SimpleNamespace(motion="rotation"))
+        space=ParameterSpace(free),
+        observations=observations,
+        system=SimpleNamespace(model=SimpleNamespace(motion="rotation")),
     )
     local = SimpleNamespace(covariance=np.eye(5), log_posterior=log_posterior)
     return SimpleNamespace(problem=problem, theta=np.array(theta), local=local, log_evidence=log_evidence)

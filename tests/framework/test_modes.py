@@ -15,7 +15,7 @@ from lostmotion.case import CaseFile, Prior, SensorSpec
 from lostmotion.inference.modes import StartingPoints, is_same_mode, select_modes
 from lostmotion.inference.setup import find_modes, make_problem, polish_modes, search_maximum
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import FreeParameter
+from lostmotion.likelihood.space import FreeParameter, ParameterSpace
 from lostmotion.likelihood.system import System
 from lostmotion.registry import default
 from lostmotion.settings import DEFAULT, Settings
@@ -73,26 +73,21 @@ class Hills:
 
     centres: tuple[float, ...]
     ripple: float = 0.0
-    nsub: int = 1
     settings: Settings = DEFAULT
+    space = ParameterSpace((FreeParameter("x", "1", 0.0, -100.0, 100.0),))
+    dynamics = SimpleNamespace(nsub=1)
 
-    def clip(self, points):
-        return points
-
-    def log_prior(self, theta):
-        return 0.0
-
-    def log_likelihoods(self, points):
+    def log_likelihood(self, points):
         x = np.asarray(points)[:, 0]
         smooth = np.logaddexp.reduce([-0.5 * (x - c) ** 2 for c in self.centres], axis=0)
         return smooth + self.ripple * np.cos(2.0 * math.pi * x)
 
-    def log_posteriors(self, points):
-        return self.log_likelihoods(points)
+    def log_density(self, points):
+        return self.log_likelihood(points)
 
     def fit(self, at: float, sd: float = 1.0):
         """Return what `distinct` asks of a fit that stopped at a place."""
-        height = float(self.log_likelihoods(np.array([[at]]))[0])
+        height = float(self.log_likelihood(np.array([[at]]))[0])
         local = SimpleNamespace(log_posterior=height)
         return SimpleNamespace(problem=self, theta=np.array([at]), sd={"x": sd}, local=local, log_evidence=height)
 
@@ -165,10 +160,10 @@ def clatter() -> Observation:
 
 def test_the_walk_to_a_mode_stays_within_its_bounds() -> None:
     problem = problem_for(ring(push=0.02, seed=0, samples=60))
-    narrow = replace(problem, free=tuple(replace(f, high=7.7) if f.key == "k" else f for f in problem.free))
+    narrow = problem.over(replace(f, high=7.7) if f.key == "k" else f for f in problem.space.free)
     only = find_modes(narrow, np.random.default_rng(0))
     assert [hertz(f) for f in only] == pytest.approx([TRUE], rel=0.01)
-    assert isinstance(only[0].problem.free[0], FreeParameter)
+    assert isinstance(only[0].problem.space.free[0], FreeParameter)
 
 
 def test_hills_are_compared_with_the_noise_of_each_recording() -> None:
@@ -180,4 +175,4 @@ def test_hills_are_compared_with_the_noise_of_each_recording() -> None:
     )
     assert sorted(hertz(f) for f in both) == pytest.approx([TRUE, FOLDED], rel=0.01)
     assert both[0].problem is both[1].problem
-    assert {"offset[loud]", "log_noise[faint]", "log_random_force[loud]"} < set(both[0].problem.keys)
+    assert {"offset[loud]", "log_noise[faint]", "log_random_force[loud]"} < set(both[0].problem.space.keys)

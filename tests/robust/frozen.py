@@ -50,8 +50,8 @@ def likelihoods(force: np.ndarray, position: np.ndarray, jobs: int) -> list[floa
     case = CaseFile("study", Path(), (), "lin_backlash", known, estimate, {}, (), "")
     observation = Observation.of("seen", position, force[:, None], 1 / 640, "position")
     problem = make_problem(system, case, (observation,), jobs=jobs)
-    start = problem.start
-    return [float(x) for x in problem.log_likelihoods(np.stack([start, start + 0.01, start - 0.01]))]
+    start = problem.space.start
+    return [float(x) for x in problem.log_likelihood(np.stack([start, start + 0.01, start - 0.01]))]
 
 
 def exponents(jobs: int) -> list[float]:

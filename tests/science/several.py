@@ -46,8 +46,8 @@ def fitted(observations, *terms):
     system = System(default().make("model", "linear_oscillator"), terms)
     case = CaseFile("study", Path(), (), "linear_oscillator", {"m": M}, PRIORS, {}, (), "")
     problem = make_problem(system, case, tuple(observations), jobs=1)
-    start = problem.start.copy()
-    for i, key in enumerate(problem.keys):
+    start = problem.space.start.copy()
+    for i, key in enumerate(problem.space.keys):
         start[i] = np.log({"c": C, "k": K}[key]) if key in PRIORS else start[i]
     return maximise(problem, start)
 

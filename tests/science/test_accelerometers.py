@@ -20,9 +20,10 @@ from lostmotion.inference.setup import choose_steps, compute_scales, make_proble
 from lostmotion.inference.unseen import smooth_body_position
 from lostmotion.likelihood.noise_levels import compute_usual_level
 from lostmotion.likelihood.observation import Observation, window_force
-from lostmotion.likelihood.problem import NOISE, RANDOM
 from lostmotion.likelihood.reference import Reference
+from lostmotion.likelihood.space import RANDOM
 from lostmotion.likelihood.system import System
+from lostmotion.noises import NOISE
 from lostmotion.registry import default
 
 SOURCE = Path(__file__).parents[2] / "benchmarks" / "accelerometers.py"
@@ -48,8 +49,8 @@ def posed(number):
         RANDOM: math.log((machines.EXCITATION_NOISE * machine.peak) ** 2 * machine.dt),
         NOISE: math.log(machine.noise * states[:, 2].std()),
     }
-    true = np.array([levels[f.key] if f.key in levels else math.log(machine.values[f.key]) for f in problem.free])
-    return machine, problem, problem.clip(true), states, observation
+    true = np.array([levels[f.key] if f.key in levels else math.log(machine.values[f.key]) for f in problem.space.free])
+    return machine, problem, problem.space.clip(true), states, observation
 
 
 @pytest.mark.slow
@@ -109,7 +110,8 @@ def test_the_engines_agree_on_a_recording_with_hits():
     struck = int(np.argmax(observation.input_variance > 0.0))
     short = choose_steps(problem.on((observation.part(max(struck - 300, 0), struck + 300),)), true)
     assert short.observations[0].input_variance.any()
-    ours, plain = short.innovations(true), replace(short, engine=Reference()).innovations(true)
+    plain = replace(short, dynamics=Reference(short.system, short.active, short.dynamics.nsub)).innovations(true)
+    ours = short.innovations(true)
     np.testing.assert_allclose(plain.errors, ours.errors, rtol=0.0, atol=1e-9 * np.abs(ours.errors).max())
     np.testing.assert_allclose(plain.variances, ours.variances, rtol=1e-9)
 
@@ -123,11 +125,11 @@ def test_a_search_with_an_accelerometer_reaches_the_truth(number):
     """
     machine, problem, true, states, _ = posed(number)
     fit = search_maximum(problem, np.random.default_rng(0))
-    assert fit.local.log_posterior > fit.problem.log_posterior(true) - 50.0
+    assert fit.local.log_posterior > fit.problem.log_density(true) - 50.0
     assert abs(fit.theta[-2] - true[-2]) < 2.0
     mean, covariance = fit.problem.observations[0].begun
     assert np.all(np.abs(mean - states[0, :2]) < 3.0 * np.sqrt(np.diag(covariance)))
-    known = [fit.sd[f.key] for f in fit.problem.free[:3]]
+    known = [fit.sd[f.key] for f in fit.problem.space.free[:3]]
     assert np.all(np.abs(fit.theta - true)[:3] < 5.0 * np.array(known)), machine
 
 
@@ -139,7 +141,7 @@ def test_the_likelihood_is_smooth_where_a_body_creeps_up_to_a_contact():
     known = problem.on((replace(problem.observations[0], begun=exact),))
     thetas = np.repeat(true[None], 16, axis=0)
     thetas[:, 0] += 1e-7 * np.arange(16)
-    assert np.ptp(choose_steps(known, true).log_posteriors(thetas)) < 0.05, machine
+    assert np.ptp(choose_steps(known, true).log_density(thetas)) < 0.05, machine
 
 
 def test_a_part_of_a_recording_begins_where_it_does():
@@ -166,10 +168,10 @@ def test_a_position_that_no_sensor_shows_is_told_with_its_band():
     assert np.mean(np.abs(error) < 2.0 * place.sd) > 0.9
     assert np.std(error) > 0.3 * np.sqrt(np.mean(place.sd**2))
     assert notes_on_position(fit, observation) == ()
-    loud = replace(fit, local=replace(fit.local, theta=fit.theta + 10.0 * (np.array(fit.problem.keys) == RANDOM)))
-    pairs = zip(fit.problem.free, loud.theta, strict=True)
+    loud = replace(fit, local=replace(fit.local, theta=fit.theta + 10.0 * (np.array(fit.problem.space.keys) == RANDOM)))
+    pairs = zip(fit.problem.space.free, loud.theta, strict=True)
     levels = [replace(f, low=x, high=x) if f.key == RANDOM else f for f, x in pairs]
-    (said,) = notes_on_position(replace(loud, problem=replace(fit.problem, free=tuple(levels))), observation)
+    (said,) = notes_on_position(replace(loud, problem=fit.problem.over(levels)), observation)
     told = re.search(r"known to \+-(\S+) mm only .* (\S+) % of its amplitude", said)
     amplitude = 1e3 * math.sqrt(2.0) * states[:, 0].std()
     assert float(told[1]) / amplitude == pytest.approx(0.01 * float(told[2]), rel=0.15)

@@ -140,15 +140,15 @@ def test_a_budget_is_used_up_by_processor_time_and_not_by_waiting():
 def test_a_budget_of_work_does_not_depend_on_the_load_of_the_machine(nominal):
     budget = Budget(steps=1.5 * count_steps(nominal))
     assert not budget.spent
-    nominal.problem.log_likelihoods(nominal.theta[None])
+    nominal.problem.log_likelihood(nominal.theta[None])
     assert not budget.spent
-    nominal.problem.log_likelihoods(nominal.theta[None])
+    nominal.problem.log_likelihood(nominal.theta[None])
     assert budget.spent
 
 
 def count_steps(fit):
     before = count_work()
-    fit.problem.log_likelihoods(fit.theta[None])
+    fit.problem.log_likelihood(fit.theta[None])
     return count_work() - before
 
 

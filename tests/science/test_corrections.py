@@ -217,7 +217,7 @@ def test_noise_with_a_memory_is_no_force_and_is_part_of_every_explanation(tmp_pa
     found = Course(KEYS, (), Budget(seconds=600.0), lambda _: None).find_explanations(nominal)
     assert found.terms == NOTHING
     for one in found.found.values():
-        assert {AR1_LEVEL, AR1_MEMORY} <= set(one.frame.problem.keys)
+        assert {AR1_LEVEL, AR1_MEMORY} <= set(one.frame.problem.space.keys)
     assert np.exp(found.nominal.values[AR1_MEMORY]) == pytest.approx(0.1, rel=0.5)
 
 

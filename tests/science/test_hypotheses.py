@@ -23,7 +23,7 @@ from lostmotion.inference.curves import add_all_curves
 from lostmotion.inference.fit import choose_first_steps
 from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
 from lostmotion.kernels.linear_response import respond, respond_plainly
-from lostmotion.likelihood.engine import Innovations
+from lostmotion.likelihood.innovations import Innovations
 from lostmotion.likelihood.tangents import linearise_filter
 
 
@@ -210,8 +210,10 @@ def test_dry_friction_is_the_explanation_with_the_true_damping(rubbing):
     assert friction > 0.95
     best = found.best
     assert best.terms == {"coulomb_friction"}
-    sd = math.sqrt(best.covariance[list(best.frame.problem.keys).index("c")][list(best.frame.problem.keys).index("c")])
-    free = next(f for f in best.frame.problem.free if f.key == "c")
+    sd = math.sqrt(
+        best.covariance[list(best.frame.problem.space.keys).index("c")][list(best.frame.problem.space.keys).index("c")]
+    )
+    free = next(f for f in best.frame.problem.space.free if f.key == "c")
     c, spread = free.value(best.values["c"]), sd * (free.value(best.values["c"]) if free.log else 1.0)
     assert abs(c - 0.8) < 3.0 * spread
 

@@ -28,8 +28,8 @@ from lostmotion.inference.random_force import has_usual_random_force
 from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
 from lostmotion.inference.shape_scan import scan_shapes
 from lostmotion.likelihood.bends import correct_bends, rescale_innovations
-from lostmotion.likelihood.engine import Innovations
-from lostmotion.likelihood.problem import FreeParameter
+from lostmotion.likelihood.innovations import Innovations
+from lostmotion.likelihood.space import FreeParameter
 from lostmotion.likelihood.system import ALWAYS, System
 from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import Registry, default
@@ -179,12 +179,12 @@ def test_the_likelihood_of_a_sensor_that_changes_is_that_of_corrected_readings(t
     """
     fit = nominal_of(tmp_path, [SensorGain()], shown=lambda x: x * np.where(T > LATE, 1.08, 1.0))
     problem = fit.problem.hold_values({"sensor_gain.error": 0.08, onset_key("sensor_gain"): LATE + 0.01})
-    changed = replace(problem, active=frozenset({"sensor_gain"}))
+    changed = problem.acting({"sensor_gain"})
     (observation,) = fit.problem.observations
     late = observation.time > LATE
     right = replace(observation, readings=np.where(late, observation.response / 1.08, observation.response)[:, None])
-    by_hand = fit.problem.on((right,)).log_likelihoods(fit.theta[None]) - np.sum(late) * math.log(1.08)
-    assert changed.log_likelihoods(fit.theta[None]) == pytest.approx(by_hand, abs=0.05)
+    by_hand = fit.problem.on((right,)).log_likelihood(fit.theta[None]) - np.sum(late) * math.log(1.08)
+    assert changed.log_likelihood(fit.theta[None]) == pytest.approx(by_hand, abs=0.05)
 
 
 def test_cut_sensitivities_are_those_of_a_term_that_sets_in(tmp_path):
@@ -199,7 +199,7 @@ def test_cut_sensitivities_are_those_of_a_term_that_sets_in(tmp_path):
     wider = fit.problem.extend((held,), {"linear_stiffness"})
     zero, one = np.append(fit.theta, 0.0), np.append(fit.theta, small)
     slopes = compute_slopes(fit)
-    seen = wider.filter_many(np.array([zero, one]))
+    seen = wider.innovations(np.array([zero, one]))
     joint = type(slopes)(
         zero,
         seen[0],
@@ -212,7 +212,7 @@ def test_cut_sensitivities_are_those_of_a_term_that_sets_in(tmp_path):
     twin = []
     for time in list_onsets(fit.problem):
         late = wider.hold_values({onset_key("linear_stiffness"): float(time)})
-        low, high = late.log_likelihoods(np.array([zero, one]))
+        low, high = late.log_likelihood(np.array([zero, one]))
         twin.append((high - low) / small)
     assert len(twin) == TIMES
     assert np.abs(found - twin).max() < 0.1 * np.abs(twin).max()
@@ -286,7 +286,7 @@ def test_a_learned_force_is_said_to_look_like_the_law_it_came_from(tmp_path):
     """A force along the motion by formula: one law at a shape of its own, the sum of two, and one of no law."""
     terms = [EndStop(), QuadraticDamping(), CoulombFriction(), CubicStiffness()]
     fit = nominal_of(tmp_path, terms)
-    states = np.ascontiguousarray(fit.problem.smooth(fit.theta).states[:, :2])
+    states = np.ascontiguousarray(fit.problem.filters[0].smooth(fit.theta).states[:, :2])
     x, v = states.T
     stop = -np.sign(x) * np.maximum(np.abs(x) - 0.031, 0.0)
     found = find_likeness(fit.problem, fit.theta, states, 40.0 * stop)
@@ -379,7 +379,7 @@ def test_shapes_have_no_effect_at_amplitude_zero(tmp_path):
         wider = fit.problem.extend(frees, {key})
         tried = list_star_points([list_tried_values(s.param, fit.problem.scales) for s in shapes])
         points = [np.concatenate([fit.theta, np.zeros(len(amplitudes)), values]) for values in tried]
-        found = wider.filter_many(np.array(points))
+        found = wider.innovations(np.array(points))
         plain = fit.problem.innovations(fit.theta)
         assert len(points) > 2
         assert np.allclose(found.errors, plain.errors, rtol=0.0, atol=1e-9 * np.std(plain.errors)), key

@@ -14,9 +14,12 @@ from truths import FORCE, FRICTION, TRUE, observation_of, problem_for, system_of
 from lostmotion.inference.candidates import compute_slopes, fit_term, run_score_test
 from lostmotion.inference.fit import maximise
 from lostmotion.inference.natural import find_term, make_free_parameters
+from lostmotion.likelihood.lanes import Lanes
 from lostmotion.likelihood.latent import smooth_latent_force
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import NOISE, RANDOM, FreeParameter, Problem, Scales
+from lostmotion.likelihood.posterior import Posterior
+from lostmotion.likelihood.space import RANDOM, FreeParameter, ParameterSpace, Scales
+from lostmotion.noises import NOISE
 
 LINEAR = {"m": 2.0, "c": 3.0, "k": 1100.0}
 SAMPLES, DT = 400, 0.01
@@ -32,7 +35,9 @@ def linear_problem(nsub):
     observation = Observation.of("linear", z, push[:, None], DT, "position", held=True)
     system = replace(system_of("linear_oscillator"), terms=())
     free = tuple(FreeParameter(key, "1", 0.0, -math.inf, math.inf) for key in (RANDOM, NOISE))
-    return Problem(system, (observation,), Scales(1.0, 1e-2, 0.05), system.vector(LINEAR), free, nsub=nsub)
+    return Posterior(
+        ParameterSpace(free), (observation,), Lanes(system, nsub=nsub), Scales(1.0, 1e-2, 0.05), system.vector(LINEAR)
+    )
 
 
 THETA = np.array([math.log(FORCE_SD**2 * DT), math.log(NOISE_SD)])
@@ -48,7 +53,7 @@ def kalman(problem, mean_by, cov_by, noise):
             gain = cov[:, 0] / variances[k]
             y = y + gain * errors[k]
             cov = cov - np.outer(gain, gain) * variances[k]
-        for _ in range(problem.nsub):
+        for _ in range(problem.dynamics.nsub):
             y = (mean_by @ np.append(y, observation.inputs[k, 0]))[:2]
             cov = cov_by @ cov @ cov_by.T + noise
     return errors, variances
@@ -56,7 +61,7 @@ def kalman(problem, mean_by, cov_by, noise):
 
 def begun_of(problem):
     """Return mean and covariance of the state at the first sample."""
-    points = problem.points(THETA[None])
+    points = problem.recordings[0].points(THETA[None])
     return points.mean[0], points.covariance[0]
 
 
@@ -124,7 +129,7 @@ def test_term_that_is_null_changes_no_bit(rubbing):
     problem, theta, _ = rubbing
     bare = problem.innovations(theta)
     for key in problem.system.keys:
-        null = replace(problem, active=frozenset({key})).innovations(theta)
+        null = problem.acting({key}).innovations(theta)
         if key == "friction_drift_travel":
             assert null.log_likelihood == pytest.approx(bare.log_likelihood, rel=1e-4)
             continue
@@ -178,8 +183,8 @@ def standardised(seed):
     problem, theta = problem_for(observation_of(1.0, seed=40 + seed, periods=10)[0], ("c", "x0"))
     _, slots = find_term(problem, FRICTION)
     wider = problem.extend(make_free_parameters(slots, problem.scales, {FORCE: 1.0}), {FRICTION})
-    wider = replace(wider, nsub=8)
+    wider = wider.stepped(8)
     fit = maximise(wider, np.append(theta, 1.0))
     truth = {"c": math.log(TRUE["c"]), "x0": math.log(TRUE["x0"]), FORCE: 1.0}
-    estimate, sd = dict(zip(fit.problem.keys, fit.theta, strict=True)), fit.sd
+    estimate, sd = dict(zip(fit.problem.space.keys, fit.theta, strict=True)), fit.sd
     return [(estimate[k] - value) / sd[k] for k, value in truth.items()]

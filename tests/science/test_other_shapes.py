@@ -60,7 +60,7 @@ def waved():
 def test_a_stop_at_the_wrong_end_is_found_at_the_right_one(stopped):
     wrong = with_term(stopped, "end_stop", {"stiffness": 300.0, "travel": 0.008, "side": 0.0})
     best = refit_shapes(wrong)
-    side = best.problem.full(best.theta)[best.problem.system.index["end_stop.side"]]
+    side = best.problem.recordings[0].full(best.theta)[best.problem.system.index["end_stop.side"]]
     assert side == 1.0
     assert best.log_evidence > wrong.log_evidence + 10.0
     assert best.values["end_stop.travel"] == pytest.approx(0.008, rel=0.05)

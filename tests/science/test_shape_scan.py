@@ -51,7 +51,9 @@ def with_ratchet(fit, *more):
     model, registry = fit.problem.system.model, default()
     system = System(model, candidates_of(model, [Ratchet, *(registry.load("term", name) for name in more)]))
     known = system.vector({q.name: fit.problem.known[i] for i, q in enumerate(model.params)})
-    return replace(fit, problem=replace(fit.problem, system=system, known=known))
+    return replace(
+        fit, problem=replace(fit.problem, dynamics=replace(fit.problem.dynamics, system=system), known=known)
+    )
 
 
 def test_a_pitch_far_shorter_than_the_travel_is_scouted():
@@ -73,7 +75,7 @@ def test_many_shapes_together_give_what_each_gives_alone():
     steady = measure_steadiness(motion, "ratchet", shapes)
     for shape, found in list(zip(shapes, steady, strict=True))[::17]:
         size = compute_size(Ratchet.params[0], fit.problem.scales)
-        full = fit.problem.full(fit.theta)
+        full = fit.problem.recordings[0].full(fit.theta)
         mass = full[fit.problem.system.index["m"]]
         law = np.array([Ratchet.force(0.0, x, 0.0, None, (size, *shape.values()), ()) for x in states[:, 0]]) / mass
         parts = np.array_split((law - law.mean()) * gradient, np.linspace(0, len(law), BLOCKS + 1).astype(int)[1:-1])

@@ -55,14 +55,14 @@ def rubbing():
 
 
 def test_one_step_of_a_held_torque_is_one_sample(clean):
-    assert clean.problem.nsub == 1
+    assert clean.problem.dynamics.nsub == 1
     assert clean.status in ("converged", "rough")
 
 
 def test_parameters_are_found_within_their_deviations(clean):
     """Three deviations and a half: a true value is farther in 1 of 700 recordings, for three parameters."""
     for name, true in TRUE.items():
-        assert abs(np.log(true) - clean.theta[clean.problem.keys.index(name)]) < 3.5 * clean.sd[name]
+        assert abs(np.log(true) - clean.theta[clean.problem.space.keys.index(name)]) < 3.5 * clean.sd[name]
         assert clean.sd[name] < 0.01
 
 
@@ -92,7 +92,7 @@ def test_dry_friction_of_the_elbow_is_what_raises_the_likelihood(rubbing):
 def test_a_term_at_a_joint_is_estimated(rubbing):
     problem = rubbing.problem
     key = "coulomb_friction@elbow"
-    free = replace(problem.free[0], key=f"{key}.force", log=False, start=0.3, low=0.0, high=3.0)
-    fit = maximise(replace(problem.extend((free,), (key,)), nsub=4), np.append(rubbing.theta, 0.3))
+    free = replace(problem.space.free[0], key=f"{key}.force", log=False, start=0.3, low=0.0, high=3.0)
+    fit = maximise(problem.extend((free,), (key,)).stepped(4), np.append(rubbing.theta, 0.3))
     assert fit.values[f"{key}.force"] == pytest.approx(0.6, abs=0.03)
     assert fit.local.log_posterior > rubbing.local.log_posterior + 100.0

@@ -59,9 +59,9 @@ def test_its_variance_at_the_first_sample_is_the_square_of_the_yield_force():
     problem = hysteretic().problem
     start = {"bouc_wen_hysteresis.force": YIELD, "bouc_wen_hysteresis.travel": TRAVEL}
     joined = join_term(problem, "bouc_wen_hysteresis", start)
-    twice = joined.start.copy()
-    twice[joined.keys.index("bouc_wen_hysteresis.force")] = 2.0 * YIELD
-    points = joined.points(np.stack([joined.start, twice]), 0)
+    twice = joined.space.start.copy()
+    twice[joined.space.keys.index("bouc_wen_hysteresis.force")] = 2.0 * YIELD
+    points = joined.recordings[0].points(np.stack([joined.space.start, twice]))
     assert np.allclose(points.covariance[:, 2, 2], [YIELD**2, 4.0 * YIELD**2])
     assert math.isclose(points.mean[0, 2], 0.0)
 

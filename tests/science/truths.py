@@ -55,4 +55,4 @@ def problem_for(observation, unknown, *, noise=0.01):
     levels = make_noise_levels((observation,), problem.scales)
     start = {k: np.log(TRUE[k]) for k in unknown}
     start |= {levels[0].key: levels[0].mean, levels[1].key: np.log(noise * np.std(observation.response))}
-    return problem, np.array([start[k] for k in problem.keys])
+    return problem, np.array([start[k] for k in problem.space.keys])

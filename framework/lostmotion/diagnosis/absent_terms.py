@@ -20,7 +20,7 @@ from lostmotion.diagnosis.stages import SearchResult, list_fitted_keys
 from lostmotion.evidence.bounds import ALIKE, NONLINEAR, SizeBound, bound_absent
 from lostmotion.inference.learned import LearnedTerm
 from lostmotion.inference.natural import find_term
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.system import key_of
 from lostmotion.report.words import angles_in, sentence
 from lostmotion.results.absent import AbsentTerm, UnlimitedTerm
@@ -63,7 +63,7 @@ def list_absent(d: SearchResult, found: Iterable[Mechanism], rest: Iterable[Open
     return tuple(told), tuple(_make_unlimited(d, one) for one in others.values())
 
 
-def _is_within(problem: Problem, key: str, curved: Collection[str]) -> bool:
+def _is_within(problem: Posterior, key: str, curved: Collection[str]) -> bool:
     """Return whether a term is a law of the motion at a place where a curve was learned, which may contain it."""
     term, _ = find_term(problem, key)
     return term.acts == "motion" and term.at in curved

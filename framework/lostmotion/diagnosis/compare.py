@@ -14,6 +14,7 @@ from lostmotion.diagnosis.predictive import HeldOutStretch, compute_block_scores
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.locate import compute_autocorrelation, compute_whiteness
 from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.predict import (
     Filtered,
     FreeRuns,
@@ -24,7 +25,6 @@ from lostmotion.likelihood.predict import (
     forecast_pieces,
     predict_freely,
 )
-from lostmotion.likelihood.problem import Problem
 from lostmotion.settings import DEFAULT, HeldOutSettings
 
 STARTS = 150
@@ -76,7 +76,7 @@ def cut_heldout(observations: Sequence[Observation], held: Sequence[Observation]
 def compute_rates(fit: Fit, observations: Sequence[Observation]) -> Array:
     """Return the rates (1/s) at which neighbouring runs diverge under the recorded drive, (pieces,)."""
     problem = fit.problem.on((observations[0],))
-    return compute_growth_rates(problem, fit.theta, problem.begun(fit.theta))
+    return compute_growth_rates(problem, fit.theta, problem.recordings[0].points(fit.theta[None]).mean[0])
 
 
 def average_exponent(rates: Array) -> float:
@@ -216,7 +216,7 @@ def compute_motion_deviation(fit: Fit, pieces: Sequence[HeldOutStretch]) -> floa
 
 
 def _run_freely(
-    problem: Problem, fit: Fit, states: Array, piece: HeldOutStretch, horizon: Horizon
+    problem: Posterior, fit: Fit, states: Array, piece: HeldOutStretch, horizon: Horizon
 ) -> tuple[FreeRuns, ...]:
     """Return free runs of each sensor from starts that are spread over a held-out part."""
     observation = piece.observation

@@ -20,7 +20,8 @@ from lostmotion.inference.curves import add_all_curves
 from lostmotion.inference.fit import Fit, solve_scaled
 from lostmotion.inference.natural import find_term
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import RANDOM, Problem
+from lostmotion.likelihood.posterior import Posterior
+from lostmotion.likelihood.space import RANDOM
 from lostmotion.likelihood.system import Slot
 from lostmotion.report.words import angles_in, format_size, sentence, to_words
 from lostmotion.results import Interval, percent
@@ -53,7 +54,7 @@ def forecast_recordings(nominal: Fit, recordings: Sequence[Observation], rng: np
 def _simulate(nominal: Fit, rng: np.random.Generator) -> Fit | None:
     """Return the nominal fit on a simulated recording with the usual random force; None where it diverges."""
     theta = nominal.theta.copy()
-    for i, f in enumerate(nominal.problem.free):
+    for i, f in enumerate(nominal.problem.space.free):
         if f.parameter == RANDOM:
             theta[i] = min(theta[i], f.mean)
     usual = replace(nominal, local=replace(nominal.local, theta=theta))
@@ -66,7 +67,7 @@ def _simulate(nominal: Fit, rng: np.random.Generator) -> Fit | None:
     return replace(usual, problem=model.pose(excitation, seen), local=moved)
 
 
-def is_static(problem: Problem, key: str) -> bool:
+def is_static(problem: Posterior, key: str) -> bool:
     """Return whether the effect of a term costs no run of the filter."""
     term, _ = find_term(problem, key)
     return term.acts in ("motion", "drive") and not term.states
@@ -92,7 +93,7 @@ def _list_intervals(forecast: Forecast) -> Mapping[str, Interval]:
     found = forecast.found
     sds = np.sqrt(np.maximum(np.diag(found.covariance), 0.0))
     rows = {}
-    for f, at, sd in zip(found.frame.problem.free, found.theta, sds, strict=False):
+    for f, at, sd in zip(found.frame.problem.space.free, found.theta, sds, strict=False):
         if f.physical:
             ends = [f.value(min(max(float(at) + side * NORMAL * float(sd), f.low), f.high)) for side in (-1.0, 1.0)]
             rows[f.key] = Interval(float(f.value(float(at))), float(ends[0]), float(ends[1]), f.unit)
@@ -108,7 +109,7 @@ def _list_pairs(forecast: Forecast) -> tuple[ParameterPair, ...]:
     covariance = solve_scaled(found.precision[:own_count, :own_count], np.eye(own_count))
     sds = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
     correlation = covariance / np.outer(sds, sds)
-    own = [(i, f.key) for i, f in enumerate(found.frame.problem.free[:own_count]) if f.physical]
+    own = [(i, f.key) for i, f in enumerate(found.frame.problem.space.free[:own_count]) if f.physical]
     rows = [
         ParameterPair(one, other, float(np.clip(correlation[i, j], -1.0, 1.0)))
         for (i, one), (j, other) in itertools.combinations(own, 2)
@@ -116,13 +117,13 @@ def _list_pairs(forecast: Forecast) -> tuple[ParameterPair, ...]:
     return tuple(sorted((r for r in rows if abs(r.correlation) > CORRELATED), key=lambda r: -abs(r.correlation)))
 
 
-def name_term(problem: Problem, key: str) -> tuple[str, str]:
+def name_term(problem: Posterior, key: str) -> tuple[str, str]:
     """Return name and place of a term."""
     term, _ = find_term(problem, key)
     return term.name, term.at
 
 
-def _make_detection(problem: Problem, row: Detectable, yardstick: str) -> Detection:
+def _make_detection(problem: Posterior, row: Detectable, yardstick: str) -> Detection:
     term, slots = find_term(problem, row.key)
     shape = list_shape(slots, row.shape)
     share = row.share if math.isfinite(row.share) else None
@@ -142,7 +143,7 @@ def _make_detection(problem: Problem, row: Detectable, yardstick: str) -> Detect
     )
 
 
-def _make_unseen(problem: Problem, row: Detectable) -> UnlimitedTerm:
+def _make_unseen(problem: Posterior, row: Detectable) -> UnlimitedTerm:
     term, _ = find_term(problem, row.key)
     why = "it would hardly show, or as something else"
     if row.alike:
@@ -175,19 +176,19 @@ def describe_shape(shape: Sequence[Slot], values: Mapping[str, float]) -> str:
     return f", for {shown}" if shown else ""
 
 
-def describe_term(problem: Problem, key: str, bounded: Sequence[Slot]) -> str:
+def describe_term(problem: Posterior, key: str, bounded: Sequence[Slot]) -> str:
     """Return a term in words, with its place and its amplitude where there are several."""
     return describe_place(problem, key) + ("" if is_alone(problem, key, bounded) else f" with {name_one(bounded)}")
 
 
-def describe_size(problem: Problem, key: str, bounded: Sequence[Slot], size: float) -> str:
+def describe_size(problem: Posterior, key: str, bounded: Sequence[Slot], size: float) -> str:
     """Return a size with its unit; a number without one is told with its name, unless `describe_term` tells it."""
     text = format_size(size, bounded[0].unit)
     named = bounded[0].unit == "1" and is_alone(problem, key, bounded)
     return f"{name_one(bounded)} of {text}" if named else text
 
 
-def is_alone(problem: Problem, key: str, bounded: Sequence[Slot]) -> bool:
+def is_alone(problem: Posterior, key: str, bounded: Sequence[Slot]) -> bool:
     """Return whether a term has no other amplitude than the bounded ones."""
     _, slots = find_term(problem, key)
     return sum(slot.param.null is not None for slot in slots) == len(bounded)
@@ -199,7 +200,7 @@ def name_one(bounded: Sequence[Slot]) -> str:
     return f"{'an' if name[0] in 'aeiou' else 'a'} {name}"
 
 
-def describe_place(problem: Problem, key: str) -> str:
+def describe_place(problem: Posterior, key: str) -> str:
     """Return the name of a term in words, with its place where the machine has several of its kind."""
     term, _ = find_term(problem, key)
     model, first = problem.system.model, problem.observations[0]

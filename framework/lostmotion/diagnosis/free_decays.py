@@ -136,7 +136,7 @@ Measured = Sequence[tuple[DecayStretch, Decay]]
 def _measure_model(fit: Fit, observation: Observation, measured: Measured) -> list[tuple[DecayStretch, Decay | None]]:
     """Return the decay of a free run of a model from the start of each measured decay; None if it has none."""
     problem = fit.problem.on((observation,))
-    states = problem.smooth(fit.theta).states
+    states = problem.filters[0].smooth(fit.theta).states
     bound = BOUND * float(np.nanmax(np.abs(observation.response)))
     most, found = MOST_CYCLES // len(measured), []
     for stretch, seen in measured:

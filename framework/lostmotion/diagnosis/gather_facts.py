@@ -147,13 +147,13 @@ def _list_sensors(outcome: Outcome) -> tuple[SensorNoise, ...]:
     first, marked = problem.observations[0], {find_term(d.before.problem, key)[0].at for key in d.quantised}
     rows = []
     for i, (sensor, scale) in enumerate(zip(d.shown.sensors, outcome.after.scales, strict=True)):
-        whole, fitted = problem.measurement(theta, 0, i), problem.find_sensor(0, i).noises
-        slow = problem.noise(theta, 0, i).variance_after(first.samples // 2)
+        whole, fitted = problem.recordings[0].measurement(theta, i), problem.recordings[0].sensors[i].noises
+        slow = problem.recordings[0].noise(theta, i).variance_after(first.samples // 2)
         kind = " + ".join(noise.name for noise in fitted[1:]) or fitted[0].name
         if kind == "white" and sensor.place in marked:
             kind = "quantised"
         words = []
-        for noise, values in zip(fitted, problem.noise_values(theta[None], 0, i), strict=True):
+        for noise, values in zip(fitted, problem.recordings[0].noise_values(theta[None], i), strict=True):
             p = tuple(values[0].tolist())
             words.append(noise.words(p, compute_variance(noise.covariance(p, first.dt), first, i) / whole))
         rows.append(
@@ -173,7 +173,7 @@ def _list_sensors(outcome: Outcome) -> tuple[SensorNoise, ...]:
 
 def _list_bounds(fit: Fit) -> Iterator[PriorBound]:
     """Yield the parameters of the model that are at a bound of their prior."""
-    for f, at in zip(fit.problem.free, fit.theta, strict=True):
+    for f, at in zip(fit.problem.space.free, fit.theta, strict=True):
         reach = EDGE * (f.high - f.low)
         if f.physical and "." not in f.parameter and not f.low + reach < at < f.high - reach:
             yield PriorBound(f.key, f.value(f.low if at <= f.low + reach else f.high), f.unit)
@@ -253,7 +253,7 @@ def _list_moved(d: SearchResult, key: str) -> Iterator[AmplitudeChange]:
     if less is None or key not in whole.terms:
         return
     sds = np.sqrt(np.maximum(np.diag(less.covariance), 0.0))
-    for f, at, sd in zip(less.frame.problem.free[: less.frame.own], less.theta, sds, strict=True):
+    for f, at, sd in zip(less.frame.problem.space.free[: less.frame.own], less.theta, sds, strict=True):
         owner, _, name = f.key.rpartition(".")
         if owner and not f.log and f.key in whole.values:
             law = to_words(owner.partition("@")[0])

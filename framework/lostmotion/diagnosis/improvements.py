@@ -29,8 +29,9 @@ from lostmotion.evidence.forecast import Forecast, make_forecast
 from lostmotion.inference.fit import Fit
 from lostmotion.likelihood.noise_levels import make_noise_levels
 from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.predict import observe_states
-from lostmotion.likelihood.problem import NOISE, Problem
+from lostmotion.noises import NOISE
 from lostmotion.quantities import quantity_of, unit_of
 from lostmotion.report.words import to_words
 from lostmotion.results import rounded
@@ -108,7 +109,7 @@ def _choose_excitations(
             yield one
 
 
-def _list_further_channels(problem: Problem) -> list[str]:
+def _list_further_channels(problem: Posterior) -> list[str]:
     """Return the channels of motion that no sensor of a recording shows."""
     first, model = problem.observations[0], problem.system.model
     shown = {sensor.channel for sensor in first.sensors}
@@ -133,17 +134,17 @@ def _read_precision(forecast: Forecast) -> _Precision:
     """Return the expected standard deviations of the physical parameters and of the first amplitudes of terms."""
     found = forecast.found
     sds = np.sqrt(np.maximum(np.diag(found.covariance), 0.0))
-    own = {f.key: float(sd) for f, sd in zip(found.frame.problem.free, sds, strict=False) if f.physical}
+    own = {f.key: float(sd) for f, sd in zip(found.frame.problem.space.free, sds, strict=False) if f.physical}
     places = {key: forecast.joined.blocks[key].start for key in forecast.effects}
     told = {key: float(forecast.information[place, place]) for key, place in places.items()}
     return _Precision(own, {key: value**-0.5 for key, value in told.items() if value > 0.0})
 
 
-def _add_sensor(problem: Problem, theta: Array, channel: str, rng: np.random.Generator) -> tuple[Problem, Array]:
+def _add_sensor(problem: Posterior, theta: Array, channel: str, rng: np.random.Generator) -> tuple[Posterior, Array]:
     """Return a problem with a second sensor, whose noise is as large a share of its readings as that of the first."""
     old = problem.observations[0]
-    share = math.sqrt(problem.measurement(theta, 0, 0)) / max(float(np.nanstd(old.readings[:, 0])), 1e-300)
-    states = problem.smooth(theta).filtered
+    share = math.sqrt(problem.recordings[0].measurement(theta, 0)) / max(float(np.nanstd(old.readings[:, 0])), 1e-300)
+    states = problem.filters[0].smooth(theta).filtered
     sensor = replace(old.sensors[0], channel=channel, name="second", loose=False, noises=old.sensors[0].noises[:1])
     first = replace(old.sensors[0], name=old.sensors[0].label)
     bare = replace(problem, observations=(replace(old, sensors=(sensor,), readings=old.readings[:, :1]),))
@@ -151,15 +152,15 @@ def _add_sensor(problem: Problem, theta: Array, channel: str, rng: np.random.Gen
     seen = seen + share * float(np.std(seen)) * rng.standard_normal(len(seen))
     both = replace(old, sensors=(first, sensor), readings=np.column_stack([old.readings[:, 0], seen]))
     levels = make_noise_levels((both,), problem.scales)
-    kept = [i for i, f in enumerate(problem.free) if f.level != NOISE]
+    kept = [i for i, f in enumerate(problem.space.free) if f.level != NOISE]
     added = [f for f in levels if f.level == NOISE]
     sizes = [share * float(np.nanstd(z)) for z in both.readings.T]
     values = [math.log(size) for f, size in zip(added, sizes, strict=True)]
-    wide = replace(problem, observations=(both,), free=(*(problem.free[i] for i in kept), *added))
+    wide = replace(problem, observations=(both,)).over((*(problem.space.free[i] for i in kept), *added))
     return wide, np.concatenate([theta[kept], values])
 
 
-def _describe_excitation(one: Excitation, old: Observation, problem: Problem) -> str:
+def _describe_excitation(one: Excitation, old: Observation, problem: Posterior) -> str:
     """Return a change of the drive in the imperative."""
     model = problem.system.model
     unit, low, high = unit_of(model.inputs[old.lead], model.motion), *(rounded(f, 3) for f in one.band)
@@ -172,7 +173,7 @@ def _describe_excitation(one: Excitation, old: Observation, problem: Problem) ->
     return f"Drive with a {one.waveform} from {low} to {high} Hz"
 
 
-def _make_improvement(problem: Problem, words: str, one: Excitation, ratios: tuple[float, float]) -> Improvement:
+def _make_improvement(problem: Posterior, words: str, one: Excitation, ratios: tuple[float, float]) -> Improvement:
     model, old = problem.system.model, problem.observations[0]
     return Improvement(
         change=words,

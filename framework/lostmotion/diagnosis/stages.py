@@ -36,7 +36,7 @@ from lostmotion.inference.unexplained import CurveSearch, UnknownForce
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.latent import LatentForce, smooth_latent_force
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.system import System
 from lostmotion.settings import DEFAULT, LocateSettings, Settings
 
@@ -186,12 +186,12 @@ def diagnose(
     return explain_by(explained, replace(first, scale=scale), rng.spawn(1)[0], say)
 
 
-def choose_budget(problem: Problem) -> Budget:
+def choose_budget(problem: Posterior) -> Budget:
     """Return the budget of a search: `select.budget`, or work in proportion to the readings and the states."""
     if problem.settings.select.budget:
         return Budget(seconds=problem.settings.select.budget)
     readings = problem.samples * len(problem.observations[0].sensors)
-    return Budget(steps=STEPS * (1.0 + readings * problem.running.states / PER))
+    return Budget(steps=STEPS * (1.0 + readings * problem.dynamics.states / PER))
 
 
 def explain_by(
@@ -269,7 +269,7 @@ def find_quantised(fit: Fit, observations: Sequence[Observation]) -> dict[str, t
             continue
         for i, sensor in enumerate(observations[0].sensors):
             if sensor.place == term.at and not sensor.quantised:
-                noise = max(fit.problem.measurement(fit.theta, k, i) for k in range(len(observations)))
+                noise = max(fit.problem.recordings[k].measurement(fit.theta, i) for k in range(len(observations)))
                 seen = [term.quantisation(observation.readings[:, i]) for observation in observations]
                 least = fit.problem.settings.locate.quantisation * noise
                 if all(p for p, _ in seen) and term.scatter(seen[0][0]) ** 2 > least:
@@ -288,7 +288,7 @@ def _locate_forces(bare: SearchResult, rng: np.random.Generator) -> SearchResult
     model, plays, limits = after.problem.system.model, list_half_gaps(refined, after.theta), bare.settings.locate
     of_left, of_all = rng, rng.spawn(1)[0]
 
-    def locate_one(problem: Problem, theta: Array, chance: np.random.Generator, fit: Fit) -> ForceLocation:
+    def locate_one(problem: Posterior, theta: Array, chance: np.random.Generator, fit: Fit) -> ForceLocation:
         missing = smooth_latent_force(problem, theta)
         return locate(
             model, shown, missing, plays=plays, rng=chance, odds=lambda: compute_log_ratios(fit), limits=limits
@@ -306,15 +306,15 @@ def _locate_forces(bare: SearchResult, rng: np.random.Generator) -> SearchResult
     return replace(bare, located=located, left=left, law=law, laws=laws, law_curves=curves)
 
 
-def remove_terms(problem: Problem, theta: Array) -> tuple[Problem, Array]:
+def remove_terms(problem: Posterior, theta: Array) -> tuple[Posterior, Array]:
     """Return a problem without its terms and otherwise unchanged, and its coordinates."""
-    kept = [i for i, f in enumerate(problem.free) if "." not in f.parameter]
-    return replace(problem, free=tuple(problem.free[i] for i in kept), active=frozenset()), theta[kept]
+    kept = [i for i, f in enumerate(problem.space.free) if "." not in f.parameter]
+    return problem.over(problem.space.free[i] for i in kept).acting(()), theta[kept]
 
 
-def list_half_gaps(problem: Problem, theta: Array) -> dict[str, float]:
+def list_half_gaps(problem: Posterior, theta: Array) -> dict[str, float]:
     """Return the half gap (m or rad) at each place of the model that has one."""
-    full, system = problem.full(theta), problem.system
+    full, system = problem.recordings[0].full(theta), problem.system
     return {i.name: float(full[system.index[i.play]]) for i in system.model.places if i.play}
 
 
@@ -352,13 +352,15 @@ def locate(
 def compute_force(fit: Fit, observation: Observation, states: Array, key: str) -> Array:
     """Return the force (samples,) of one term of a fit along the smoothed `states` of a recording."""
     problem = fit.problem.on((observation,))
-    system, drive, full = problem.system, problem.drive(0, fit.theta), problem.full(fit.theta)
-    packed = system.pack(full[None], drive.dt / problem.nsub, drive.harmonic)
+    system, recording = problem.system, problem.recordings[0]
+    full = recording.full(fit.theta)
+    drive = recording.drive(full)
+    packed = system.pack(full[None], drive.dt / problem.dynamics.nsub, drive.harmonic)
     times: Array = np.asarray(drive.begin + np.arange(len(states)) * drive.dt, dtype=float)
-    seen, inputs = states[:, : problem.running.states], drive.inputs[: len(states)]
+    seen, inputs = states[:, : problem.dynamics.states], drive.inputs[: len(states)]
     if key not in system.channel_terms:
         return system.compute_force(key, problem.active, packed, (seen, inputs, times))
-    other = replace(problem, active=problem.active - {key}).drive(0, fit.theta).inputs[: len(states)]
+    other = problem.acting(problem.active - {key}).recordings[0].drive(full).inputs[: len(states)]
     both = (system.compute_derivatives(problem.active, packed, seen, u, times)[0] for u in (inputs, other))
     with_term, without = (system.accelerate(rates, system.model.first_place) for rates in both)
     return np.asarray((with_term - without) * system.own_inertia(full, system.model.first_place))
@@ -368,5 +370,5 @@ def list_physical_keys(fit: Fit) -> list[str]:
     """Return the keys of the physical parameters of a fit, without noise levels and coefficients of curves."""
     system = fit.problem.system
     curves = tuple(f"{k}." for k, t in zip(system.keys, system.terms, strict=True) if isinstance(t, LearnedTerm))
-    physical = [f.key for f in fit.problem.free if f.physical]
+    physical = [f.key for f in fit.problem.space.free if f.physical]
     return [k for k in physical if not (curves and k.startswith(curves))]

@@ -55,7 +55,7 @@ def list_arrays(
 
 def _list_units(fit: Fit) -> list[str]:
     """Return the SI unit of each physical parameter of a fit."""
-    units = {free.key: free.unit for free in fit.problem.free}
+    units = {free.key: free.unit for free in fit.problem.space.free}
     return [units[key] for key in list_physical_keys(fit)]
 
 

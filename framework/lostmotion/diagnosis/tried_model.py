@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -12,9 +12,10 @@ from lostmotion.diagnosis.compare import SEGMENT
 from lostmotion.errors import CaseError, ContractError, nearest
 from lostmotion.inference.setup import choose_steps, make_problem
 from lostmotion.likelihood.noise_levels import LEVELS_TRIED, compute_random_level
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.predict import choose_horizon, forecast_pieces
-from lostmotion.likelihood.problem import RANDOM, Problem
 from lostmotion.likelihood.sensors import Sensor
+from lostmotion.likelihood.space import RANDOM
 from lostmotion.likelihood.stepped import make_system
 from lostmotion.preparation.prepare import Prepared
 from lostmotion.settings import DEFAULT, Settings
@@ -43,7 +44,7 @@ class TriedPrediction:
 class TriedModel:
     """The model of a case with all terms that can act in it, on one of its recordings."""
 
-    problem: Problem
+    problem: Posterior
 
     @classmethod
     def of(cls, prepared: Prepared, *, number: int = 0, end: bool = False, settings: Settings = DEFAULT) -> TriedModel:
@@ -56,8 +57,8 @@ class TriedModel:
         part = observation.part(first, min(first + MOST, observation.samples))
         system = make_system(prepared.model, prepared.terms)
         problem = make_problem(system, prepared.case, (part,), jobs=1, settings=settings)
-        levels = tuple(free for free in problem.free if not free.physical)
-        return cls(replace(problem, free=levels))
+        levels = tuple(free for free in problem.space.free if not free.physical)
+        return cls(problem.over(levels))
 
     @property
     def values(self) -> dict[str, float]:
@@ -84,7 +85,7 @@ class TriedModel:
         cycle = choose_horizon(observation, float("nan"), problem.scales.time).unit_time
         length = max(round((SEGMENT * cycle if every is None else every) / observation.dt), 2)
         theta = self._choose_level(problem)
-        states = problem.smooth(theta).filtered[:, : problem.running.states]
+        states = problem.filters[0].smooth(theta).filtered[:, : problem.dynamics.states]
         predicted, restarts = forecast_pieces(problem, theta, states, first, length)
         off = predicted - observation.readings
         scale = np.nanstd(observation.readings[first:], axis=0)
@@ -93,7 +94,7 @@ class TriedModel:
         at = observation.time[restarts > 0.0]
         return TriedPrediction(observation.time, observation.readings, predicted, at, errors, observation.sensors)
 
-    def _set_values(self, values: Mapping[str, float], terms: Collection[str]) -> Problem:
+    def _set_values(self, values: Mapping[str, float], terms: Collection[str]) -> Posterior:
         system = self.problem.system
         for key in terms:
             if key not in system.keys:
@@ -102,15 +103,15 @@ class TriedModel:
             held = {system.slot(name).key: value for name, value in values.items()}
         except ContractError as err:
             raise CaseError(str(err)) from err
-        problem = replace(self.problem.hold_values(held), active=frozenset(terms))
-        return choose_steps(problem, problem.start)
+        problem = self.problem.hold_values(held).acting(terms)
+        return choose_steps(problem, problem.space.start)
 
-    def _choose_level(self, problem: Problem) -> Array:
+    def _choose_level(self, problem: Posterior) -> Array:
         """Return the coordinates with the most likely of some levels of the random force: the filter follows then."""
-        tried = np.repeat(problem.start[None], len(LEVELS_TRIED), axis=0)
-        random = [free.parameter == RANDOM for free in problem.free]
+        tried = np.repeat(problem.space.start[None], len(LEVELS_TRIED), axis=0)
+        random = [free.parameter == RANDOM for free in problem.space.free]
         for row, share in zip(tried, LEVELS_TRIED, strict=True):
             row[random] = compute_random_level(problem.observations, problem.scales, share)
-        tried = problem.clip(tried)
-        chosen: Array = tried[int(np.argmax(problem.log_likelihoods(tried)))]
+        tried = problem.space.clip(tried)
+        chosen: Array = tried[int(np.argmax(problem.log_likelihood(tried)))]
         return chosen

@@ -24,7 +24,7 @@ from lostmotion.inference.proposal import Axis, propose_formula
 from lostmotion.inference.shares import SURROGATES
 from lostmotion.inference.surfaces import OverHistory, Surface
 from lostmotion.inference.unexplained import UnknownForce
-from lostmotion.likelihood.problem import RANDOM
+from lostmotion.likelihood.space import RANDOM
 from lostmotion.quantities import LENGTH, NUMBER, SPEED, TIME, Dimension
 from lostmotion.report.words import to_words
 from lostmotion.results import Interval, join_names, percent, rounded
@@ -132,7 +132,9 @@ def _compute_random_size(fit: Fit, dt: float, unit: str) -> Interval:
     White noise of intensity I has a variance of I / dt in this band. Where each recording has a random force of its
     own, it is the largest.
     """
-    at = max((i for i, f in enumerate(fit.problem.free) if f.parameter == RANDOM), key=lambda i: float(fit.theta[i]))
+    at = max(
+        (i for i, f in enumerate(fit.problem.space.free) if f.parameter == RANDOM), key=lambda i: float(fit.theta[i])
+    )
     half = BAND * math.sqrt(max(float(fit.local.covariance[at, at]), 0.0))
     middle, low, high = (math.exp(0.5 * (float(fit.theta[at]) + shift)) for shift in (0.0, -half, half))
     root = math.sqrt(dt)

@@ -9,7 +9,7 @@ from dataclasses import replace
 from lostmotion.diagnosis.stages import SearchResult
 from lostmotion.inference.natural import find_term
 from lostmotion.inference.sharing import ComparedParameter, SharedValues, compare_recordings
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.quantities import unit_of
 from lostmotion.report.words import chance, figures, sentence, to_words
 from lostmotion.results import Interval
@@ -54,7 +54,7 @@ def _describe_single(many: int) -> Sharing:
     return Sharing(parameters={}, says=(says,))
 
 
-def make_sharing_entry(sharing: SharedValues, problem: Problem) -> Sharing:
+def make_sharing_entry(sharing: SharedValues, problem: Posterior) -> Sharing:
     """Return the content of `sharing`: recordings with their levels, each parameter in each of them, and sentences."""
     motion, levels = problem.system.model.motion, sharing.levels
     names = {key: name_parameter(key, problem) for key in sharing.parameters}
@@ -83,7 +83,7 @@ def _list_own_values(one: ComparedParameter, sharing: SharedValues) -> tuple[Own
     return tuple(OwnValue(name, level, v.median, v.low, v.high, v.unit) for name, level, v in rows)
 
 
-def _describe_released(sharing: SharedValues, problem: Problem) -> str:
+def _describe_released(sharing: SharedValues, problem: Posterior) -> str:
     """Return the gain in log evidence of one value per recording, and whether a learned curve is still needed."""
     others = " and ".join(name_parameter(key, problem) for key in sharing.released)
     curve = ", and no learned curve is needed in addition" if sharing.dropped else ""
@@ -95,7 +95,7 @@ def _make_comparison(one: ComparedParameter, said: str, sharing: SharedValues) -
     return FullComparison(one.holds, one.p, said, one.power, odd)
 
 
-def _extend_entry(entry: Mechanism, key: str, problem: Problem, sharing: SharedValues) -> Mechanism:
+def _extend_entry(entry: Mechanism, key: str, problem: Posterior, sharing: SharedValues) -> Mechanism:
     """Return the entry of a term with the comparison between recordings; unchanged if no value was compared."""
     slots = {s.key: s.param.name for s in find_term(problem, key)[1] if s.key in sharing.parameters}
     if not slots:
@@ -133,7 +133,7 @@ def _warn_of_moved_value(
     )
 
 
-def name_parameter(key: str, problem: Problem) -> str:
+def name_parameter(key: str, problem: Posterior) -> str:
     """Return a parameter in words: `c`, or `force of Coulomb friction` for a parameter of a term."""
     term, _, own = key.rpartition(".")
     if not term:

@@ -148,7 +148,7 @@ def _make_origin(prepared: Prepared, facts: Facts, seed: int) -> Origin:
 def _describe_machine(d: SearchResult, case: CaseFile) -> FittedMachine:
     """Return what is needed to simulate the fitted model again: model, terms, and all values in SI units."""
     problem = d.after.problem
-    system, full = problem.system, problem.full(d.after.theta)
+    system, full = problem.system, problem.recordings[0].full(d.after.theta)
     own = {q.name for q in system.model.params}
     values = {key: float(full[i]) for key, i in system.index.items()}
     terms = zip(system.keys, system.terms, strict=True)

@@ -211,7 +211,7 @@ class BareFits:
 
     def _price(self, fit: Fit, key: str) -> float:
         """Return the log prior odds against one more term."""
-        wider = replace(fit.problem, active=self._join(fit.problem.active, key))
+        wider = fit.problem.acting(self._join(fit.problem.active, key))
         return compute_price(wider, len(self.keys)) - compute_price(fit.problem, len(self.keys))
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,7 +30,7 @@ from lostmotion.inference.fit import solve_scaled
 from lostmotion.inference.natural import compute_size, find_term, sort_slots
 from lostmotion.inference.penalties import is_simpler
 from lostmotion.kernels.threads import each
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.system import Slot
 from lostmotion.likelihood.tangents import Tangents
 from lostmotion.quantities import FORCE
@@ -78,7 +78,7 @@ class AmplitudePosterior:
 def bound_absent(found: Hypothesis, keys: Sequence[str]) -> list[SizeBound]:
     """Return the bounds of the amplitudes of terms that a hypothesis does not have; those of no effect are left out."""
     problem = found.frame.bare(found.at, found.choice)
-    theta = found.at[: len(problem.free)]
+    theta = found.at[: len(problem.space.free)]
     filtered = linearise_all(problem, theta)
     rows = each(lambda key: list(_bound_term(found, problem, filtered, key)), list(keys), problem.jobs)
     return [bound for row in rows for bound in row]
@@ -110,13 +110,13 @@ def _invert(left: Array, scale: Array) -> Array:
     return np.asarray((vectors / np.maximum(values, 1e-12)) @ vectors.T * np.outer(scale, scale))
 
 
-def _bound_term(found: Hypothesis, problem: Problem, filtered: Sequence[Tangents], key: str) -> Iterator[SizeBound]:
+def _bound_term(found: Hypothesis, problem: Posterior, filtered: Sequence[Tangents], key: str) -> Iterator[SizeBound]:
     """Yield the bounds of the amplitudes of a term at its usual shape."""
     shape, (amplitudes, _) = get_usual_shape(problem, key), sort_slots(problem, key)
     groups = list_bounded(problem, key, amplitudes)
     if shape is None or not groups:
         return
-    theta = found.at[: len(problem.free)]
+    theta = found.at[: len(problem.space.free)]
     typical = np.array([compute_size(s.param, problem.scales) for s in amplitudes])
     most = np.array([float(np.max(typical[group])) for group in groups])
     sizes, last = FIRST * typical, np.zeros(len(groups))
@@ -143,7 +143,7 @@ def _bound_term(found: Hypothesis, problem: Problem, filtered: Sequence[Tangents
         yield SizeBound(key, slots, shape, math.inf if reason else float(upper), share, reason)
 
 
-def list_bounded(problem: Problem, key: str, amplitudes: Sequence[Slot]) -> list[list[int]]:
+def list_bounded(problem: Posterior, key: str, amplitudes: Sequence[Slot]) -> list[list[int]]:
     """Return the indices of the amplitudes that are bounded, in groups (`group_amplitudes`).
 
     Beside a simpler law of the model that it contains, a richer law has its further amplitudes only; without any, it
@@ -190,7 +190,9 @@ Amplitudes = tuple[Mapping[str, float], Sequence[Slot], Sequence[int]]
 """The shape of a term, its amplitudes, and the indices of those that are bounded."""
 
 
-def measure_share(problem: Problem, filtered: Sequence[Tangents], key: str, bounded: Amplitudes, upper: float) -> float:
+def measure_share(
+    problem: Posterior, filtered: Sequence[Tangents], key: str, bounded: Amplitudes, upper: float
+) -> float:
     """Return the largest force of a term at its bound over that of the drive; NaN for a sensor, or where none is known.
 
     That of a drive term is the largest change of the input over its amplitude.
@@ -211,9 +213,9 @@ def _measure_one(filtered: Tangents, key: str, term: Term, full: Array) -> float
     problem = filtered.problem
     active = problem.active | {key}
     if term.acts == "drive":
-        changed = replace(problem, active=active).drive_at(full, 0).inputs[: len(filtered.states)] - filtered.inputs
+        changed = problem.acting(active).recordings[0].drive(full).inputs[: len(filtered.states)] - filtered.inputs
         return float(np.max(np.abs(changed[:, filtered.observation.lead]))) / max(filtered.observation.travel, 1e-300)
     observation, system = filtered.observation, problem.system
-    packed = system.pack(full[None], observation.dt / problem.nsub, observation.harmonic)
+    packed = system.pack(full[None], observation.dt / problem.dynamics.nsub, observation.harmonic)
     force = system.compute_force(key, active, packed, (filtered.states, filtered.inputs, observation.time))
     return float(np.max(np.abs(force))) / problem.scales.force

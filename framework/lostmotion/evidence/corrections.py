@@ -99,7 +99,7 @@ def find_corrections(found: Hypothesis) -> Corrections:
     if together or clear.intersection(channels):
         errors = tuple((error, float(found.at[i])) for i, error in zip(channels, frame.errors, strict=True))
     if together or clear.intersection(known):
-        factors = tuple((frame.problem.keys[i], math.exp(_find_size(found, i))) for i in known)
+        factors = tuple((frame.problem.space.keys[i], math.exp(_find_size(found, i))) for i in known)
     return Corrections(errors, factors, tuple(i in clear for i in channels) if errors else (), together)
 
 

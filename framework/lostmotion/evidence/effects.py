@@ -24,7 +24,7 @@ from lostmotion.inference.late import can_have_onset, list_onsets
 from lostmotion.inference.natural import compute_size, find_term, list_star_points, list_tried_values, sort_slots
 from lostmotion.inference.rounding import drop_rounding
 from lostmotion.kernels.threads import each
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.system import Slot, onset_key
 from lostmotion.likelihood.tangents import Tangents, linearise_filter
 
@@ -73,7 +73,7 @@ def list_promises(
     The price of a term with an onset is larger by `dearer`.
     """
     problem = found.frame.bare(found.at, found.choice)
-    theta = found.at[: len(problem.free)]
+    theta = found.at[: len(problem.space.free)]
     filtered = linearise_all(problem, theta)
     before = Quadratic.of(found.frame, found.expansion.curvature).evaluate(found.choice)
 
@@ -110,7 +110,7 @@ def _test_onsets(found: Hypothesis, ever: Promise, effect: TermEffect, less: flo
 
 
 def _list_effects(
-    problem: Problem, theta: Array, filtered: Sequence[Tangents], key: str, more: Sequence[Mapping[str, float]]
+    problem: Posterior, theta: Array, filtered: Sequence[Tangents], key: str, more: Sequence[Mapping[str, float]]
 ) -> Iterator[TermEffect]:
     """Yield the effect of a term at each shape."""
     shapes = sort_slots(problem, key)[1]
@@ -119,7 +119,7 @@ def _list_effects(
     yield from differentiate_term(problem, theta, filtered, key, tried)
 
 
-def get_usual_shape(problem: Problem, key: str) -> Mapping[str, float] | None:
+def get_usual_shape(problem: Posterior, key: str) -> Mapping[str, float] | None:
     """Return the values of the shapes of a term in the middle of their ranges; None where rounding hides it."""
     shapes = sort_slots(problem, key)[1]
     grids = [list_tried_values(s.param, problem.scales) for s in shapes]
@@ -127,13 +127,13 @@ def get_usual_shape(problem: Problem, key: str) -> Mapping[str, float] | None:
     return usual if not shapes or drop_rounding(problem, key, (usual,)) else None
 
 
-def _list_star_shapes(problem: Problem, shapes: Sequence[Slot]) -> list[dict[str, float]]:
+def _list_star_shapes(problem: Posterior, shapes: Sequence[Slot]) -> list[dict[str, float]]:
     """Return the values of shapes that are tried: each over its grid while the others are in their middle."""
     grids = [list_tried_values(s.param, problem.scales) for s in shapes]
     return [dict(zip((s.key for s in shapes), values, strict=True)) for values in list_star_points(grids)]
 
 
-def linearise_all(problem: Problem, theta: Array) -> list[Tangents]:
+def linearise_all(problem: Posterior, theta: Array) -> list[Tangents]:
     """Return the linearised filter of each recording; none where that of one recording does not exist."""
     made = [linearise_filter(problem, theta[None], i) for i in range(len(problem.observations))]
     filtered = [one[0] for one in made if one is not None]
@@ -141,7 +141,7 @@ def linearise_all(problem: Problem, theta: Array) -> list[Tangents]:
 
 
 def differentiate_term(
-    problem: Problem,
+    problem: Posterior,
     theta: Array,
     filtered: Sequence[Tangents],
     key: str,
@@ -178,8 +178,8 @@ def _respond(
     fulls = np.array([set_amplitude(filtered, shape, amplitudes, a, sizes[a]) for shape, a in rows])
     scale = np.array([sizes[a] for _, a in rows])
     if find_term(problem, key)[0].acts == "drive":
-        acting = replace(problem, active=problem.active | {key})
-        moved = [(acting.drive_at(full, 0).inputs[: len(filtered.states)] - filtered.inputs) for full in fulls]
+        acting = problem.acting(problem.active | {key})
+        moved = [(acting.recordings[0].drive(full).inputs[: len(filtered.states)] - filtered.inputs) for full in fulls]
         found = np.concatenate([filtered.respond_to_input(m / s) for m, s in zip(moved, scale, strict=True)])
     else:
         rates, channels = filtered.compute_effects(fulls, problem.active | {key})
@@ -204,7 +204,7 @@ def set_amplitude(
 
 
 def _compute_differences(
-    problem: Problem, theta: Array, key: str, shapes: Sequence[Mapping[str, float]], sizes: Array
+    problem: Posterior, theta: Array, key: str, shapes: Sequence[Mapping[str, float]], sizes: Array
 ) -> tuple[Array, Array]:
     """Return the derivatives (shapes, amplitudes, readings) of errors and variances by runs of the filter."""
     amplitudes, fixed = sort_slots(problem, key)
@@ -214,7 +214,7 @@ def _compute_differences(
     for shape in shapes:
         zero = np.concatenate([theta, np.zeros(count), [shape[s.key] for s in fixed]])
         points += [zero, *(zero + np.eye(len(zero))[own + a] * sizes[a] for a in range(count))]
-    seen = wider.filter_many(np.array(points))
+    seen = wider.innovations(np.array(points))
     errors = seen.errors.reshape(len(shapes), 1 + count, -1)
     variances = seen.variances.reshape(len(shapes), 1 + count, -1)
     told: Any = np.asarray(seen.finite).reshape(len(shapes), 1 + count).all(axis=1)

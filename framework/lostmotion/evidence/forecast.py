@@ -37,7 +37,7 @@ from lostmotion.inference.natural import compute_size, find_term, sort_slots
 from lostmotion.inference.penalties import compute_penalty, is_simpler
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import RANDOM
+from lostmotion.likelihood.space import RANDOM
 from lostmotion.likelihood.system import Slot
 from lostmotion.likelihood.tangents import Tangents
 
@@ -186,7 +186,7 @@ class Forecast:
         problem = frame.bare(frame.start, frame.none)
         sizes = np.array([compute_size(slot.param, problem.scales) for slot in effect.amplitudes]) * FIRST
         sizes[list(group)] = size / math.sqrt(len(group))
-        at = frame.start[: len(problem.free)]
+        at = frame.start[: len(problem.space.free)]
         secant = next(differentiate_term(problem, at, self.filtered, key, (effect.shape,), sizes), None)
         if secant is None:
             return False
@@ -208,7 +208,7 @@ class Forecast:
             return ""
         with np.errstate(divide="ignore", invalid="ignore"):
             cosines = np.abs(cross[:, 0]) / np.sqrt(np.diag(whole)[own] * told[0])
-        physical = [f.physical for f in frame.problem.free[: frame.own]]
+        physical = [f.physical for f in frame.problem.space.free[: frame.own]]
         return frame.names[int(np.argmax(np.where(physical, np.nan_to_num(cosines), 0.0)))]
 
     def _find_size(self, key: str, group: Sequence[int]) -> tuple[float, tuple[str, ...]]:
@@ -332,14 +332,14 @@ def make_forecast(
     Smooth forces are those of the system of the fit, if it has them.
     """
     problem, theta = nominal.problem, nominal.theta.copy()
-    for i, f in enumerate(problem.free):
+    for i, f in enumerate(problem.space.free):
         if f.parameter == RANDOM:
             theta[i] = min(theta[i], f.mean) + raised
     frame = make_frame(problem, theta, list_channel_errors(nominal, recordings))
     steps = nominal.local.steps if len(nominal.local.steps) == frame.own else choose_first_steps(problem)
     found = Hypothesis(frame, frame.expand(frame.start, steps, frame.none), frame.none, 0.0, 0.0, 0.0)
     bare = frame.bare(frame.start, frame.none)
-    at = frame.start[: len(bare.free)]
+    at = frame.start[: len(bare.space.free)]
     filtered = linearise_all(bare, at)
 
     def differentiate(key: str) -> TermEffect | None:

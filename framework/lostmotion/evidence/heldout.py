@@ -33,7 +33,7 @@ def score_heldout(found: Hypothesis, pieces: Sequence[tuple[Observation, int]]) 
 def _score_piece(found: Hypothesis, observation: Observation, begin: int) -> float:
     frame, fitted = found.frame, found.frame.problem
     one = replace(frame, problem=fitted.on((observation,)))
-    steps = choose_first_steps(replace(fitted, free=fitted.free[: frame.own]))
+    steps = choose_first_steps(fitted.over(fitted.space.free[: frame.own]))
     first = begin * len(observation.sensors)
 
     bounds = frame.bounds
@@ -110,7 +110,7 @@ def average_over_posterior(
 def _score_point(frame: JointFrame, found: Hypothesis, at: Array, first: int) -> float:
     """Return the log density of the readings from number `first` on at some coordinates; -inf after a divergence."""
     problem = frame.bare(at, found.choice)
-    seen = problem.innovations(at[: len(problem.free)])
+    seen = problem.innovations(at[: len(problem.space.free)])
     held = replace(seen, errors=seen.errors[first:], variances=seen.variances[first:])
     return float(held.log_likelihood)
 

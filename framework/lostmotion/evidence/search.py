@@ -231,13 +231,13 @@ class ExplanationSearch:
         test = ScoreTest(promise.key, promise.gain, promise.start, 1.0)
         problem = add_term(problem, test, dict(promise.start))
         moved = dict(zip(target.frame.names, (target.at + promise.step).tolist(), strict=True))
-        begin = {f.key: f.start for f in problem.free} | moved
-        begin |= {f.key: f.start for f in problem.free if f.key.startswith(f"{promise.key}.")}
-        theta = problem.clip(np.array([begin[key] for key in problem.keys]))
-        begin |= dict(zip(problem.keys, theta.tolist(), strict=True))
+        begin = {f.key: f.start for f in problem.space.free} | moved
+        begin |= {f.key: f.start for f in problem.space.free if f.key.startswith(f"{promise.key}.")}
+        theta = problem.space.clip(np.array([begin[key] for key in problem.space.keys]))
+        begin |= dict(zip(problem.space.keys, theta.tolist(), strict=True))
         fit = self.bare.fits.get(problem.active) or maximise(problem, theta, tolerance=ROUGHLY)
         if fit.status != "diverged":
-            fit = replace(fit, problem=replace(problem, nsub=max(problem.nsub, fit.problem.nsub)))
+            fit = replace(fit, problem=problem.stepped(max(problem.dynamics.nsub, fit.problem.dynamics.nsub)))
             self.weigh(fit, begin, promise.choice)
 
     def _drop(self, target: Hypothesis, key: str, less: Terms) -> None:
@@ -265,7 +265,7 @@ class ExplanationSearch:
 
     def _get_own_values(self, target: Hypothesis) -> dict[str, float]:
         """Return the own parameters of a hypothesis by key, in their units."""
-        return {f.key: f.value(target.values[f.key]) for f in target.frame.problem.free[: target.frame.own]}
+        return {f.key: f.value(target.values[f.key]) for f in target.frame.problem.space.free[: target.frame.own]}
 
 
 def _leave_out(target: Hypothesis, keys: Iterable[str]) -> dict[str, float]:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from lostmotion.case import CaseFile
 from lostmotion.contracts import Array
 from lostmotion.identification.sampling import SampledPosterior, Task
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.posterior import Posterior
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -36,7 +36,7 @@ def make_groups(
     import xarray as xr
 
     problem = task.posterior
-    if not isinstance(problem, Problem):
+    if not isinstance(problem, Posterior):
         return {}
     told = predict_readings(problem, task.coordinates(result.draws), result.chain.shape[:2], rng)
     prior = xr.Dataset(_draw_prior(case, result, rng))
@@ -44,7 +44,7 @@ def make_groups(
 
 
 def predict_readings(
-    problem: Problem, thetas: Array, shape: tuple[int, int], rng: np.random.Generator
+    problem: Posterior, thetas: Array, shape: tuple[int, int], rng: np.random.Generator
 ) -> dict[str, xr.Dataset]:
     """Return the groups `log_likelihood`, `observed_data` and `posterior_predictive` for points in coordinates.
 
@@ -73,13 +73,13 @@ def predict_readings(
 
 
 def _predict_blocks(
-    problem: Problem, thetas: Array, readings: Array, where: tuple[Indices, Indices], rng: np.random.Generator
+    problem: Posterior, thetas: Array, readings: Array, where: tuple[Indices, Indices], rng: np.random.Generator
 ) -> tuple[Array, Array]:
     """Return the log-likelihood of each block (draws, blocks), and replicates of some readings (draws, shown)."""
     edges, picked = where
     terms, replicates = [], []
     for first in range(0, len(thetas), POINTS_PER_CALL):
-        seen = problem.filter_many(thetas[first : first + POINTS_PER_CALL])
+        seen = problem.innovations(thetas[first : first + POINTS_PER_CALL])
         each = -0.5 * (seen.errors**2 / seen.variances + np.log(2.0 * np.pi * seen.variances))
         terms.append(np.add.reduceat(each, edges, axis=1))
         spread = np.sqrt(seen.variances[:, picked])

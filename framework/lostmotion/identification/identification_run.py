@@ -101,7 +101,11 @@ def _prepare_trajectory(
     watch(0, "looking for the maximum")
     fits = find_best_fits(prepared, terms, rng, order.jobs, order.settings)
     problem = fits[0].problem
-    settings = {"terms": sorted(problem.active), "steps_between_samples": problem.nsub, "sensor": asdict(case.sensor)}
+    settings = {
+        "terms": sorted(problem.active),
+        "steps_between_samples": problem.dynamics.nsub,
+        "sensor": asdict(case.sensor),
+    }
     origin = make_origin(case, order, settings, prepared.inputs)
     notes = (*prepared.notes, *write_mode_notes(len(fits)), *list_short_contacts(fits[0]), *write_warnings(fits[0]))
     model = " + ".join([case.model, *sorted(problem.active)])

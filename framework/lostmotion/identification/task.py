@@ -10,11 +10,13 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.errors import DataError
-from lostmotion.identification.moves import Posterior
+from lostmotion.identification.moves import TargetDensity
 from lostmotion.identification.t_mixture import TMixture
 from lostmotion.inference.fit import Fit
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import NOISE, PACE, RANDOM, FreeParameter, Problem
+from lostmotion.likelihood.posterior import Posterior
+from lostmotion.likelihood.space import PACE, RANDOM, FreeParameter
+from lostmotion.noises import NOISE
 from lostmotion.quantities import unit_of
 
 OFFSET = "offset"
@@ -49,7 +51,7 @@ class Task:
     `digest` is a text that changes with the case and its recordings: a stored chain is continued only if it is equal.
     """
 
-    posterior: Posterior
+    posterior: TargetDensity
     mixture: TMixture
     shown: tuple[ShownCoordinate, ...]
     maximum: Array
@@ -76,12 +78,12 @@ def make_task(fits: Sequence[Fit], digest: str = "") -> Task:
     highest = max(found, key=lambda f: f.local.log_posterior)
     mixture = TMixture.of_modes(
         np.array([f.theta for f in found]),
-        [limit_covariance(f.local.covariance, problem.free) for f in found],
+        [limit_covariance(f.local.covariance, problem.space.free) for f in found],
         compute_mode_weights(np.array([f.log_evidence for f in found])),
-        problem.free,
+        problem.space.free,
     )
     return Task(
-        problem, mixture, tuple(_make_shown_coordinate(f, problem) for f in problem.free), highest.theta, digest
+        problem, mixture, tuple(_make_shown_coordinate(f, problem) for f in problem.space.free), highest.theta, digest
     )
 
 
@@ -109,7 +111,7 @@ def compute_mode_weights(log_evidence: Array) -> Array:
     return np.asarray(weights / weights.sum())
 
 
-def _make_shown_coordinate(free: FreeParameter, problem: Problem) -> ShownCoordinate:
+def _make_shown_coordinate(free: FreeParameter, problem: Posterior) -> ShownCoordinate:
     """Return how a parameter is shown; a random force as the rms (N, N m) of a force held from sample to sample."""
     observation = _find_observation(problem, free.recording or "")
     motion = problem.system.model.motion
@@ -128,6 +130,6 @@ def _make_shown_coordinate(free: FreeParameter, problem: Problem) -> ShownCoordi
     return ShownCoordinate(NOISES[NOISE] + free.key[len(NOISE) :], unit_of(channel, motion), 1.0)
 
 
-def _find_observation(problem: Problem, name: str) -> Observation:
+def _find_observation(problem: Posterior, name: str) -> Observation:
     """Return the recording that a key names, or the first."""
     return next((t for t in problem.observations if t.name == name), problem.observations[0])

@@ -54,7 +54,11 @@ def sample_case(
 
 def make_trajectory_task(prepared: Prepared, fits: Sequence[Fit], terms: tuple[Term, ...]) -> Task:
     """Return the task of sampling around the fits; its digest changes with the case, its recordings and the terms."""
-    used = {"inputs": prepared.inputs, "terms": [key_of(term) for term in terms], "steps": fits[0].problem.nsub}
+    used = {
+        "inputs": prepared.inputs,
+        "terms": [key_of(term) for term in terms],
+        "steps": fits[0].problem.dynamics.nsub,
+    }
     return make_task(fits, json.dumps(used, sort_keys=True))
 
 
@@ -103,13 +107,13 @@ def _apply_case_priors(fit: Fit, case: CaseFile) -> Fit:
     problem = restart(fit)
     names = [observation.name for observation in problem.observations]
     frees = []
-    for free in problem.free:
+    for free in problem.space.free:
         if free.key in case.estimate and "." in free.key:
             given = make_case_parameters(problem.system.slot(free.key), case.estimate[free.key], names)
             frees += [replace(one, start=one.coordinate(free.value(free.start))) for one in given]
         elif free.key not in case.known:
             frees.append(free)
-    return maximise(replace(problem, free=tuple(frees)))
+    return maximise(problem.over(frees))
 
 
 def write_warnings(fit: Fit) -> list[str]:

@@ -36,7 +36,9 @@ from lostmotion.inference.natural import (
     sort_slots,
 )
 from lostmotion.inference.rounding import drop_rounding, find_shortest_wave
-from lostmotion.likelihood.problem import LATEST, FreeParameter, Problem
+from lostmotion.likelihood.posed import LATEST
+from lostmotion.likelihood.posterior import Posterior
+from lostmotion.likelihood.space import FreeParameter
 from lostmotion.likelihood.system import ALWAYS, Slot, onset_key
 from lostmotion.quantities import FORCE, TIME
 
@@ -121,7 +123,7 @@ def _test_secants(fit: Fit, slopes: Sensitivity, key: str, slot: Slot) -> list[S
     problem = fit.problem
     reached = list_tried_values(slot.param, problem.scales)
     wider = problem.extend((hold_shape(slot),), {key})
-    here, seen = slopes.here, wider.filter_many(np.vstack([np.append(slopes.theta, a) for a in reached]))
+    here, seen = slopes.here, wider.innovations(np.vstack([np.append(slopes.theta, a) for a in reached]))
     hints = []
     for i, amplitude in enumerate(reached):
         if not seen.finite[i]:
@@ -145,13 +147,13 @@ def _test_secants(fit: Fit, slopes: Sensitivity, key: str, slot: Slot) -> list[S
     return hints
 
 
-def add_term(problem: Problem, hint: ScoreTest, start: Mapping[str, float]) -> Problem:
+def add_term(problem: Posterior, hint: ScoreTest, start: Mapping[str, float]) -> Posterior:
     """Return a problem with one more term, its choices held at those of the score test."""
     wider = join_term(problem, hint.key, {**hint.start, **start})
-    return replace(wider, nsub=max(wider.nsub, count_steps_for_sticking(wider, wider.start)))
+    return wider.stepped(max(wider.dynamics.nsub, count_steps_for_sticking(wider, wider.space.start)))
 
 
-def join_term(problem: Problem, key: str, start: Mapping[str, float]) -> Problem:
+def join_term(problem: Posterior, key: str, start: Mapping[str, float]) -> Posterior:
     """Return a problem with one more term that begins at `start`, its choices held at the values there."""
     _, slots = find_term(problem, key)
     choices = {s.key: start[s.key] for s in slots if s.key in start and is_choice(s, start)}
@@ -161,7 +163,7 @@ def join_term(problem: Problem, key: str, start: Mapping[str, float]) -> Problem
 
 
 def make_term_parameters(
-    problem: Problem, key: str, slots: list[Slot], start: Mapping[str, float]
+    problem: Posterior, key: str, slots: list[Slot], start: Mapping[str, float]
 ) -> tuple[FreeParameter, ...]:
     """Return the free parameters of a term of a problem; the delay of one of several sensors is bounded.
 
@@ -178,12 +180,12 @@ def make_term_parameters(
     return tuple(replace(f, high=min(f.high, most), start=min(f.start, most)) if f.key in late else f for f in frees)
 
 
-def count_steps_for_sticking(problem: Problem, theta: Array, *, creep: float = CREEP) -> int:
+def count_steps_for_sticking(problem: Posterior, theta: Array, *, creep: float = CREEP) -> int:
     """Return the steps between samples at which a law that jumps at rest hardly creeps during sticking.
 
     Its creep is at most `force * mobility`, which is limited to the share `creep` of the velocity of the motion.
     """
-    system, most, full = problem.system, 1.0, problem.full(theta)
+    system, most, full = problem.system, 1.0, problem.recordings[0].full(theta)
     for key in problem.active:
         term, slots = find_term(problem, key)
         if "mobility" in term.needs:
@@ -217,7 +219,7 @@ def _test_shapes(fit: Fit, slopes: Sensitivity, key: str, shapes: Sequence[Mappi
 
 
 def _join_sensitivities(
-    slopes: Sensitivity, wider: Problem, zeros: Sequence[Array], widths: Sequence[Array], *, shared: bool
+    slopes: Sensitivity, wider: Posterior, zeros: Sequence[Array], widths: Sequence[Array], *, shared: bool
 ) -> list[Sensitivity]:
     """Return the sensitivities of base parameters and amplitudes together, at amplitude zero, for each point.
 
@@ -228,7 +230,7 @@ def _join_sensitivities(
     ups = np.stack([np.tile(zero, (count, 1)) for zero in zeros])
     ups[:, :, base : base + count] += np.stack([np.diag(width) for width in widths])
     below = np.array(zeros[:1] if shared else zeros)
-    seen, found = wider.filter_many(np.vstack([below, ups.reshape(-1, ups.shape[2])])), []
+    seen, found = wider.innovations(np.vstack([below, ups.reshape(-1, ups.shape[2])])), []
     for k, (zero, width) in enumerate(zip(zeros, widths, strict=True)):
         here = seen[0 if shared else k]
         part = seen[len(below) + k * count : len(below) + (k + 1) * count]
@@ -256,7 +258,7 @@ def _solve_from_gradient(
         return ScoreTest(key, 0.0, dict(shape), 0.0)
     k = len(amplitudes)
     base, cross, own = information[:-k, :-k], information[:-k, -k:], information[-k:, -k:]
-    base = base + np.diag(list(map(FreeParameter.prior_information, fit.problem.free, fit.theta)))
+    base = base + np.diag(list(map(FreeParameter.prior_information, fit.problem.space.free, fit.theta)))
     pulled = solve_scaled(base, np.column_stack([cross, gradient[:-k]]))
     schur = own - cross.T @ pulled[:, :k]
     force = gradient[-k:] - cross.T @ pulled[:, k]
@@ -283,7 +285,7 @@ def fit_term(fit: Fit, hint: ScoreTest) -> Fit:
     _, slots = find_term(fit.problem, hint.key)
     begun = restart(fit) if hint.base is None else begin_at(fit.problem, hint.base)
     problems = [add_term(begun, hint, _scale_start(hint, slots, factor)) for factor in SHARES]
-    log_densities = [p.log_posterior(p.clip(p.start)) for p in problems[:2]]
+    log_densities = [p.log_density(p.space.clip(p.space.start)) for p in problems[:2]]
     order = (*np.argsort(log_densities)[::-1], *range(2, len(SHARES)))
     fits: list[Fit] = []
     for i in order:
@@ -302,35 +304,35 @@ def replace_term(fit: Fit, key: str, hint: ScoreTest) -> Fit:
     start = {**hint.start, **{name: value for name, value in shared.items() if value is not None}}
     problem = add_term(restart(fit).remove_term(key, values), hint, start)
     own = [s for s in slots if shared[s.key] is None]
-    begins = np.array([problem.start, *_list_shape_starts(problem, own), *_list_smaller_starts(problem, own)])
-    begins = problem.clip(np.vstack([begins, [raise_random_force(problem, theta, RAISED) for theta in begins]]))
+    begins = np.array([problem.space.start, *_list_shape_starts(problem, own), *_list_smaller_starts(problem, own)])
+    begins = problem.space.clip(np.vstack([begins, [raise_random_force(problem, theta, RAISED) for theta in begins]]))
     fits: list[Fit] = []
-    for i in np.argsort(-problem.log_posteriors(begins))[:MOST_BEGUN].tolist():
+    for i in np.argsort(-problem.log_density(begins))[:MOST_BEGUN].tolist():
         fits.append(maximise(problem, begins[i], tolerance=ROUGHLY))
         if fits[-1].log_likelihood > fit.log_likelihood + max(KEPT * hint.gain, 1.0):
             break
     return max(fits, key=lambda one: one.local.log_posterior)
 
 
-def _list_shape_starts(problem: Problem, slots: Sequence[Slot]) -> Iterator[Array]:
+def _list_shape_starts(problem: Posterior, slots: Sequence[Slot]) -> Iterator[Array]:
     """Yield the start of a problem with one of the shapes among `slots` changed over a thousandfold range.
 
     A shape with a scan is not changed: the scan has covered its range already.
     """
     for slot in slots:
         if slot.param.null is None and slot.param.scale == "log" and not (slot.param.choices or slot.param.scan):
-            at = problem.keys.index(slot.key)
+            at = problem.space.keys.index(slot.key)
             for factor in SPREAD:
-                theta = problem.start.copy()
+                theta = problem.space.start.copy()
                 theta[at] = math.log(factor * compute_size(slot.param, problem.scales))
                 yield theta
 
 
-def _list_smaller_starts(problem: Problem, slots: Sequence[Slot]) -> Iterator[Array]:
+def _list_smaller_starts(problem: Posterior, slots: Sequence[Slot]) -> Iterator[Array]:
     """Yield the start of a problem with smaller amplitudes among `slots`: score tests overestimate some of them."""
-    at = [problem.keys.index(s.key) for s in slots if s.param.null is not None and s.key in problem.keys]
+    at = [problem.space.keys.index(s.key) for s in slots if s.param.null is not None and s.key in problem.space.keys]
     for share in SHARES[1:] if at else ():
-        theta = problem.start.copy()
+        theta = problem.space.start.copy()
         theta[at] *= share
         yield theta
 

@@ -8,11 +8,11 @@ from lostmotion.inference.candidates import join_term
 from lostmotion.inference.fit import Fit, restart
 from lostmotion.inference.late import find_onset
 from lostmotion.inference.natural import find_term
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.system import key_of, onset_key
 
 
-def rewrite_term(fit: Fit, key: str, candidates: Collection[str]) -> Problem | None:
+def rewrite_term(fit: Fit, key: str, candidates: Collection[str]) -> Posterior | None:
     """Return the problem with more common terms in place of one, at the same force; None where it is no sum."""
     term, slots = find_term(fit.problem, key)
     values = fit.values

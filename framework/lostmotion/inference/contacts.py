@@ -13,7 +13,7 @@ def list_short_contacts(fit: Fit) -> list[str]:
     problem, notes = fit.problem, []
     for place in problem.system.model.places:
         for i, observation in enumerate(problem.observations):
-            full = problem.full(fit.theta, i)
+            full = problem.recordings[i].full(fit.theta)
             stiff = full[problem.system.index[place.stiffness]] if place.stiffness and place.play else 0.0
             lasts = np.pi * np.sqrt(problem.system.inertia(full, place) / stiff) if stiff > 0.0 else np.inf
             if lasts < observation.dt:

@@ -18,7 +18,8 @@ from lostmotion.inference.fit import Fit, Sensitivity, compute_robust_covariance
 from lostmotion.inference.learned import LearnedTerm, compute_spread
 from lostmotion.inference.natural import find_term
 from lostmotion.inference.surfaces import RICHER, OverHistory, Surface, list_all_curves
-from lostmotion.likelihood.problem import FreeParameter, Problem
+from lostmotion.likelihood.posterior import Posterior
+from lostmotion.likelihood.space import FreeParameter
 from lostmotion.likelihood.system import System, key_of
 
 SIZES = (0.002, 0.006, 0.02, 0.06, 0.2)
@@ -76,14 +77,14 @@ def add_all_curves(fit: Fit, until: float = 0.0) -> Fit:
     for curve in curves:
         for key, value in _find_ranges(fit, curve, moved, until).items():
             known[system.index[f"{key_of(curve)}.{key}"]] = value
-    return replace(fit, problem=replace(problem, system=system, known=known))
+    return replace(fit, problem=replace(problem, dynamics=replace(problem.dynamics, system=system), known=known))
 
 
 def drop_all_curves(fit: Fit, system: System) -> Fit:
     """Return a fit whose curves are all absent in a system without them; its values are unchanged."""
     problem = fit.problem
     known = system.vector({key: problem.known[problem.system.index[key]] for key in system.index})
-    return replace(fit, problem=replace(problem, system=system, known=known))
+    return replace(fit, problem=replace(problem, dynamics=replace(problem.dynamics, system=system), known=known))
 
 
 Motions = dict[str, list[Array]]
@@ -96,7 +97,7 @@ def smooth_motions(fit: Fit, places: Sequence[Place]) -> Motions:
     found: Motions = {name: [] for name in distinct}
     for observation in problem.observations:
         single = replace(problem.on((observation,)), jobs=1)
-        states, full = single.smooth(fit.theta).filtered, single.full(fit.theta)
+        states, full = single.filters[0].smooth(fit.theta).filtered, single.recordings[0].full(fit.theta)
         for name, place in distinct.items():
             found[name].append(place.move(states, single.observations[0].inputs, problem.system.lever(full, place)))
     return found
@@ -137,7 +138,7 @@ def _find_ends(moved: Array) -> tuple[float, float]:
     return float(low), float(high)
 
 
-def compute_coefficient_size(term: LearnedTerm, problem: Problem) -> float:
+def compute_coefficient_size(term: LearnedTerm, problem: Posterior) -> float:
     """Return the natural size of the coefficients of a curve: the drive, in their dimension."""
     scales = problem.scales
     return term.params[0].dimension.scale(scales.force, scales.length, scales.time)
@@ -178,7 +179,7 @@ def _choose_smoothness(fit: Fit, slopes: Sensitivity, key: str) -> CurveTest:
     return max(options, key=lambda s: s.gain)
 
 
-def _find_curve(problem: Problem, key: str) -> LearnedTerm:
+def _find_curve(problem: Posterior, key: str) -> LearnedTerm:
     term, _ = find_term(problem, key)
     if not isinstance(term, LearnedTerm):
         raise TypeError(f"{key} is no learned curve")
@@ -199,7 +200,7 @@ def join_curve(fit: Fit, slopes: Sensitivity, key: str) -> Sensitivity:
     width = NUDGE * compute_coefficient_size(term, problem)
     wider = add_curve(problem, key, np.full(term.count, math.inf), np.zeros(term.count))
     zero = np.concatenate([slopes.theta, np.zeros(term.count)])
-    seen = wider.filter_many(np.vstack([zero[None], zero + width * np.eye(len(zero))[len(slopes.theta) :]]))
+    seen = wider.innovations(np.vstack([zero[None], zero + width * np.eye(len(zero))[len(slopes.theta) :]]))
     above = np.where(seen.finite[1:], np.arange(1, len(seen)), 0)
     de = (seen.errors[above] - seen.errors[0]) / width
     dv = (seen.variances[above] - seen.variances[0]) / width
@@ -215,8 +216,8 @@ def project_from(fit: Fit, joint: Sensitivity, k: int) -> tuple[Array, Array, Ar
     """
     problem = fit.problem
     gradient, information = joint.gradient(), joint.information()
-    pull = np.array(list(map(FreeParameter.prior_information, problem.free, joint.theta)))
-    gradient[:k] -= pull * (joint.theta[:k] - np.array([f.mean for f in problem.free]))
+    pull = np.array(list(map(FreeParameter.prior_information, problem.space.free, joint.theta)))
+    gradient[:k] -= pull * (joint.theta[:k] - np.array([f.mean for f in problem.space.free]))
     pulled = solve_scaled(information[:k, :k] + np.diag(pull), information[:k, k:])
     own = information[k:, k:]
     told = _keep_independent(gradient[k:] - pulled.T @ gradient[:k], own - information[k:, :k] @ pulled, own)
@@ -239,7 +240,7 @@ def _keep_independent(gradient: Array, left: Array, own: Array) -> tuple[Array, 
     return turned @ (kept.T @ np.linalg.solve(root, gradient)), turned * shares[shares > COVERED] @ turned.T
 
 
-def add_curve(problem: Problem, key: str, widths: Array, start: Array) -> Problem:
+def add_curve(problem: Posterior, key: str, widths: Array, start: Array) -> Posterior:
     """Return a problem with one more curve: coefficients normal about zero with `widths` > 0, begun at `start`."""
     term = _find_curve(problem, key)
     reach = np.where(np.isfinite(widths), 30.0 * widths, 1e3 * compute_coefficient_size(term, problem))
@@ -253,7 +254,7 @@ def fit_curve(fit: Fit, shape: CurveTest) -> Fit:
     """Return the fit with one more curve, started at the estimate of its score test or at a share of it."""
     base = restart(fit).hold_values(shape.known)
     problems = [add_curve(base, shape.key, shape.widths, f * shape.start) for f in (1.0, 0.5, 0.2)]
-    log_densities = [p.log_posterior(p.clip(p.start)) for p in problems]
+    log_densities = [p.log_density(p.space.clip(p.space.start)) for p in problems]
     return maximise(problems[int(np.argmax(log_densities))], rounds=ROUNDS, tolerance=0.3)
 
 
@@ -279,7 +280,7 @@ class Band:
 def compute_band(fit: Fit, key: str, points: int = 161) -> Band:
     """Return a learned curve over the range of the data, with the robust covariance of its coefficients."""
     problem, term = fit.problem, _find_curve(fit.problem, key)
-    places = {name: i for i, name in enumerate(problem.keys)}
+    places = {name: i for i, name in enumerate(problem.space.keys)}
     used = [i for i in range(term.count) if f"{key}.v{i}" in places]
     columns = [places[f"{key}.v{i}"] for i in used]
     beside = None
@@ -296,7 +297,7 @@ def compute_band(fit: Fit, key: str, points: int = 161) -> Band:
     return Band(term, at, basis @ fit.theta[columns], basis @ covariance @ basis.T, beside)
 
 
-def _make_axis(problem: Problem, key: str, over: str, points: int, which: str = "") -> tuple[Array, Array]:
+def _make_axis(problem: Posterior, key: str, over: str, points: int, which: str = "") -> tuple[Array, Array]:
     """Return places (points,) in half widths (half periods) of a range, and their values in its unit (periods)."""
     if over == "phase":
         z = np.linspace(0.0, 2.0, points)

@@ -15,7 +15,8 @@ from lostmotion.contracts import Array
 from lostmotion.inference.fit import HOPELESS, Fit, maximise, raise_random_force, restart
 from lostmotion.inference.natural import compute_size, list_tried_values
 from lostmotion.inference.random_force import compute_random_force_gain
-from lostmotion.likelihood.problem import FreeParameter, Problem
+from lostmotion.likelihood.posterior import Posterior
+from lostmotion.likelihood.space import FreeParameter
 from lostmotion.likelihood.system import Slot
 
 SHORT = 1500
@@ -59,14 +60,14 @@ def try_far_values(fit: Fit, slot: Slot, key: str) -> FarValue | None:
     short, nominal = bottom.problem, bottom.local.log_posterior
     wider = short.extend((hold_shape(slot),), {key})
     theta = raise_random_force(short, bottom.theta, RAISED)
-    log_densities = wider.log_likelihoods(np.array([np.append(theta, value) for value in values]))
+    log_densities = wider.log_likelihood(np.array([np.append(theta, value) for value in values]))
     best: FarValue | None = None
     for i in np.argsort(-log_densities)[:MOST_TRIED]:
         trial = _hold_value(short, slot, key, values[i])
         near = maximise(trial, bottom.theta, rounds=ROUNDS, tolerance=1.0, hopeless=nominal, patience=1)
         refits: list[tuple[Fit, Array | None]] = [(near, None)]
         if scanned:
-            begin = raise_random_force(short, short.start, RAISED_MOST)
+            begin = raise_random_force(short, short.space.start, RAISED_MOST)
             other = maximise(trial, begin, rounds=MORE_ROUNDS, tolerance=1.0, hopeless=nominal - HOPELESS)
             refits.append((other, other.theta))
         for found, base in refits:
@@ -85,10 +86,10 @@ def _shorten(fit: Fit) -> Fit:
     return maximise(restart(replace(fit, problem=short)), fit.theta, rounds=2)
 
 
-def _hold_value(problem: Problem, slot: Slot, key: str, value: float) -> Problem:
+def _hold_value(problem: Posterior, slot: Slot, key: str, value: float) -> Posterior:
     """Return a problem with a term active, and its amplitude held at a value."""
     trial = problem.hold_values({slot.key: value})
-    return replace(trial, active=trial.active | {key})
+    return trial.acting(trial.active | {key})
 
 
 def hold_shape(slot: Slot) -> FreeParameter:

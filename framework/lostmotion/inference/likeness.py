@@ -15,7 +15,7 @@ from lostmotion.contracts import Array
 from lostmotion.inference.learned import LearnedTerm
 from lostmotion.inference.natural import find_term, list_tried_values, sort_slots
 from lostmotion.inference.shape_scan import MOST_SAMPLES, SmoothedMotion, list_shapes
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.posterior import Posterior
 
 MOST_SHAPES = 40
 KEPT = 6
@@ -30,7 +30,7 @@ class Likeness:
     share: float
 
 
-def find_likeness(problem: Problem, theta: Array, states: Array, force: Array) -> Likeness | None:
+def find_likeness(problem: Posterior, theta: Array, states: Array, force: Array) -> Likeness | None:
     """Return the law, or the pair of laws, that approximates a learned force (samples,) along `states` (samples, n).
 
     None where there is none. The problem is of the one recording along which the force is given.
@@ -55,7 +55,7 @@ def find_likeness(problem: Problem, theta: Array, states: Array, force: Array) -
     return Likeness(best, pairs[best]) if best and pairs[best] > problem.settings.unknown.alike_two else None
 
 
-def _list_static(problem: Problem) -> list[str]:
+def _list_static(problem: Posterior) -> list[str]:
     """Return the keys of the forces of the library without states, which are functions of the motion alone."""
     found = []
     for key in problem.system.keys:

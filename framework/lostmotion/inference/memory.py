@@ -14,7 +14,7 @@ import numpy as np
 
 from lostmotion.inference.fit import Fit, maximise, use_cores
 from lostmotion.kernels.threads import each
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.sensor_noise import make_levels, make_sensor_scales
 from lostmotion.likelihood.space import RANDOM
 from lostmotion.noises import AR1, AR1_LEVEL, AR1_MEMORY, NOISE
@@ -26,7 +26,10 @@ def add_same_memory(nominal: Fit, coloured: Fit) -> Fit | None:
     """Return the nominal fit with AR(1) noise of those sensors that have it in another fit."""
     first, found = nominal.problem.observations[0], nominal
     for i in range(len(first.sensors)):
-        if first.level(AR1_LEVEL, i) in coloured.problem.keys and first.level(AR1_LEVEL, i) not in nominal.problem.keys:
+        if (
+            first.level(AR1_LEVEL, i) in coloured.problem.space.keys
+            and first.level(AR1_LEVEL, i) not in nominal.problem.space.keys
+        ):
             more = fit_noise_memory(found, (i,))
             if more is None or more.status == "diverged":
                 return None
@@ -42,13 +45,13 @@ def fit_noise_memory(fit: Fit, sensors: Sequence[int] | None = None) -> Fit | No
     """
     problem, first = fit.problem, fit.problem.observations[0]
     numbers = range(len(first.sensors)) if sensors is None else sensors
-    white = [i for i in numbers if first.level(AR1_LEVEL, i) not in problem.keys]
+    white = [i for i in numbers if first.level(AR1_LEVEL, i) not in problem.space.keys]
     asked = []
     for sensor in white:
         key = first.level(NOISE, sensor)
-        noise = float(np.mean([c for f, c in zip(problem.free, fit.theta, strict=True) if f.parameter == key]))
+        noise = float(np.mean([c for f, c in zip(problem.space.free, fit.theta, strict=True) if f.parameter == key]))
         levels = make_levels(first, sensor, AR1(), make_sensor_scales(first, sensor, noise, problem.scales))
-        wider = replace(problem, free=(*problem.free, *levels))
+        wider = problem.over((*problem.space.free, *levels))
         asked += [(replace(wider, jobs=1), _choose_start(wider, fit, samples)) for samples in STARTS]
     if not asked:
         return None
@@ -65,13 +68,13 @@ def is_memory_supported(plain: Fit, coloured: Fit | None) -> bool:
     return higher and coloured.log_evidence > plain.log_evidence + limits.decisive + 2.0 * limits.further
 
 
-def _choose_start(wider: Problem, fit: Fit, samples: float) -> np.ndarray:
-    theta = np.concatenate([fit.theta, wider.start[len(fit.theta) :]])
-    for i, f in enumerate(wider.free):
+def _choose_start(wider: Posterior, fit: Fit, samples: float) -> np.ndarray:
+    theta = np.concatenate([fit.theta, wider.space.start[len(fit.theta) :]])
+    for i, f in enumerate(wider.space.free):
         if f.level == RANDOM:
             theta[i] = min(theta[i], f.mean)
         if f.level == NOISE:
             theta[i] -= 0.35
         if f.level == AR1_MEMORY and i >= len(fit.theta):
             theta[i] = math.log(samples * wider.observations[0].dt)
-    return wider.clip(theta)
+    return wider.space.clip(theta)

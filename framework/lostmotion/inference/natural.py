@@ -9,7 +9,8 @@ from dataclasses import replace
 import numpy as np
 
 from lostmotion.contracts import Param, Term
-from lostmotion.likelihood.problem import FreeParameter, Problem, Scales
+from lostmotion.likelihood.posterior import Posterior
+from lostmotion.likelihood.space import FreeParameter, Scales
 from lostmotion.likelihood.system import Slot
 from lostmotion.quantities import CURRENT, FORCE, FREQUENCY, LENGTH, SPEED, VOLTAGE, Dimension, quantity_of
 
@@ -27,7 +28,7 @@ SHAPES = (0.3, 1.0, 3.0)
 """The values of a shape parameter that are tried, in units of its typical value."""
 
 
-def find_wave(problem: Problem, key: str) -> Slot | None:
+def find_wave(problem: Posterior, key: str) -> Slot | None:
     """Return the frequency of the wave of a term; None for a term without one."""
     return next((slot for slot in sort_slots(problem, key)[1] if slot.param.wave), None)
 
@@ -71,7 +72,7 @@ def _make_free(slot: Slot, scales: Scales, start: float | None) -> FreeParameter
     return FreeParameter(slot.key, slot.unit, start or 0.0, low, high, mean=0.0, sd=size, tail=TAIL)
 
 
-def find_term(problem: Problem, key: str) -> tuple[Term, list[Slot]]:
+def find_term(problem: Posterior, key: str) -> tuple[Term, list[Slot]]:
     """Return a term of the problem's system and the slots of its parameters."""
     i = problem.system.keys.index(key)
     term, slots = problem.system.terms[i], [s for s in problem.system.slots if s.term == i]
@@ -88,7 +89,7 @@ SHOWN = {
 }
 
 
-def _convert_dimension(problem: Problem, term: Term, slot: Slot) -> Slot:
+def _convert_dimension(problem: Posterior, term: Term, slot: Slot) -> Slot:
     """Return a parameter of a sensor or drive term: a length stands for the channel, a force for the input."""
     first = problem.observations[0]
     if term.acts == "sensor":
@@ -103,13 +104,13 @@ def _convert_dimension(problem: Problem, term: Term, slot: Slot) -> Slot:
     return replace(slot, param=replace(slot.param, dimension=dimension), unit=unit)
 
 
-def sort_slots(problem: Problem, key: str) -> tuple[list[Slot], list[Slot]]:
+def sort_slots(problem: Posterior, key: str) -> tuple[list[Slot], list[Slot]]:
     """Return the slots of the amplitudes of a term, and those of its shapes."""
     _, slots = find_term(problem, key)
     return [s for s in slots if s.param.null is not None], [s for s in slots if s.param.null is None]
 
 
-def collect_shapes(problem: Problem, keys: Iterable[str]) -> list[Slot]:
+def collect_shapes(problem: Posterior, keys: Iterable[str]) -> list[Slot]:
     """Return the slots of the shapes of some terms, in alphabetical order of the terms."""
     return [slot for key in sorted(keys) for slot in sort_slots(problem, key)[1]]
 

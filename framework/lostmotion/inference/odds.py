@@ -45,7 +45,7 @@ from lostmotion.inference.learned import (
 )
 from lostmotion.inference.setup import choose_steps
 from lostmotion.inference.stretches import list_stretches
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.settings import DEFAULT
 
 LEAST = 1e-6
@@ -103,7 +103,7 @@ def _prepare_fit(fit: Fit) -> Fit:
     return replace(fit, problem=short)
 
 
-def _shorten_recordings(problem: Problem) -> Problem:
+def _shorten_recordings(problem: Posterior) -> Posterior:
     share = MOST_SAMPLES / problem.samples
     if share >= 1.0:
         return problem

@@ -41,7 +41,7 @@ def _is_free(fit: Fit, waves: list[str]) -> bool:
     problem, rng = fit.problem, np.random.default_rng(0)
     system, scales = problem.system, problem.scales
     places = [quantity_of(name) == "position" for name in system.model.states]
-    full = problem.full(fit.theta[None])[0]
+    full = problem.recordings[0].full(fit.theta[None])[0]
     states = scales.length * rng.standard_normal((STATES, system.states(problem.active)))
     inputs = problem.observations[0].inputs[rng.integers(0, problem.observations[0].samples, STATES)]
     by = scales.length * float(rng.uniform(0.5, 1.5))

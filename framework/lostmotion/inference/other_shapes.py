@@ -12,7 +12,7 @@ from lostmotion.contracts import Array
 from lostmotion.inference.fit import HOPELESS, ROUGHLY, Fit, hold_free, maximise, raise_random_force, use_one_core
 from lostmotion.inference.natural import collect_shapes, sort_slots
 from lostmotion.kernels.threads import each
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.posterior import Posterior
 
 FACTORS = (0.7, 0.85, 0.93, 1.08, 1.2, 1.4)
 """Shapes that are tried, over the fitted one: a wave that has one period more or less within the travel fits next."""
@@ -28,16 +28,16 @@ NEAR = 0.03
 """Maxima with shapes that differ by less, as a logarithm, are the same one."""
 
 
-def has_other_shapes(problem: Problem) -> bool:
+def has_other_shapes(problem: Posterior) -> bool:
     """Return whether an active term has a shape with a range to be scanned, or with choices."""
     return any(s.param.choices or s.param.scan for s in collect_shapes(problem, problem.active))
 
 
-def list_scanned_shapes(problem: Problem) -> list[int]:
+def list_scanned_shapes(problem: Posterior) -> list[int]:
     """Return the indices among the free parameters of the shapes of active terms that have a range to be scanned."""
     slots = collect_shapes(problem, problem.active)
     keys = {s.key for s in slots if s.param.scan and s.param.scale == "log" and not s.param.choices}
-    return [i for i, key in enumerate(problem.keys) if key in keys]
+    return [i for i, key in enumerate(problem.space.keys) if key in keys]
 
 
 def find_modes(fit: Fit, *, reach: float = math.inf) -> list[Fit]:
@@ -77,9 +77,9 @@ def refit_choices(fit: Fit, keys: Iterable[str]) -> Fit:
     single, problem = use_one_core(fit), fit.problem
     problems = []
     for s in collect_shapes(problem, keys):
-        if s.key in problem.keys:
+        if s.key in problem.space.keys:
             continue
-        now = float(problem.full(fit.theta)[problem.system.index[s.key]])
+        now = float(problem.recordings[0].full(fit.theta)[problem.system.index[s.key]])
         problems += [single.problem.hold_values({s.key: v}) for v in s.param.choices or () if v != now]
     starts = [raise_random_force(one, fit.theta, max(RAISES)) for one in problems]
     hopeless = fit.local.log_posterior - HOPELESS
@@ -90,14 +90,14 @@ def refit_complete(fit: Fit) -> list[Fit]:
     """Return the fit of each law that is complete: an amplitude of an active term is held at its greatest value."""
     problem, found = fit.problem, list[Fit]()
     for slot in (s for key in sorted(problem.active) for s in sort_slots(problem, key)[0]):
-        if math.isfinite(slot.param.high) and slot.key in problem.keys:
-            at = problem.keys.index(slot.key)
+        if math.isfinite(slot.param.high) and slot.key in problem.space.keys:
+            at = problem.space.keys.index(slot.key)
             held = hold_free(problem, at, slot.param.high)
-            found.append(maximise(held, held.clip(np.delete(fit.theta, at))))
+            found.append(maximise(held, held.space.clip(np.delete(fit.theta, at))))
     return [one for one in found if one.status == "converged"]
 
 
-def _maximise_each(problems: Sequence[Problem], starts: Sequence[Array], fit: Fit, hopeless: float) -> list[Fit]:
+def _maximise_each(problems: Sequence[Posterior], starts: Sequence[Array], fit: Fit, hopeless: float) -> list[Fit]:
     """Return the converged fits, best first; those that would stay below a log posterior are abandoned."""
     climb = partial(maximise, hopeless=hopeless, tolerance=ROUGHLY, patience=1)
     found = each(lambda pair: climb(*pair), list(zip(problems, starts, strict=True)), fit.problem.jobs)
@@ -108,7 +108,7 @@ def _scale_shape(fit: Fit, at: int, factor: float, more: float) -> Array:
     """Return the coordinates of a fit with one shape multiplied by a factor, and with a larger random force."""
     theta = raise_random_force(fit.problem, fit.theta, more)
     theta[at] += math.log(factor)
-    return fit.problem.clip(theta)
+    return fit.problem.space.clip(theta)
 
 
 def _are_apart(one: Fit, other: Fit, at: list[int]) -> bool:

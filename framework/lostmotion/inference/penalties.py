@@ -7,7 +7,7 @@ import math
 from lostmotion.contracts import Term
 from lostmotion.inference.late import compute_onset_price
 from lostmotion.inference.natural import find_term
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.settings import DEFAULT, Settings
 
 
@@ -35,7 +35,7 @@ def compute_own_penalty(term: Term, further: float) -> float:
     return term.unlikely + further * (len(term.params) - len(choices) - 1) + sum(math.log(count) for count in choices)
 
 
-def compute_price(problem: Problem, many: int) -> float:
+def compute_price(problem: Posterior, many: int) -> float:
     """Return the log prior penalty of the active terms, out of `many`, and of their onsets."""
     own = [compute_penalty(find_term(problem, key)[0], many, problem.settings) for key in sorted(problem.active)]
     return sum(own) + compute_onset_price(problem)

@@ -16,7 +16,7 @@ import numpy as np
 from lostmotion.inference.candidates import compute_slopes, run_score_test
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.natural import compute_range, compute_size, find_term, sort_slots
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.system import Slot
 from lostmotion.quantities import FREQUENCY
 
@@ -42,12 +42,12 @@ def scan_resonances(fit: Fit) -> dict[str, list[dict[str, float]]]:
     return found
 
 
-def _list_resonances(problem: Problem, key: str) -> list[Slot]:
+def _list_resonances(problem: Posterior, key: str) -> list[Slot]:
     """Return the shapes of a law that are frequencies with a scan."""
     return [s for s in sort_slots(problem, key)[1] if s.param.dimension == FREQUENCY and s.param.scan]
 
 
-def _list_shapes(problem: Problem, key: str) -> list[Mapping[str, float]]:
+def _list_shapes(problem: Posterior, key: str) -> list[Mapping[str, float]]:
     """Return each frequency over its range, with the other shapes at their typical values.
 
     A mode with a third or three times the typical damping keeps most of its gain.
@@ -58,7 +58,7 @@ def _list_shapes(problem: Problem, key: str) -> list[Mapping[str, float]]:
     return [dict(zip((s.key for s in shapes), values, strict=True)) for values in itertools.product(*grids)]
 
 
-def _make_grid(slot: Slot, problem: Problem) -> list[float]:
+def _make_grid(slot: Slot, problem: Posterior) -> list[float]:
     """Return the frequencies (Hz) that are tried."""
     low, high = compute_range(slot.param, problem.scales)
     values: list[float] = np.geomspace(low, high, math.ceil(math.log(high / low) / APART) + 1).tolist()

@@ -8,7 +8,7 @@ from typing import TypeVar
 
 from lostmotion.contracts import SensorTerm
 from lostmotion.inference.natural import find_term
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.posterior import Posterior
 
 Shape = TypeVar("Shape", bound=Mapping[str, float])
 
@@ -16,7 +16,7 @@ ROUNDED = 1.5
 """A wave of a sensor that is no longer than so many steps of its stored values is not tried."""
 
 
-def find_shortest_wave(problem: Problem, key: str) -> float:
+def find_shortest_wave(problem: Posterior, key: str) -> float:
     """Return the length below which a wave of a sensor is the rounding of its stored values; 0 for other terms.
 
     A wave that repeats with every step, or several times in one, predicts that all readings are whole steps.
@@ -31,7 +31,7 @@ def find_shortest_wave(problem: Problem, key: str) -> float:
     return ROUNDED * max(steps, default=0.0)
 
 
-def drop_rounding(problem: Problem, key: str, shapes: Sequence[Shape]) -> list[Shape]:
+def drop_rounding(problem: Posterior, key: str, shapes: Sequence[Shape]) -> list[Shape]:
     """Return the shapes of a term without those that are the rounding of its sensor."""
     least = find_shortest_wave(problem, key)
     return [shape for shape in shapes if not least > 0.0 or min(shape.values(), default=math.inf) > least]

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -22,7 +22,7 @@ from lostmotion.inference.resonance_scan import scan_resonances
 from lostmotion.inference.rounding import drop_rounding
 from lostmotion.inference.setup import choose_steps
 from lostmotion.likelihood.latent import smooth_expected_force
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.system import Slot
 from lostmotion.quantities import LENGTH
 
@@ -46,13 +46,13 @@ class SmoothedMotion:
     `gradient` is the gradient of the log-likelihood with respect to a force on the first body.
     """
 
-    problem: Problem
+    problem: Posterior
     theta: Array
     states: Array
     gradient: Array
 
     @classmethod
-    def of(cls, problem: Problem, theta: Array) -> SmoothedMotion:
+    def of(cls, problem: Posterior, theta: Array) -> SmoothedMotion:
         """Return the motion of the first recording of a problem at coordinates `theta`."""
         states, gradient = smooth_expected_force(problem, theta)
         return cls(problem, theta, np.ascontiguousarray(states[:, : len(problem.system.model.states)]), gradient)
@@ -69,16 +69,16 @@ class SmoothedMotion:
         """
         problem, observation = self.problem, self.problem.observations[0]
         system, term = problem.system, find_term(problem, key)[0]
-        fulls = np.tile(problem.full(self.theta), (len(tried), 1))
+        fulls = np.tile(self._full, (len(tried), 1))
         for full, values in zip(fulls, tried, strict=True):
             full[[system.index[name] for name in values]] = list(values.values())
         if term.acts == "drive":
-            place, acting = system.model.first_place, replace(problem, active=problem.active | {key})
-            changed = (acting.drive_at(full, 0).inputs[: len(self.states)] for full in fulls)
+            place, acting = system.model.first_place, problem.acting(problem.active | {key})
+            changed = (acting.recordings[0].drive(full).inputs[: len(self.states)] for full in fulls)
             driven = [self._rates(self._packed, frozenset(), inputs)[0] for inputs in changed]
             return system.accelerate(np.array(driven), place) - system.accelerate(self._driven[0], place)
         place = place_of(system.model, term)
-        packed = system.pack(fulls, observation.dt / problem.nsub, observation.harmonic)
+        packed = system.pack(fulls, observation.dt / problem.dynamics.nsub, observation.harmonic)
         forced = self._rates(packed, frozenset({key}), observation.inputs)
         return system.accelerate(forced, place) - system.accelerate(self._bare[0], place)
 
@@ -95,11 +95,15 @@ class SmoothedMotion:
         return self.problem.system.compute_each(active, packed, self.states, inputs, times)[0]
 
     @cached_property
+    def _full(self) -> Array:
+        """The full parameter vector of the fit."""
+        return self.problem.recordings[0].full(self.theta)
+
+    @cached_property
     def _packed(self) -> Array:
         """The parameters of the fit without any term."""
         problem, observation = self.problem, self.problem.observations[0]
-        full = problem.full(self.theta)[None]
-        return problem.system.pack(full, observation.dt / problem.nsub, observation.harmonic)
+        return problem.system.pack(self._full[None], observation.dt / problem.dynamics.nsub, observation.harmonic)
 
     @cached_property
     def _bare(self) -> Array:
@@ -109,7 +113,7 @@ class SmoothedMotion:
     @cached_property
     def _driven(self) -> Array:
         """The derivatives (1, samples, n) of the states with the input that acts in the fit, without other terms."""
-        inputs = self.problem.drive(0, self.theta).inputs[: len(self.states)]
+        inputs = self.problem.recordings[0].drive(self._full).inputs[: len(self.states)]
         return self._rates(self._packed, frozenset(), inputs)
 
 
@@ -117,7 +121,7 @@ class SmoothedMotion:
 class SensorErrors:
     """The readings of a sensor: predictions (samples,), and errors over their variances (samples,)."""
 
-    problem: Problem
+    problem: Posterior
     foretold: Array
     gradient: Array
 
@@ -141,7 +145,7 @@ class SensorErrors:
         return np.stack(bends, axis=1)
 
 
-def _make_sensor_errors(problem: Problem, theta: Array, key: str) -> SensorErrors:
+def _make_sensor_errors(problem: Posterior, theta: Array, key: str) -> SensorErrors:
     """Return the predictions and errors of the sensor of a term."""
     observation, seen = problem.observations[0], problem.innovations(theta)
     width = len(observation.sensors)
@@ -192,7 +196,7 @@ def scan_shapes(fit: Fit) -> dict[str, list[dict[str, float]]]:
     return found
 
 
-def list_scannable(problem: Problem) -> list[str]:
+def list_scannable(problem: Posterior) -> list[str]:
     """Return the keys of the terms whose shapes are scanned: those with a free shape that are not active.
 
     They are forces without states, terms of the drive, and terms that make a sensor nonlinear.
@@ -202,7 +206,7 @@ def list_scannable(problem: Problem) -> list[str]:
     return [key for key in (*plain, *problem.system.bending_terms) if _list_free_shapes(problem, key)]
 
 
-def _list_free_shapes(problem: Problem, key: str) -> list[Slot]:
+def _list_free_shapes(problem: Posterior, key: str) -> list[Slot]:
     return [s for s in sort_slots(problem, key)[1] if s.param.scale == "log" and not s.param.choices]
 
 
@@ -223,7 +227,7 @@ def _select_best_shape(motion: SmoothedMotion | SensorErrors, key: str) -> dict[
     return shapes[top] if steady[top] > max(problem.settings.select.shape_steady, least) else None
 
 
-def list_shapes(problem: Problem, key: str, travel: float = 0.0) -> list[dict[str, float]]:
+def list_shapes(problem: Posterior, key: str, travel: float = 0.0) -> list[dict[str, float]]:
     """Return the shapes of a law that are scanned: each free one over its range, the others in the middle.
 
     Lengths are closer for a long `travel`, because a pitch has many periods within it.
@@ -233,7 +237,7 @@ def list_shapes(problem: Problem, key: str, travel: float = 0.0) -> list[dict[st
 
 
 def _list_star_shapes(
-    problem: Problem, key: str, grids: Mapping[str, Array | tuple[float, ...]]
+    problem: Posterior, key: str, grids: Mapping[str, Array | tuple[float, ...]]
 ) -> list[dict[str, float]]:
     """Return shapes with one of them over its grid while the others stay in the middle, each choice with each."""
     shapes = sort_slots(problem, key)[1]
@@ -246,7 +250,7 @@ def _list_star_shapes(
     return tried
 
 
-def _make_grid(slot: Slot, problem: Problem, travel: float) -> Array:
+def _make_grid(slot: Slot, problem: Posterior, travel: float) -> Array:
     """Return the values of a shape that are scanned, over its range."""
     size = compute_size(slot.param, problem.scales)
     low, high = (size * end for end in slot.param.scan or (math.exp(-REACH), math.exp(REACH)))

@@ -25,7 +25,7 @@ from lostmotion.inference.learned import LearnedTerm
 from lostmotion.inference.setup import separate_levels
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.space import FreeParameter, list_keys
 from lostmotion.results import Interval
 from lostmotion.results.shared_values import PowerOfLevel
@@ -133,7 +133,7 @@ def compare_recordings(fit: Fit) -> SharedValues | None:
         for key in curves:
             plain = plain.remove_term(key, fit.values)
         bare, evidence = _release_parameters(
-            separate_levels(maximise(plain, raise_random_force(plain, plain.start, RAISED)), SensorSpec())
+            separate_levels(maximise(plain, raise_random_force(plain, plain.space.start, RAISED)), SensorSpec())
         )
         courses.append((replace(bare, dropped=curves), evidence))
     return max(courses, key=lambda course: course[1])[0]
@@ -164,7 +164,7 @@ def _release_parameters(shared: Fit) -> tuple[SharedValues, float]:
     return SharedValues(names, levels, values, tuple(released), failed, gain=gain), base.log_evidence
 
 
-def list_curves(problem: Problem) -> tuple[str, ...]:
+def list_curves(problem: Posterior) -> tuple[str, ...]:
     """Return the keys of the learned curves that act in a problem."""
     terms = zip(problem.system.keys, problem.system.terms, strict=True)
     return tuple(key for key, term in terms if isinstance(term, LearnedTerm) and key in problem.active)
@@ -173,17 +173,17 @@ def list_curves(problem: Problem) -> tuple[str, ...]:
 def _fit_beginnings(fit: Fit) -> Fit:
     """Return the fit on the beginnings of its recordings, as a problem that starts at its maximum."""
     problem = restart(fit)
-    samples = SAMPLES if len(problem.free) <= MANY else FEWER
+    samples = SAMPLES if len(problem.space.free) <= MANY else FEWER
     most = max(samples // len(problem.observations), 1)
     if all(o.samples <= most for o in problem.observations):
         return replace(fit, problem=problem)
     return maximise(problem.on(tuple(o.part(0, min(o.samples, most)) for o in problem.observations)), rounds=ROUNDS)
 
 
-def _list_tested(problem: Problem) -> tuple[str, ...]:
+def _list_tested(problem: Posterior) -> tuple[str, ...]:
     """Return the names of the parameters that are compared: no noise levels, no coefficients of learned curves."""
     curves = list_curves(problem)
-    names = [f.parameter for f in problem.free if f.physical]
+    names = [f.parameter for f in problem.space.free if f.physical]
     return tuple(dict.fromkeys(name for name in names if name.rpartition(".")[0] not in curves))
 
 
@@ -210,16 +210,16 @@ def fit_separately(base: Fit, key: str) -> SeparateFit | None:
     None where it diverges. Where the case has a value for each recording already, it is the base itself.
     """
     problem = restart(base)
-    index = next(i for i, f in enumerate(problem.free) if f.parameter == key)
-    free, names = problem.free[index], [observation.name for observation in problem.observations]
+    index = next(i for i, f in enumerate(problem.space.free) if f.parameter == key)
+    free, names = problem.space.free[index], [observation.name for observation in problem.observations]
     fit = base
     if free.recording is None:
         own = [replace(free, key=name) for name in list_keys(key, names)]
-        split = replace(problem, free=(*problem.free[:index], *own, *problem.free[index + 1 :]))
+        split = problem.over((*problem.space.free[:index], *own, *problem.space.free[index + 1 :]))
         fit = maximise(split, rounds=ROUNDS)
         if fit.status == "diverged":
             return None
-    columns = [fit.problem.keys.index(name) for name in list_keys(key, names)]
+    columns = [fit.problem.space.keys.index(name) for name in list_keys(key, names)]
     return SeparateFit(
         key,
         fit,

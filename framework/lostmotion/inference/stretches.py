@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.posterior import Posterior
 
 LONG = 12_000
 """From this many samples on, of all recordings together, a search uses stretches of them first."""
@@ -11,7 +11,7 @@ STRETCHES, SOUGHT = 4, 8_000
 """The number of stretches of each recording, evenly spread over it, and the samples of all stretches together."""
 
 
-def cut_stretches(problem: Problem) -> Problem:
+def cut_stretches(problem: Posterior) -> Posterior:
     """Return the problem on stretches of its recordings, or unchanged where they are not long."""
     if problem.samples <= LONG:
         return problem

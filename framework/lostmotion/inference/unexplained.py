@@ -18,7 +18,8 @@ from lostmotion.inference.natural import find_term
 from lostmotion.inference.penalties import compute_penalty, compute_unknown_price
 from lostmotion.inference.random_force import compute_random_force_gain, reduces_random_force
 from lostmotion.inference.surfaces import RICHER
-from lostmotion.likelihood.problem import RANDOM, Problem
+from lostmotion.likelihood.posterior import Posterior
+from lostmotion.likelihood.space import RANDOM
 
 MOST_SAMPLES = 8000
 """Samples on which curves are searched; they are then fitted to all samples."""
@@ -70,7 +71,7 @@ class Search:
             self.visits[fit.problem.active] = (fit, weight)
         return weight
 
-    def price(self, problem: Problem, key: str) -> float:
+    def price(self, problem: Posterior, key: str) -> float:
         """Return the log prior penalty of a term, as in the selection, or of a curve with its chosen smoothness."""
         term, _ = find_term(problem, key)
         if isinstance(term, LearnedTerm):
@@ -186,10 +187,10 @@ def _shorten_fit(fit: Fit) -> Fit:
     return maximise(fit.problem.on(parts), fit.theta, rounds=ROUNDS)
 
 
-def _list_curves(problem: Problem) -> tuple[str, ...]:
+def _list_curves(problem: Posterior) -> tuple[str, ...]:
     pairs = zip(problem.system.keys, problem.system.terms, strict=True)
     active = {key for key, term in pairs if isinstance(term, LearnedTerm) and key in problem.active}
-    seen = dict.fromkeys(f.key.rpartition(".")[0] for f in problem.free)
+    seen = dict.fromkeys(f.key.rpartition(".")[0] for f in problem.space.free)
     return tuple(key for key in seen if key in active)
 
 
@@ -214,13 +215,13 @@ def _changes_named_law(fit: Fit, without: Fit) -> bool:
     """
     old, new = without.values, fit.values
     sizes = [key for key in old if "." in key and key in new and abs(old[key]) > 0.0]
-    amplitudes = [key for key in sizes if not next(f for f in without.problem.free if f.key == key).log]
+    amplitudes = [key for key in sizes if not next(f for f in without.problem.space.free if f.key == key).log]
     kept = fit.problem.settings.unknown.kept
     return any(abs(new[key] - old[key]) > kept * abs(old[key]) for key in amplitudes)
 
 
 def _reduces_random_force(fit: Fit, without: Fit) -> bool:
     """Return whether curves reduce a random force that was above the usual by enough."""
-    limits, at = fit.problem.settings, without.problem.keys.index(RANDOM)
-    usual = without.theta[at] <= without.problem.free[at].mean + 2.0 * math.log(limits.unknown.usual)
+    limits, at = fit.problem.settings, without.problem.space.keys.index(RANDOM)
+    usual = without.theta[at] <= without.problem.space.free[at].mean + 2.0 * math.log(limits.unknown.usual)
     return bool(usual) or reduces_random_force(fit, without, limits.select.share)

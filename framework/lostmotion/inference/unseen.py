@@ -14,7 +14,8 @@ from lostmotion.inference.fit import Fit, LocalExpansion, maximise
 from lostmotion.inference.mixture import compute_nodes, compute_root
 from lostmotion.likelihood.initial import shows_place
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import RANDOM, Problem
+from lostmotion.likelihood.posterior import Posterior
+from lostmotion.likelihood.space import RANDOM
 
 WIDER = 3.0
 """A motion begins within this many standard deviations of its smoothed initial state: the recording is used twice then,
@@ -52,7 +53,7 @@ def smooth_body_position(fit: Fit, observation: Observation) -> BodyPosition:
     nodes = compute_nodes(fit)
     means, variances, weights = [], [], []
     for node in nodes:
-        seen = problem.smooth(node.local.theta)
+        seen = problem.filters[0].smooth(node.local.theta)
         if seen.innovations.finite.all():
             means.append(seen.states[:, first])
             variances.append(np.maximum(seen.covariance[:, first, first], 0.0))
@@ -70,20 +71,20 @@ def smooth_body_position(fit: Fit, observation: Observation) -> BodyPosition:
     )
 
 
-def _compute_parameter_variance(problem: Problem, local: LocalExpansion) -> Array:
+def _compute_parameter_variance(problem: Posterior, local: LocalExpansion) -> Array:
     """Return the variance (samples,) that unknown parameters add to the position at one level of the random force."""
     first = problem.system.model.first_body[0]
-    at = problem.smooth(local.theta).states[:, first]
+    at = problem.filters[0].smooth(local.theta).states[:, first]
     total = np.zeros_like(at)
-    held = np.array([key == RANDOM for key in problem.keys])
+    held = np.array([key == RANDOM for key in problem.space.keys])
     for way in compute_root(local.covariance).T:
-        seen = problem.smooth(problem.clip(local.theta + np.where(held, 0.0, way)))
+        seen = problem.filters[0].smooth(problem.space.clip(local.theta + np.where(held, 0.0, way)))
         if seen.innovations.finite.all():
             total += (seen.states[:, first] - at) ** 2
     return total
 
 
-def lacks_position(problem: Problem) -> bool:
+def lacks_position(problem: Posterior) -> bool:
     """Return whether there is a recording in which no sensor shows a position."""
     return not all(shows_place(observation) for observation in problem.observations)
 
@@ -169,7 +170,7 @@ def _list_shifted_starts(fit: Fit, index: int) -> list[tuple[Array, Array]]:
 def _list_starts_in_play(fit: Fit, index: int) -> list[tuple[Array, Array]]:
     """Return mean and covariance of initial states all over the motion."""
     problem, n = fit.problem, len(fit.problem.system.model.states)
-    unit, now = (problem.scales.length, problem.scales.velocity), problem.points(fit.theta[None], index)
+    unit, now = (problem.scales.length, problem.scales.velocity), problem.recordings[index].points(fit.theta[None])
     mean, covariance = now.mean[0, :n], now.covariance[0, :n, :n].copy()
     body = list(problem.system.model.first_body)
     covariance[body], covariance[:, body] = 0.0, 0.0
@@ -183,7 +184,7 @@ def _list_starts_in_play(fit: Fit, index: int) -> list[tuple[Array, Array]]:
     return [(start, covariance) for start in starts]
 
 
-def _find_start(fit: Fit, starts: Callable[[Fit, int], list[tuple[Array, Array]]]) -> Problem | None:
+def _find_start(fit: Fit, starts: Callable[[Fit, int], list[tuple[Array, Array]]]) -> Posterior | None:
     """Return the problem with other initial states that explain the first samples better; None if there are none.
 
     `starts` returns those that are tried for a recording in which no sensor shows the position.
@@ -204,7 +205,7 @@ def _find_start(fit: Fit, starts: Callable[[Fit, int], list[tuple[Array, Array]]
 
 def _score_openings(fit: Fit, openings: Sequence[Observation]) -> float:
     """Return the log-likelihood of the first samples of all recordings; minus infinity where it diverges."""
-    score = float(fit.problem.on(tuple(openings)).log_likelihoods(fit.theta[None])[0])
+    score = float(fit.problem.on(tuple(openings)).log_likelihood(fit.theta[None])[0])
     return score if math.isfinite(score) else -math.inf
 
 
@@ -213,9 +214,13 @@ def _smooth_start(fit: Fit, observation: Observation, index: int) -> tuple[Obser
     if shows_place(observation):
         return observation, 0.0
     problem, n = fit.problem, len(fit.problem.system.model.states)
-    wide = problem.on(tuple(replace(o, begun=None) for o in problem.observations)).points(fit.theta[None], index)
-    before = problem.begun(fit.theta, index)[:n]
-    seen = problem.smooth(fit.theta, index)
+    wide = (
+        problem.on(tuple(replace(o, begun=None) for o in problem.observations))
+        .recordings[index]
+        .points(fit.theta[None])
+    )
+    before = problem.recordings[index].points(fit.theta[None]).mean[0, :n]
+    seen = problem.filters[index].smooth(fit.theta)
     mean, covariance = seen.states[0, :n], seen.covariance[0, :n, :n]
     if not (np.isfinite(mean).all() and np.isfinite(covariance).all()):
         return observation, 0.0
@@ -238,9 +243,9 @@ def reduce_random_force(fit: Fit) -> Fit:
     An accelerometer sees the random force of the moment. So a large one explains any readings, at any parameters, and a
     search stops at one of many maxima there.
     """
-    if fit.problem.running.random != "held":
+    if fit.problem.dynamics.random != "held":
         return fit
-    at = [i for i, f in enumerate(fit.problem.free) if f.parameter == RANDOM]
+    at = [i for i, f in enumerate(fit.problem.space.free) if f.parameter == RANDOM]
     usual = fit.problem.scales.usual
     for _ in range(AGAIN):
         levels = [usual + more for more in COOLER if usual + more < min(fit.theta[at]) - 1.0]

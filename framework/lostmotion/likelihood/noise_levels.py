@@ -9,11 +9,13 @@ from dataclasses import replace
 import numpy as np
 
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import USUAL, Problem, Scales
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.sensor_noise import make_levels, make_sensor_scales
-from lostmotion.likelihood.space import RANDOM, FreeParameter, list_keys
+from lostmotion.likelihood.space import RANDOM, FreeParameter, Scales, list_keys
 from lostmotion.noises import White
 
+USUAL = 1e-3
+"""The usual noise of a measured excitation as a share of the drive, which is no missing mechanism."""
 LEVELS_TRIED = (0.3, 0.05, 0.008)
 """Random forces, as shares of the drive, at which starting points are compared: with a large one the filter follows the
 readings at any parameters, a small one separates good parameters from bad ones."""
@@ -24,7 +26,7 @@ linearisation, and intervals from long recordings become too narrow (over 24 rec
 with 0.3)."""
 
 
-def compute_usual_level(problem: Problem, rate: float) -> float:
+def compute_usual_level(problem: Posterior, rate: float) -> float:
     """Return the log intensity (N^2 s) of the random force that the usual noise of a measured excitation makes.
 
     The noise of a base motion enters through the stiffness of the joint, with `rate` (1/s) the fastest rate of the
@@ -38,7 +40,7 @@ def compute_usual_level(problem: Problem, rate: float) -> float:
     return math.log(max(size, 1e-300) ** 2 * observation.dt)
 
 
-def compare_drive(problem: Problem, index: int) -> float:
+def compare_drive(problem: Posterior, index: int) -> float:
     """Return the log intensity of the drive of one recording over the common one, to which the usual level refers."""
     observation, first = problem.observations[index], problem.observations[0]
     own, common = _find_drive(observation), _find_common_drive(problem)
@@ -47,7 +49,7 @@ def compare_drive(problem: Problem, index: int) -> float:
     return math.log(((own / common) ** 2 or 1.0) * observation.dt / first.dt) if common else 0.0
 
 
-def _find_common_drive(problem: Problem) -> float:
+def _find_common_drive(problem: Posterior) -> float:
     """Return the amplitude of the drive to which the noise is proportional, for all recordings together."""
     return max([problem.scales.force, *(t.hit_peak for t in problem.observations)])
 
@@ -80,7 +82,7 @@ def make_noise_levels(observations: Sequence[Observation], scales: Scales) -> tu
     return tuple(frees)
 
 
-def make_own_levels(problem: Problem, random: float) -> tuple[FreeParameter, ...]:
+def make_own_levels(problem: Posterior, random: float) -> tuple[FreeParameter, ...]:
     """Return random force and measurement noise of each recording, from a fit with one `random` for all.
 
     The noise of a measured excitation is proportional to its amplitude, so the usual value, the start and the bounds

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from lostmotion.contracts import Array
 from lostmotion.kernels.filter import UNREAD_VARIANCE
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.settings import DEFAULT
 
 WORST = 1e3
@@ -33,7 +33,7 @@ class Filtered:
 
     @property
     def taken(self) -> NDArray[np.bool_]:
-        """Which readings (samples, sensors) were taken; for the others an engine stores a fixed variance."""
+        """Which readings (samples, sensors) were taken; for the others a filter stores a fixed variance."""
         return np.abs(self.variances - UNREAD_VARIANCE) > 1e-12
 
     def expected_score(self, held: slice) -> float:
@@ -61,15 +61,15 @@ class FreeRuns:
         return float(np.median(self.lead[first]))
 
 
-def filter_recording(problem: Problem, theta: Array) -> Filtered:
+def filter_recording(problem: Posterior, theta: Array) -> Filtered:
     """Return the first recording of a problem, filtered at coordinates."""
-    seen = problem.smooth(theta)
+    seen = problem.filters[0].smooth(theta)
     errors, variances = (a[0] for a in (seen.innovations.errors, seen.innovations.variances))
-    return Filtered(seen.filtered[:, : problem.running.states], errors, variances)
+    return Filtered(seen.filtered[:, : problem.dynamics.states], errors, variances)
 
 
 def predict_freely(
-    problem: Problem, theta: Array, states: Array, starts: Array, steps: int, *, index: int = 0
+    problem: Posterior, theta: Array, states: Array, starts: Array, steps: int, *, index: int = 0
 ) -> tuple[FreeRuns, ...]:
     """Return free predictions of `steps` samples of a recording, for each sensor.
 
@@ -91,24 +91,22 @@ def predict_freely(
 
 
 def _simulate_runs(
-    problem: Problem, theta: Array, y0: Array, starts: Array, steps: int, index: int, kicks: Array | None = None
+    problem: Posterior, theta: Array, y0: Array, starts: Array, steps: int, index: int, kicks: Array | None = None
 ) -> Array:
     """Return the states (runs, steps, n) of free runs from `y0` (runs, n) at the sample numbers `starts`."""
-    one = problem.points(theta[None], index).select(np.zeros(len(starts), dtype=np.int64))
+    one = problem.recordings[index].points(theta[None]).select(np.zeros(len(starts), dtype=np.int64))
     begun = replace(one, first=np.asarray(starts, dtype=np.int64))
-    running = problem.running
-    begin = np.ascontiguousarray(y0[:, : running.states])
-    states: Array = problem.engine.simulate(running, begun, begin, steps, kicks)
-    return states
+    begin = np.ascontiguousarray(y0[:, : problem.dynamics.states])
+    return problem.dynamics.simulate(begun, begin, steps, kicks)
 
 
-def simulate_run(problem: Problem, theta: Array, y0: Array, start: int, steps: int, index: int = 0) -> Array:
+def simulate_run(problem: Posterior, theta: Array, y0: Array, start: int, steps: int, index: int = 0) -> Array:
     """Return the states (steps, n) of a free run that begins at sample `start` of a recording."""
     run: Array = _simulate_runs(problem, theta, y0[None], np.array([start]), steps, index)[0]
     return run
 
 
-def forecast_pieces(problem: Problem, theta: Array, states: Array, begin: int, length: int) -> tuple[Array, Array]:
+def forecast_pieces(problem: Posterior, theta: Array, states: Array, begin: int, length: int) -> tuple[Array, Array]:
     """Return free-running predictions (samples, sensors) from sample `begin` on, and where they restart (samples,).
 
     They restart at the filtered `states` (samples, n) after each `length` samples.
@@ -124,7 +122,7 @@ def forecast_pieces(problem: Problem, theta: Array, states: Array, begin: int, l
     return forecast, restarts
 
 
-def simulate_kicked(problem: Problem, theta: Array, y0: Array, kicks: Array, index: int = 0) -> Array:
+def simulate_kicked(problem: Posterior, theta: Array, y0: Array, kicks: Array, index: int = 0) -> Array:
     """Return the states (steps, n) of a run from the first sample, to which `kicks` (steps, n) are added."""
     run: Array = _simulate_runs(problem, theta, y0[None], np.zeros(1, dtype=np.int64), len(kicks), index, kicks[None])[
         0
@@ -133,33 +131,34 @@ def simulate_kicked(problem: Problem, theta: Array, y0: Array, kicks: Array, ind
 
 
 def observe_states(
-    problem: Problem, theta: Array, states: Array, where: tuple[int, int] = (0, 0), sensor: int = 0
+    problem: Posterior, theta: Array, states: Array, where: tuple[int, int] = (0, 0), sensor: int = 0
 ) -> Array:
     """Return the readings of a sensor for the `states` (steps, n), from sample `where[0]` of a recording."""
     system, (start, index) = problem.system, where
-    observation, (gain, offset, lag) = problem.observations[index], problem.compute_gauge(theta, index, sensor)
-    channel, direct = system.shown(observation.sensors[sensor], problem.active)
+    recording, observation = problem.recordings[index], problem.observations[index]
+    shown_by = observation.sensors[sensor]
+    full, (gain, offset, lag) = recording.full(theta), recording.gauge(theta, sensor)
+    channel, direct = system.shown(shown_by, problem.active)
     if direct >= 0:
         shown = states[:, direct]
     else:
-        drive = problem.drive(index, theta)
-        packed = system.pack(problem.full(theta, index)[None], drive.dt / problem.nsub, drive.harmonic)
+        drive = recording.drive(full)
+        packed = system.pack(full[None], drive.dt / problem.dynamics.nsub, drive.harmonic)
         times = drive.begin + (start + np.arange(len(states))) * drive.dt
         inputs = drive.inputs[start : start + len(states)]
         shown = system.compute_derivatives(problem.active, packed, states, inputs, times)[1][:, channel]
     if lag:
         at = np.arange(len(shown)) - lag / observation.dt
         shown = np.interp(at, np.arange(len(shown)), shown, left=shown[0])
-    for term, p in system.at_sensor(problem.full(theta, index), problem.active, observation.sensors[sensor].place):
+    for term, p in system.at_sensor(full, problem.active, shown_by.place):
         shown = term.bent(shown, p)
     seen, when = gain * shown + offset, observation.time[0] + (start + np.arange(len(states))) * observation.dt
-    place = observation.sensors[sensor].place
-    for change in system.changes_at_sensor(problem.full(theta, index), problem.active, place):
+    for change in system.changes_at_sensor(full, problem.active, shown_by.place):
         seen = change.apply(seen, when)
     return np.asarray(seen)
 
 
-def compute_growth_rates(problem: Problem, theta: Array, y0: Array, index: int = 0) -> Array:
+def compute_growth_rates(problem: Posterior, theta: Array, y0: Array, index: int = 0) -> Array:
     """Return the divergence rate (1/s, base e) of neighbouring runs in each piece, (pieces,); empty on failure.
 
     Runs a millionth of the motion apart are renormalised after each piece (Benettin, Galgani, Giorgilli, Strelcyn,
@@ -191,7 +190,7 @@ def compute_growth_rates(problem: Problem, theta: Array, y0: Array, index: int =
 
 
 def _separate_runs(
-    problem: Problem, theta: Array, begun: Array, starts: NDArray[Any], piece: int, unit: Array, index: int
+    problem: Posterior, theta: Array, begun: Array, starts: NDArray[Any], piece: int, unit: Array, index: int
 ) -> Array:
     """Return the derivatives of the final states of a piece over its initial ones, (starts, states, states).
 

@@ -17,9 +17,10 @@ import numpy as np
 
 from lostmotion.contracts import Array, Place
 from lostmotion.kernels.linear_response import respond
-from lostmotion.likelihood.engine import Innovations, KeepingEngine, join_points, make_kept
+from lostmotion.likelihood.innovations import Innovations
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.points import join_points
+from lostmotion.likelihood.posterior import Posterior
 
 REACH = 1e-3
 """Differences of channels are taken over this share of the deviation of a state."""
@@ -36,7 +37,7 @@ class Tangents:
     transition, driving noise and first covariance of the noise states, (states, states) each.
     """
 
-    problem: Problem
+    problem: Posterior
     full: Array
     states: Array
     steps: Array
@@ -67,13 +68,13 @@ class Tangents:
     def compute_effects(self, fulls: Array, active: frozenset[str]) -> tuple[Array, Array]:
         """Return derivatives of states (sets, samples, n) and channels along the states, for some parameter vectors."""
         system, observation = self.problem.system, self.observation
-        packed = system.pack(fulls, observation.dt / self.problem.nsub, observation.harmonic)
+        packed = system.pack(fulls, observation.dt / self.problem.dynamics.nsub, observation.harmonic)
         return system.compute_each(active, packed, self.states, self.inputs, observation.time)
 
     @cached_property
     def inputs(self) -> Array:
         """The inputs (samples, inputs) that act, with the terms of the drive."""
-        return self.problem.drive_at(self.full, 0).inputs[: len(self.states)]
+        return self.problem.recordings[0].drive(self.full).inputs[: len(self.states)]
 
     @cached_property
     def here(self) -> tuple[Array, Array]:
@@ -84,7 +85,7 @@ class Tangents:
     def respond_to_input(self, change: Array) -> Array:
         """Return the derivative (1, samples * sensors) of errors over a `change` (samples, inputs) of the inputs."""
         system, observation = self.problem.system, self.observation
-        packed = system.pack(self.full[None], observation.dt / self.problem.nsub, observation.harmonic)
+        packed = system.pack(self.full[None], observation.dt / self.problem.dynamics.nsub, observation.harmonic)
         moved = self.inputs + UNIT * change
         rates, seen = system.compute_each(self.problem.active, packed, self.states, moved, observation.time)
         return self.respond_to_forces((rates - self.here[0]) / UNIT, (seen - self.here[1]) / UNIT)
@@ -97,7 +98,7 @@ class Tangents:
 
 
 def linearise_filter(
-    problem: Problem, thetas: Array, index: int = 0, changed: Sequence[Observation] = ()
+    problem: Posterior, thetas: Array, index: int = 0, changed: Sequence[Observation] = ()
 ) -> tuple[Tangents, Innovations] | None:
     """Return the linearised filter of a recording at the first of some coordinates, and the innovations at all.
 
@@ -106,20 +107,23 @@ def linearise_filter(
     """
     single = replace(problem.on((problem.observations[index],)), jobs=1)
     changing = single.active & {*single.system.bending_terms, *single.system.rescaling, *single.system.lagging_terms}
-    if changing or not isinstance(single.engine, KeepingEngine) or any(map(any, single.count_delays(thetas))):
+    if changing or any(map(any, single.recordings[0].count_delays(thetas))):
         return None
-    points, view = single.points(thetas), single.view()
+    points, view = single.recordings[0].points(thetas), single.filters[0].view()
     if np.any(points.lag != 0.0):
         return None
-    others = [single.on((other,)) for other in changed]
-    every = join_points([points, *(other.points(thetas[:1]) for other in others)], [view, *(o.view() for o in others)])
-    kept = make_kept(single.running, view.samples)
-    innovations = single.engine.filter_and_keep(single.running, view, every, kept)
+    others = [single.on((other,)).filters[0] for other in changed]
+    shifted = [other.recording.points(thetas[:1]) for other in others]
+    every, kept = (
+        join_points([points, *shifted], [view, *(o.view() for o in others)]),
+        single.dynamics.make_kept(view.samples),
+    )
+    innovations = single.dynamics.filter_and_keep(view, every, kept)
     if not innovations.finite[0]:
         return None
     seen, _, before, ahead, steps = kept
     single, full, gain = single.on((view,)), points.params[0], points.gain[0]
-    n = single.running.states
+    n = single.dynamics.states
     states, shown = seen.shape[1], points.noise.shown[0]
     slopes = np.zeros((*innovations.errors.shape[1:], states + len(shown)))
     slopes[:, :, :states] = _compute_slopes(single, full, before, ahead)
@@ -133,18 +137,9 @@ def linearise_filter(
     return Tangents(single, full, seen[:, :n], steps, ahead, slopes, spread, noise, gain), innovations
 
 
-def join_recordings(parts: Sequence[Innovations]) -> Innovations:
-    """Return the innovations (points, readings) of several recordings in a row."""
-    errors, variances = (
-        np.concatenate([getattr(p, name).reshape(len(p), -1) for p in parts], axis=1)
-        for name in ("errors", "variances")
-    )
-    return Innovations(errors, variances, np.all([p.finite for p in parts], axis=0))
-
-
-def _compute_slopes(problem: Problem, full: Array, states: Array, covariance: Array) -> Array:
+def _compute_slopes(problem: Posterior, full: Array, states: Array, covariance: Array) -> Array:
     """Return the derivatives (samples, sensors, n) of the channels of the sensors over the states of the filter."""
-    running, observation = problem.running, problem.observations[0]
+    running, observation = problem.dynamics, problem.observations[0]
     found = np.zeros((len(states), len(observation.sensors), states.shape[1]))
     shown = [running.system.shown(sensor, running.active) for sensor in observation.sensors]
     for s, (_, direct) in enumerate(shown):
@@ -153,8 +148,8 @@ def _compute_slopes(problem: Problem, full: Array, states: Array, covariance: Ar
     others = [(s, channel) for s, (channel, direct) in enumerate(shown) if direct < 0]
     if not others:
         return found
-    packed = running.system.pack(full[None], observation.dt / problem.nsub, observation.harmonic)
-    inputs = problem.drive_at(full, 0).inputs[: len(states)]
+    packed = running.system.pack(full[None], observation.dt / problem.dynamics.nsub, observation.harmonic)
+    inputs = problem.recordings[0].drive(full).inputs[: len(states)]
     forces = tuple(running.states + i for i in range(running.forces))
     for c in range(states.shape[1]):
         reach = np.sqrt(np.maximum(covariance[:, c, c], 0.0)) + 1e-9 * (1e-300 + np.max(np.abs(states[:, c])))

@@ -20,9 +20,11 @@ from lostmotion.inference.random_force import compute_random_force_gain
 from lostmotion.inference.setup import choose_steps, make_problem, polish_fit, search_maximum, split_heldout
 from lostmotion.inference.unseen import refit_without_position
 from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.predict import Horizon
-from lostmotion.likelihood.problem import NOISE, RANDOM, Problem
+from lostmotion.likelihood.space import RANDOM
 from lostmotion.likelihood.system import System, key_of
+from lostmotion.noises import NOISE
 from lostmotion.preparation.prepare import Prepared
 from lostmotion.results import Interval
 from lostmotion.results.diagnosis import Diagnosis, HeldOutScores, Mechanism
@@ -144,7 +146,7 @@ def _split_wave(size: float, phase: float) -> dict[str, float]:
     return {"cosine": size * math.cos(phase), "sine": -size * math.sin(phase)}
 
 
-def _measure_margin(full: Fit, problem: Problem, found: Sequence[Mechanism]) -> float:
+def _measure_margin(full: Fit, problem: Posterior, found: Sequence[Mechanism]) -> float:
     """Return the log-likelihood of the true model minus that of a model with the found mechanisms instead."""
     keys = {find_key(problem.system, entry.mechanism, entry.at): entry for entry in found}
     if None in keys or set(keys) == set(full.problem.active):
@@ -172,20 +174,20 @@ def _gain_without_term(fit: Fit, effect: Effect) -> float:
     return compute_random_force_gain(fit) if effect.mechanism == "random_force" else math.nan
 
 
-def _pose_at_truth(prepared: Prepared, machine: SealedMachine) -> Problem:
+def _pose_at_truth(prepared: Prepared, machine: SealedMachine) -> Posterior:
     """Return the problem of the fitted data, with the true values and the usual noise as its start."""
     train, _ = split_heldout(prepared.observations)
     problem = make_problem(System(prepared.model, prepared.terms), prepared.case, train, jobs=1)
     free = []
-    for f in problem.free:
+    for f in problem.space.free:
         if f.level == NOISE:
             free.append(replace(f, start=_clip(math.log(machine.measurement_noise), f.low, f.high)))
         elif f.parameter == RANDOM:
             free.append(replace(f, start=_clip(problem.scales.usual, f.low, f.high)))
         else:
             free.append(replace(f, start=f.coordinate(machine.values[f.parameter])))
-    begun = replace(problem, free=tuple(free))
-    return choose_steps(begun, begun.start)
+    begun = problem.over(free)
+    return choose_steps(begun, begun.space.start)
 
 
 def _clip(value: float, low: float, high: float) -> float:
@@ -193,17 +195,17 @@ def _clip(value: float, low: float, high: float) -> float:
     return min(max(value, low), high)
 
 
-def _fit_terms(problem: Problem, acting: Mapping[str, Mapping[str, float]]) -> Fit:
+def _fit_terms(problem: Posterior, acting: Mapping[str, Mapping[str, float]]) -> Fit:
     """Return the best fit with these terms, started at the truth with several levels of the random force."""
     for key, parameters in acting.items():
         problem = _add_term(problem, key, parameters)
-    fits = [maximise(problem, raise_random_force(problem, problem.start, by)) for by in WARM_STARTS]
+    fits = [maximise(problem, raise_random_force(problem, problem.space.start, by)) for by in WARM_STARTS]
     best = max(fits, key=lambda f: f.local.log_posterior)
     again = maximise(restart(best), raise_random_force(problem, best.theta, 1.0))
     return max((best, again), key=lambda f: f.local.log_posterior)
 
 
-def _add_term(problem: Problem, key: str, truth: Mapping[str, float]) -> Problem:
+def _add_term(problem: Posterior, key: str, truth: Mapping[str, float]) -> Posterior:
     """Return the problem with one more term, started at its true parameters where they are known."""
     _, slots = find_term(problem, key)
     return join_term(problem, key, {s.key: truth[s.param.name] for s in slots if s.param.name in truth})
