@@ -51,9 +51,8 @@ def with_ratchet(fit, *more):
     model, registry = fit.problem.system.model, default()
     system = System(model, candidates_of(model, [Ratchet, *(registry.load("term", name) for name in more)]))
     known = system.vector({q.name: fit.problem.known[i] for i, q in enumerate(model.params)})
-    return replace(
-        fit, problem=replace(fit.problem, dynamics=replace(fit.problem.dynamics, system=system), known=known)
-    )
+    dynamics = replace(fit.problem.dynamics, system=system)
+    return replace(fit, problem=replace(fit.problem, dynamics=dynamics, known=known))
 
 
 def test_a_pitch_far_shorter_than_the_travel_is_scouted():
