@@ -39,7 +39,7 @@ from lostmotion.diagnosis.stages import list_half_gaps, locate
 from lostmotion.errors import DataError
 from lostmotion.inference.candidates import compute_slopes, run_score_test
 from lostmotion.inference.odds import LikelihoodRatio, compute_log_ratios, list_likely
-from lostmotion.inference.setup import choose_steps, make_problem, search_maximum
+from lostmotion.inference.setup import choose_steps, make_posterior, search_maximum
 from lostmotion.likelihood.latent import smooth_latent_force
 from lostmotion.likelihood.system import System, key_of
 from lostmotion.preparation.prepare import Prepared, prepare
@@ -148,9 +148,9 @@ def run_machine(kind: str, seed: int, number: int) -> Row:
     names = [key for key in names if effect and effect.at in ("", key.partition("@")[2] or "ground")]
     system = System(made.model, tuple(t for t in made.terms if key_of(t) in names))
     begin = time.perf_counter()
-    fit = search_maximum(make_problem(system, made.case, made.observations, jobs=1), np.random.default_rng(0))
+    fit = search_maximum(make_posterior(system, made.case, made.observations, jobs=1), np.random.default_rng(0))
     fitted = time.perf_counter()
-    honest = choose_steps(fit.problem, fit.theta)
+    honest = choose_steps(fit.posterior, fit.theta)
     missing, plays = smooth_latent_force(honest, fit.theta), list_half_gaps(honest, fit.theta)
     located = locate(made.model, made.observations[0], missing, plays=plays, rng=np.random.default_rng([seed, number]))
     shared = time.perf_counter()

@@ -35,7 +35,7 @@ CASES = {
 }
 
 
-def problem_of(model, values) -> Posterior:
+def posterior_of(model, values) -> Posterior:
     """Return the likelihood of a recording of noise under a model with these values."""
     rng = np.random.default_rng(0)
     drive = np.zeros((SAMPLES, len(model.inputs)))
@@ -53,14 +53,14 @@ def problem_of(model, values) -> Posterior:
 def main() -> None:
     """Print the ratio of the least times, both taken in turn."""
     for name, (texts, values) in CASES.items():
-        problems = [problem_of(m, values) for m in (default().make("model", name), model_of(texts)())]
-        theta = np.tile([f.start for f in problems[0].space.free], (POINTS, 1))
-        told = [problem.log_likelihood(theta) for problem in problems]
+        posteriors = [posterior_of(m, values) for m in (default().make("model", name), model_of(texts)())]
+        theta = np.tile([f.start for f in posteriors[0].space.free], (POINTS, 1))
+        told = [posterior.log_likelihood(theta) for posterior in posteriors]
         times: list[list[float]] = [[], []]
         for _ in range(ROUNDS):
-            for k, problem in enumerate(problems):
+            for k, posterior in enumerate(posteriors):
                 begin = time.perf_counter()
-                problem.log_likelihood(theta)
+                posterior.log_likelihood(theta)
                 times[k].append(time.perf_counter() - begin)
         least = [min(own) for own in times]
         apart = float(np.abs(told[0] - told[1]).max() / np.abs(told[0]).max())

@@ -13,7 +13,7 @@ from lostmotion.likelihood.space import FreeParameter, ParameterSpace
 
 @dataclass(frozen=True)
 class Toy:
-    """A problem whose log-likelihood is a normal bump about `middle` with the spread `sd`."""
+    """A posterior whose log-likelihood is a normal bump about `middle` with the spread `sd`."""
 
     space: ParameterSpace
     middle: np.ndarray
@@ -58,7 +58,7 @@ def test_a_posterior_that_is_cut_in_half_has_half_the_evidence():
 
 def test_where_all_diverges_nothing_is_claimed():
     fit = fit_of([0.0, 0.0], [1.0, 1.0], [-9.0, -9.0], [9.0, 9.0])
-    broken = replace(fit, problem=replace(fit.problem, middle=np.array([np.inf, 0.0])))
+    broken = replace(fit, posterior=replace(fit.posterior, middle=np.array([np.inf, 0.0])))
     check = sample_evidence(broken, np.random.default_rng(2), 50)
     assert check.effective == 0.0
     assert math.isinf(check.error)

@@ -38,8 +38,8 @@ def moved(model):
     return np.stack([0.3 * np.sin(6.0 * t), 1.8 * np.cos(6.0 * t)], axis=1)[:, : len(model.driven)]
 
 
-def problem_of(model, inputs, run=Lanes):
-    """Return the problem of one sensor at the first body, with dry friction in it."""
+def posterior_of(model, inputs, run=Lanes):
+    """Return the posterior of one sensor at the first body, with dry friction in it."""
     system = System.of(Assembly(model) + default().make("term", "coulomb_friction", at=model.interfaces[-1].name))
     key = system.keys[0]
     full = system.vector({**{k: v for k, v in GAP.items() if k in system.index}, f"{key}.force": 0.1})
@@ -53,7 +53,7 @@ def problem_of(model, inputs, run=Lanes):
 def test_inputs_that_a_recording_lacks_are_zero(model):
     inputs = moved(model)
     whole = np.concatenate([inputs, np.zeros((SAMPLES, len(model.inputs) - inputs.shape[1]))], axis=1)
-    narrow, wide = problem_of(model, inputs), problem_of(model, whole)
+    narrow, wide = posterior_of(model, inputs), posterior_of(model, whole)
     assert whole.shape[1] > inputs.shape[1]
     assert narrow.observations[0].inputs.shape == whole.shape
     assert np.isfinite(narrow.log_density(narrow.space.start))
@@ -63,8 +63,8 @@ def test_inputs_that_a_recording_lacks_are_zero(model):
 
 @pytest.mark.parametrize("model", MODELS)
 def test_motion_and_derivatives_take_fewer_inputs(model):
-    system, inputs = problem_of(model, moved(model)).system, moved(model)
-    full = problem_of(model, inputs).known
+    system, inputs = posterior_of(model, moved(model)).system, moved(model)
+    full = posterior_of(model, inputs).known
     whole = np.concatenate([inputs, np.zeros((SAMPLES, len(model.inputs) - inputs.shape[1]))], axis=1)
     start = np.full(len(model.states), 0.05)
     runs = [system.simulate(full, system.keys, start, Drive.held(u, DT), 4).states for u in (inputs, whole)]
@@ -80,9 +80,9 @@ def test_motion_and_derivatives_take_fewer_inputs(model):
 
 @pytest.mark.parametrize("model", MODELS)
 def test_a_harmonic_drive_moves_the_first_input_alone(model):
-    problem = problem_of(model, moved(model))
-    values = {slot.key: float(problem.known[i]) for i, slot in enumerate(problem.system.slots)}
-    flow = make_stepped_flow(problem.system, values, drive=Harmonic(0.3, 6.0, 0.2), steps=100)
+    posterior = posterior_of(model, moved(model))
+    values = {slot.key: float(posterior.known[i]) for i, slot in enumerate(posterior.system.slots)}
+    flow = make_stepped_flow(posterior.system, values, drive=Harmonic(0.3, 6.0, 0.2), steps=100)
     inputs = flow._make_inputs(4, flow.period / 4).reshape(4, 3, -1)[:, 0]
     angle = 2.0 * np.pi * np.arange(4) / 4 + 0.2
     np.testing.assert_allclose(inputs[:, 0], 0.3 * np.cos(angle), atol=1e-15)
@@ -99,7 +99,7 @@ def test_lanes_and_matrices_agree_on_a_place_with_a_lever():
     for run in (Lanes, Reference):
         system = System.of(Assembly(model) + default().make("term", "coulomb_friction", at="mesh"))
         full = system.vector({**GAP, "ratio": 3.0, "coulomb_friction@mesh.force": 0.2})
-        rough = problem_of(model, moved(model), run)
+        rough = posterior_of(model, moved(model), run)
         whole = replace(rough, dynamics=run(system, frozenset(system.keys)), known=full)
         found.append(whole.innovations(whole.space.start))
     np.testing.assert_allclose(found[0].errors, found[1].errors, rtol=1e-8, atol=1e-11)

@@ -103,7 +103,7 @@ def test_a_late_drive_is_known_at_the_first_samples():
     force = np.cos(omega * t + 0.9)[:, None]
     observation = replace(Observation.of("run", shown, force, DT, "acceleration"), begun=begun)
     frees = (FreeParameter(RANDOM, "1", -40.0, -60.0, 5.0), FreeParameter(NOISE, "1", math.log(noise), -20.0, 3.0))
-    problem = Posterior(
+    posterior = Posterior(
         ParameterSpace(frees),
         (observation,),
         Lanes(system, frozenset({"excitation_delay"})),
@@ -111,5 +111,5 @@ def test_a_late_drive_is_known_at_the_first_samples():
         known,
     )
     mean = -SAMPLES * (math.log(noise) + 0.5 * math.log(2.0 * math.pi) + 0.5)
-    found = float(problem.log_likelihood(problem.space.start[None])[0])
+    found = float(posterior.log_likelihood(posterior.space.start[None])[0])
     assert abs(found - mean) < 4.0 * math.sqrt(0.5 * SAMPLES)

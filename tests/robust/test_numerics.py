@@ -231,7 +231,7 @@ def test_a_free_run_that_leaves_all_bounds_errs_by_the_most(monkeypatch):
         settings = DEFAULT
         observations = (Observation.of("still", np.array([1.0, 2.0, 3.0, 5.0]), np.zeros((4, 1)), 1.0, "position"),)
 
-    def observed(problem, theta, states, where=(0, 0), sensor=0):
+    def observed(posterior, theta, states, where=(0, 0), sensor=0):
         return np.array([0.0, 1e200, np.nan])
 
     monkeypatch.setattr(predict, "_simulate_runs", lambda *args: np.zeros((1, 3, 2)))

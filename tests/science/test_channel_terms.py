@@ -58,8 +58,10 @@ def explained(response, seed):
     free = FreeParameter("c", "N s/m", math.log(C), math.log(0.05), math.log(4.0), log=True)
     known = system.vector({"m": M, "c": C, "k": K})
     space = ParameterSpace((free, *make_noise_levels((observation,), scales)))
-    problem = Posterior(space, (observation,), Lanes(system, nsub=2), scales, known)
-    fits = [maximise(problem, np.array([math.log(C), level, problem.space.start[-1]])) for level in (scales.usual, 0.0)]
+    posterior = Posterior(space, (observation,), Lanes(system, nsub=2), scales, known)
+    fits = [
+        maximise(posterior, np.array([math.log(C), level, posterior.space.start[-1]])) for level in (scales.usual, 0.0)
+    ]
     nominal = max(fits, key=lambda f: f.local.log_posterior)
     return explain(nominal, system.keys)
 
@@ -119,7 +121,7 @@ RIPPLE, PITCH = 0.02, 0.3
 
 
 def rippled(seed):
-    """Return a problem with a wave of a sensor as large as its noise, which is added after the wave."""
+    """Return a posterior with a wave of a sensor as large as its noise, which is added after the wave."""
     rng, (cosine, sine, pitch), t = np.random.default_rng(seed), (0.0, RIPPLE, PITCH), np.arange(SAMPLES) * DT
     readings = PositionRipple.bent(moved(), (cosine, sine, pitch)) + RIPPLE * rng.standard_normal(SAMPLES)
     force = sum(a * np.cos(w * t) for a, w in TONES)
@@ -138,20 +140,20 @@ def test_a_wave_of_a_sensor_is_measured_beside_noise_of_its_own_size():
 
     With the error computed at the noisy reading instead, the mean error is more than twenty of them.
     """
-    fits = [maximise(problem, problem.space.start) for problem in map(rippled, range(5))]
+    fits = [maximise(posterior, posterior.space.start) for posterior in map(rippled, range(5))]
     errors = [(f.values["position_ripple.sine"] - RIPPLE) / f.sd["position_ripple.sine"] for f in fits]
     assert abs(np.mean(errors)) < 2.0 / math.sqrt(len(errors))
 
 
 def test_the_correction_at_predictions_is_that_of_the_true_error():
     """Where the filter knows the position better than the sensor, readings lose the wave but not their noise."""
-    problem = rippled(0)
-    view, theta = problem.observations[0], maximise(problem, problem.space.start).theta
-    full = problem.recordings[0].full(theta)
-    corrections = list_corrections(problem.system, problem.active, full, view.sensors)
-    points = problem.recordings[0].points(theta[None])
+    posterior = rippled(0)
+    view, theta = posterior.observations[0], maximise(posterior, posterior.space.start).theta
+    full = posterior.recordings[0].full(theta)
+    corrections = list_corrections(posterior.system, posterior.active, full, view.sensors)
+    points = posterior.recordings[0].points(theta[None])
     true = view.readings[:, 0] - (PositionRipple.bent(moved(), (0.0, RIPPLE, PITCH)) - moved())
-    twice = correct_twice(problem.dynamics.filter, view, [corrections], points)[0][0, :, 0]
+    twice = correct_twice(posterior.dynamics.filter, view, [corrections], points)[0][0, :, 0]
     once = correct_readings(view, corrections)[0][:, 0]
     settled = slice(100, None)
     assert np.std((twice - true)[settled]) < 0.3 * np.std((once - true)[settled])
@@ -159,14 +161,14 @@ def test_the_correction_at_predictions_is_that_of_the_true_error():
 
 def test_points_with_corrections_of_their_own_are_filtered_together():
     """Seven sizes of the wave in one call give what each gives alone, and what the plain filter gives."""
-    problem = rippled(1)
-    part = problem.observations[0].part(0, 120)
-    problem = problem.on((part,))
-    thetas = np.tile(maximise(problem, problem.space.start).theta, (7, 1))
+    posterior = rippled(1)
+    part = posterior.observations[0].part(0, 120)
+    posterior = posterior.on((part,))
+    thetas = np.tile(maximise(posterior, posterior.space.start).theta, (7, 1))
     thetas[:, 0] = np.linspace(-RIPPLE, 2.0 * RIPPLE, 7)
-    together = problem.innovations(thetas)
-    plain = Reference(problem.system, problem.active, problem.dynamics.nsub)
-    for dynamics, near in ((problem.dynamics, 1e-12), (plain, 1e-7)):
-        alone = [replace(problem, dynamics=dynamics).innovations(theta) for theta in thetas]
+    together = posterior.innovations(thetas)
+    plain = Reference(posterior.system, posterior.active, posterior.dynamics.nsub)
+    for dynamics, near in ((posterior.dynamics, 1e-12), (plain, 1e-7)):
+        alone = [replace(posterior, dynamics=dynamics).innovations(theta) for theta in thetas]
         np.testing.assert_allclose(together.errors, [one.errors for one in alone], rtol=near, atol=near * RIPPLE)
         np.testing.assert_allclose(together.variances, [one.variances for one in alone], rtol=near)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from lostmotion.case import Prior
-from lostmotion.inference.setup import make_problem
+from lostmotion.inference.setup import make_posterior
 from lostmotion.likelihood.model_steps import step_model
 from lostmotion.likelihood.stepped import SteppedSystem, make_system
 from lostmotion.likelihood.steps import Steps
@@ -32,10 +32,10 @@ def case_of(equations, channels, values, estimate, hold="step"):
     return Case(recording, equations, values, estimate)
 
 
-def problems(case, terms=(), fine=1):
-    """Return the problem on the compiled kernel, and the one on steps of the same model, with the same coordinates."""
+def posteriors(case, terms=(), fine=1):
+    """Return the posterior on the compiled kernel, and that on steps of the same model, with the same coordinates."""
     prepared = case.prepare(default(), terms)
-    fast = make_problem(make_system(prepared.model, prepared.terms), prepared.case, prepared.observations, jobs=1)
+    fast = make_posterior(make_system(prepared.model, prepared.terms), prepared.case, prepared.observations, jobs=1)
     stepped = make_system(step_model(prepared.model, fine), prepared.terms)
     assert isinstance(stepped, SteppedSystem)
     return fast.stepped(1), replace(fast, dynamics=Steps(stepped, nsub=1))
@@ -59,7 +59,7 @@ TWO = case_of(
 
 @pytest.mark.parametrize("case", [ONE, TWO], ids=["one body", "two bodies"])
 def test_steps_give_the_likelihood_of_the_kernel(case):
-    fast, slow = problems(case)
+    fast, slow = posteriors(case)
     thetas = fast.space.clip(
         fast.space.start + 0.1 * np.random.default_rng(1).standard_normal((5, len(fast.space.start)))
     )
@@ -69,7 +69,7 @@ def test_steps_give_the_likelihood_of_the_kernel(case):
 
 
 def test_many_points_at_once_are_each_alone():
-    _, slow = problems(ONE)
+    _, slow = posteriors(ONE)
     thetas = slow.space.clip(
         slow.space.start + 0.2 * np.random.default_rng(2).standard_normal((4, len(slow.space.start)))
     )
@@ -78,7 +78,7 @@ def test_many_points_at_once_are_each_alone():
 
 def test_a_term_acts_at_its_place_as_in_the_kernel():
     """Damping between two bodies, in steps of Heun: the error falls with the square of the step."""
-    fast, slow = problems(TWO, ("viscous_damping@x1-x2", "cubic_stiffness@x2"))
+    fast, slow = posteriors(TWO, ("viscous_damping@x1-x2", "cubic_stiffness@x2"))
     values = {"viscous_damping@x1-x2.coefficient": 0.4, "cubic_stiffness@x2.coefficient": 3.0}
     keys = frozenset(key.rpartition(".")[0] for key in values)
     fast, slow = (one.acting(keys).hold_values(values) for one in (fast, slow))
@@ -90,7 +90,7 @@ def test_a_term_acts_at_its_place_as_in_the_kernel():
 
 
 def test_smoothed_states_and_the_linearised_filter_are_those_of_the_kernel():
-    fast, slow = problems(ONE)
+    fast, slow = posteriors(ONE)
     wanted, found = (p.filters[0].smooth(p.space.start) for p in (fast, slow))
     assert found.states == pytest.approx(wanted.states, rel=1e-6, abs=1e-7)
     ways = [linearise_filter(p, p.space.start[None])[0] for p in (fast, slow)]
@@ -100,7 +100,7 @@ def test_smoothed_states_and_the_linearised_filter_are_those_of_the_kernel():
 
 
 def test_a_free_run_is_that_of_the_kernel():
-    fast, slow = problems(TWO, fine=2)
+    fast, slow = posteriors(TWO, fine=2)
     full, y0 = fast.recordings[0].full(fast.space.start), np.array([0.1, 0.0, -0.1, 0.2])
     drive = fast.observations[0].drive
     wanted = fast.system.simulate(full, (), y0, drive, 2).states
@@ -108,7 +108,7 @@ def test_a_free_run_is_that_of_the_kernel():
 
 
 def test_the_inertia_at_a_place_is_found_from_steps():
-    fast, slow = problems(TWO)
+    fast, slow = posteriors(TWO)
     full = fast.recordings[0].full(fast.space.start)
     for place in fast.system.model.places:
         own = next(one for one in slow.system.model.places if one.name == place.name)

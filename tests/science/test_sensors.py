@@ -52,18 +52,18 @@ def test_the_likelihood_of_a_late_sensor_is_smooth_and_highest_at_its_delay():
     levels = [FreeParameter(f"log_noise:{s.label}", "1", np.log(0.01 * x.std()), -20.0, 0.0) for s in sensors]
     delay = FreeParameter("sensor_delay@far.delay", "s", 0.0, 0.0, 0.05)
     frees = (delay, *levels, FreeParameter("log_random_force", "1", np.log(1e-8), -40.0, 0.0))
-    problem = Posterior(
+    posterior = Posterior(
         ParameterSpace(frees), (seen,), Lanes(system, frozenset({"sensor_delay@far"})), Scales(1.0, 0.02, 0.1), known
     )
     grid = np.linspace(0.0, 0.045, 181)
-    theta = np.tile(problem.space.start, (len(grid), 1))
+    theta = np.tile(posterior.space.start, (len(grid), 1))
     theta[:, 0] = grid
-    heights = problem.log_likelihood(theta)
+    heights = posterior.log_likelihood(theta)
     assert grid[np.argmax(heights)] == pytest.approx(late, abs=2e-4)
     near = np.abs(grid - late) < 0.006  # half samples lie at 0.025 and, beyond, at 0.015
     steps = np.diff(heights[near])
     assert np.abs(np.diff(steps)).max() < 0.05 * np.abs(steps).max() + 0.3
-    errors = problem.innovations(theta[[np.argmax(heights)]])[0].errors.reshape(-1, 2)
+    errors = posterior.innovations(theta[[np.argmax(heights)]])[0].errors.reshape(-1, 2)
     assert np.count_nonzero(errors[:5]) == 0  # where a sensor may be late, the first readings are left out
 
 

@@ -120,10 +120,10 @@ def list_vague(found: Hypothesis, key: str) -> list[str]:
 
     Those of a wave are one amplitude (`group_amplitudes`).
     """
-    free = found.frame.problem.space.free[: found.frame.own]
+    free = found.frame.posterior.space.free[: found.frame.own]
     places = {f.key: i for i, f in enumerate(free) if not f.log}
-    slots = [s for s in sort_slots(found.frame.problem, key)[0] if s.key in places]
-    rows = [[slots[k] for k in group] for group in group_amplitudes(found.frame.problem, key, slots)]
+    slots = [s for s in sort_slots(found.frame.posterior, key)[0] if s.key in places]
+    rows = [[slots[k] for k in group] for group in group_amplitudes(found.frame.posterior, key, slots)]
     return [
         " and ".join(s.param.name for s in row)
         for row in rows
@@ -131,14 +131,14 @@ def list_vague(found: Hypothesis, key: str) -> list[str]:
     ]
 
 
-def group_amplitudes(problem: Posterior, key: str, amplitudes: Sequence[Slot]) -> list[list[int]]:
+def group_amplitudes(posterior: Posterior, key: str, amplitudes: Sequence[Slot]) -> list[list[int]]:
     """Return the indices of the amplitudes that tell a term from other laws: each alone, those of a wave together.
 
     Which of the cosine and the sine of a wave is small depends on the phase alone. Of a law that contains simpler ones,
     those count that the simpler ones lack, if there are any.
     """
-    term, _ = find_term(problem, key)
-    shared = {param.name for other in problem.system.terms if is_simpler(other, term) for param in other.params}
+    term, _ = find_term(posterior, key)
+    shared = {param.name for other in posterior.system.terms if is_simpler(other, term) for param in other.params}
     own = [k for k, s in enumerate(amplitudes) if s.param.name not in shared] or list(range(len(amplitudes)))
     waves = [k for k in own if amplitudes[k].param.name in WAVE]
     return [[k] for k in own if k not in waves] + ([waves] if waves else [])
@@ -158,7 +158,7 @@ def fit_hypothesis(frame: JointFrame, begin: Array, price: float, choice: Choice
     both explain is not left to the more flexible one because of the point where the fit began. Smooth forces that make
     the evidence smaller are left out.
     """
-    steps = choose_first_steps(frame.problem.over(frame.problem.space.free[: frame.own]))
+    steps = choose_first_steps(frame.posterior.over(frame.posterior.space.free[: frame.own]))
     begin = begin.copy()
     begin[frame.own :][frame.widths(choice or frame.none) == 0.0] = 0.0
     expansion = frame.expand(begin, steps, choice or frame.none)
@@ -227,7 +227,7 @@ def _leave_out_absent(frame: JointFrame, expansion: Expansion, choice: Choice) -
 
 def _tune_steps(frame: JointFrame, expansion: Expansion) -> Array:
     """Return finite-difference steps (own,) of a share of conditional standard deviations, within bounds."""
-    free = frame.problem.space.free[: frame.own]
+    free = frame.posterior.space.free[: frame.own]
     widths = np.array([min(f.sd, f.high - f.low) for f in free])
     curvature = np.maximum(np.diag(expansion.information)[: frame.own], 1e-300)
     return np.clip(STRIDE / np.sqrt(curvature), 1e-9 * widths, 0.05 * widths)
@@ -274,7 +274,7 @@ def compute_step(frame: JointFrame, expansion: Expansion, choice: Choice) -> tup
 
     Own coordinates that are pressed against a bound stay, and logarithms change by a limited amount.
     """
-    free, at = frame.problem.space.free[: frame.own], expansion.at
+    free, at = frame.posterior.space.free[: frame.own], expansion.at
     precision = _compute_precision(frame, expansion.precision, choice)
     gradient = _compute_pull(frame, expansion, precision)
     low, high = frame.bounds
@@ -305,7 +305,7 @@ def _add_priors(frame: JointFrame, at: Array, choice: Choice, log_likelihood: fl
     widths = frame.widths(choice)
     used = widths > 0.0
     away = (at[frame.own :] - frame.middle)[used] / widths[used]
-    own = sum(f.log_prior(float(c)) for f, c in zip(frame.problem.space.free[: frame.own], at, strict=False))
+    own = sum(f.log_prior(float(c)) for f, c in zip(frame.posterior.space.free[: frame.own], at, strict=False))
     return log_likelihood + own - 0.5 * float(away @ away)
 
 

@@ -74,16 +74,20 @@ def make_task(fits: Sequence[Fit], digest: str = "") -> Task:
     found = [f for f in fits if np.isfinite(f.local.log_posterior)]
     if not found:
         raise DataError("the model cannot follow this recording from any start: check units, known values and priors")
-    problem = fits[0].problem
+    posterior = fits[0].posterior
     highest = max(found, key=lambda f: f.local.log_posterior)
     mixture = TMixture.of_modes(
         np.array([f.theta for f in found]),
-        [limit_covariance(f.local.covariance, problem.space.free) for f in found],
+        [limit_covariance(f.local.covariance, posterior.space.free) for f in found],
         compute_mode_weights(np.array([f.log_evidence for f in found])),
-        problem.space.free,
+        posterior.space.free,
     )
     return Task(
-        problem, mixture, tuple(_make_shown_coordinate(f, problem) for f in problem.space.free), highest.theta, digest
+        posterior,
+        mixture,
+        tuple(_make_shown_coordinate(f, posterior) for f in posterior.space.free),
+        highest.theta,
+        digest,
     )
 
 
@@ -111,10 +115,10 @@ def compute_mode_weights(log_evidence: Array) -> Array:
     return np.asarray(weights / weights.sum())
 
 
-def _make_shown_coordinate(free: FreeParameter, problem: Posterior) -> ShownCoordinate:
+def _make_shown_coordinate(free: FreeParameter, posterior: Posterior) -> ShownCoordinate:
     """Return how a parameter is shown; a random force as the rms (N, N m) of a force held from sample to sample."""
-    observation = _find_observation(problem, free.recording or "")
-    motion = problem.system.model.motion
+    observation = _find_observation(posterior, free.recording or "")
+    motion = posterior.system.model.motion
     if free.level not in (OFFSET, *NOISES):
         return ShownCoordinate(free.key, free.unit, 1.0 if free.log else 0.0)
     if free.level == RANDOM:
@@ -130,6 +134,6 @@ def _make_shown_coordinate(free: FreeParameter, problem: Posterior) -> ShownCoor
     return ShownCoordinate(NOISES[NOISE] + free.key[len(NOISE) :], unit_of(channel, motion), 1.0)
 
 
-def _find_observation(problem: Posterior, name: str) -> Observation:
+def _find_observation(posterior: Posterior, name: str) -> Observation:
     """Return the recording that a key names, or the first."""
-    return next((t for t in problem.observations if t.name == name), problem.observations[0])
+    return next((t for t in posterior.observations if t.name == name), posterior.observations[0])

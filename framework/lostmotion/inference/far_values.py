@@ -49,15 +49,15 @@ def try_far_values(fit: Fit, slot: Slot, key: str) -> FarValue | None:
     the usual gains more than a far value must gain, also from the middle of the priors, because a gap makes a spring
     seem far too soft.
     """
-    least = fit.problem.settings.select.far
-    values = [factor * compute_size(slot.param, fit.problem.scales) for factor in slot.param.far]
+    least = fit.posterior.settings.select.far
+    values = [factor * compute_size(slot.param, fit.posterior.scales) for factor in slot.param.far]
     scanned = bool(slot.param.scan) and compute_random_force_gain(fit) > least
     if scanned:
-        values += list_tried_values(slot.param, fit.problem.scales)
+        values += list_tried_values(slot.param, fit.posterior.scales)
     if not values:
         return None
     bottom = _shorten(fit)
-    short, nominal = bottom.problem, bottom.local.log_posterior
+    short, nominal = bottom.posterior, bottom.local.log_posterior
     wider = short.extend((hold_shape(slot),), {key})
     theta = raise_random_force(short, bottom.theta, RAISED)
     log_densities = wider.log_likelihood(np.array([np.append(theta, value) for value in values]))
@@ -79,16 +79,16 @@ def try_far_values(fit: Fit, slot: Slot, key: str) -> FarValue | None:
 
 def _shorten(fit: Fit) -> Fit:
     """Return the fit to the beginning of the recordings; it is the fit itself where they are short."""
-    observations = fit.problem.observations
+    observations = fit.posterior.observations
     if all(t.samples <= SHORT for t in observations):
         return fit
-    short = fit.problem.on(tuple(t.part(0, min(t.samples, SHORT)) for t in observations))
-    return maximise(restart(replace(fit, problem=short)), fit.theta, rounds=2)
+    short = fit.posterior.on(tuple(t.part(0, min(t.samples, SHORT)) for t in observations))
+    return maximise(restart(replace(fit, posterior=short)), fit.theta, rounds=2)
 
 
-def _hold_value(problem: Posterior, slot: Slot, key: str, value: float) -> Posterior:
-    """Return a problem with a term active, and its amplitude held at a value."""
-    trial = problem.hold_values({slot.key: value})
+def _hold_value(posterior: Posterior, slot: Slot, key: str, value: float) -> Posterior:
+    """Return a posterior with a term active, and its amplitude held at a value."""
+    trial = posterior.hold_values({slot.key: value})
     return trial.acting(trial.active | {key})
 
 

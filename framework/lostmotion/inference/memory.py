@@ -24,11 +24,11 @@ STARTS = (1.5, 5.0)
 
 def add_same_memory(nominal: Fit, coloured: Fit) -> Fit | None:
     """Return the nominal fit with AR(1) noise of those sensors that have it in another fit."""
-    first, found = nominal.problem.observations[0], nominal
+    first, found = nominal.posterior.observations[0], nominal
     for i in range(len(first.sensors)):
         if (
-            first.level(AR1_LEVEL, i) in coloured.problem.space.keys
-            and first.level(AR1_LEVEL, i) not in nominal.problem.space.keys
+            first.level(AR1_LEVEL, i) in coloured.posterior.space.keys
+            and first.level(AR1_LEVEL, i) not in nominal.posterior.space.keys
         ):
             more = fit_noise_memory(found, (i,))
             if more is None or more.status == "diverged":
@@ -43,27 +43,27 @@ def fit_noise_memory(fit: Fit, sensors: Sequence[int] | None = None) -> Fit | No
     Of several sensors (those numbered, or all) the one with the largest evidence. Started at a few correlation times,
     with the usual random force, which need not imitate the noise any more.
     """
-    problem, first = fit.problem, fit.problem.observations[0]
+    posterior, first = fit.posterior, fit.posterior.observations[0]
     numbers = range(len(first.sensors)) if sensors is None else sensors
-    white = [i for i in numbers if first.level(AR1_LEVEL, i) not in problem.space.keys]
+    white = [i for i in numbers if first.level(AR1_LEVEL, i) not in posterior.space.keys]
     asked = []
     for sensor in white:
         key = first.level(NOISE, sensor)
-        noise = float(np.mean([c for f, c in zip(problem.space.free, fit.theta, strict=True) if f.parameter == key]))
-        levels = make_levels(first, sensor, AR1(), make_sensor_scales(first, sensor, noise, problem.scales))
-        wider = problem.over((*problem.space.free, *levels))
+        noise = float(np.mean([c for f, c in zip(posterior.space.free, fit.theta, strict=True) if f.parameter == key]))
+        levels = make_levels(first, sensor, AR1(), make_sensor_scales(first, sensor, noise, posterior.scales))
+        wider = posterior.over((*posterior.space.free, *levels))
         asked += [(replace(wider, jobs=1), _choose_start(wider, fit, samples)) for samples in STARTS]
     if not asked:
         return None
-    fits = each(lambda one: maximise(*one), asked, problem.jobs)
-    return use_cores(max(fits, key=lambda f: f.log_evidence), problem.jobs)
+    fits = each(lambda one: maximise(*one), asked, posterior.jobs)
+    return use_cores(max(fits, key=lambda f: f.log_evidence), posterior.jobs)
 
 
 def is_memory_supported(plain: Fit, coloured: Fit | None) -> bool:
     """Return whether the evidence supports AR(1) noise with its two parameters."""
     if coloured is None or coloured.status == "diverged":
         return False
-    limits = coloured.problem.settings.select
+    limits = coloured.posterior.settings.select
     higher = coloured.log_likelihood - plain.log_likelihood > limits.noise_memory
     return higher and coloured.log_evidence > plain.log_evidence + limits.decisive + 2.0 * limits.further
 

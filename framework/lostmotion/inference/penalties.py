@@ -35,7 +35,7 @@ def compute_own_penalty(term: Term, further: float) -> float:
     return term.unlikely + further * (len(term.params) - len(choices) - 1) + sum(math.log(count) for count in choices)
 
 
-def compute_price(problem: Posterior, many: int) -> float:
+def compute_price(posterior: Posterior, many: int) -> float:
     """Return the log prior penalty of the active terms, out of `many`, and of their onsets."""
-    own = [compute_penalty(find_term(problem, key)[0], many, problem.settings) for key in sorted(problem.active)]
-    return sum(own) + compute_onset_price(problem)
+    own = [compute_penalty(find_term(posterior, key)[0], many, posterior.settings) for key in sorted(posterior.active)]
+    return sum(own) + compute_onset_price(posterior)

@@ -14,9 +14,9 @@ def settle_steps(fit: Fit) -> Fit:
     An integration error is a random force to the filter: with little noise, a law with a kink loses hundreds by it, and
     a smooth force that imitates the law does not.
     """
-    while 2 * fit.problem.dynamics.nsub <= MOST_STEPS:
-        finer = fit.problem.stepped(2 * fit.problem.dynamics.nsub)
-        if abs(finer.log_density(fit.theta) - fit.problem.log_density(fit.theta)) < SETTLED:
+    while 2 * fit.posterior.dynamics.nsub <= MOST_STEPS:
+        finer = fit.posterior.stepped(2 * fit.posterior.dynamics.nsub)
+        if abs(finer.log_density(fit.theta) - fit.posterior.log_density(fit.theta)) < SETTLED:
             return fit
         better = maximise(finer, fit.theta, tolerance=ROUGHLY)
         if better.status == "diverged":

@@ -11,12 +11,12 @@ STRETCHES, SOUGHT = 4, 8_000
 """The number of stretches of each recording, evenly spread over it, and the samples of all stretches together."""
 
 
-def cut_stretches(problem: Posterior) -> Posterior:
-    """Return the problem on stretches of its recordings, or unchanged where they are not long."""
-    if problem.samples <= LONG:
-        return problem
-    parts = [part for o in problem.observations for part in list_stretches(o, SOUGHT / problem.samples)]
-    return problem.on(tuple(parts))
+def cut_stretches(posterior: Posterior) -> Posterior:
+    """Return the posterior on stretches of its recordings, or unchanged where they are not long."""
+    if posterior.samples <= LONG:
+        return posterior
+    parts = [part for o in posterior.observations for part in list_stretches(o, SOUGHT / posterior.samples)]
+    return posterior.on(tuple(parts))
 
 
 def list_stretches(observation: Observation, share: float) -> list[Observation]:

@@ -32,12 +32,12 @@ UNIT = 1e-4
 class Tangents:
     """The filter of one recording at one point: filtered `states` (samples, n), transitions, gains and variances.
 
-    `problem` has this recording alone; `full` is its parameter vector. `slopes` (samples, sensors, states + noise
+    `posterior` has this recording alone; `full` is its parameter vector. `slopes` (samples, sensors, states + noise
     states) are the derivatives of the readings, `spread` (samples, sensors) the variances of the errors. `noise` are
     transition, driving noise and first covariance of the noise states, (states, states) each.
     """
 
-    problem: Posterior
+    posterior: Posterior
     full: Array
     states: Array
     steps: Array
@@ -50,7 +50,7 @@ class Tangents:
     @property
     def observation(self) -> Observation:
         """The recording."""
-        return self.problem.observations[0]
+        return self.posterior.observations[0]
 
     def respond_to_forces(self, rates: Array, channels: Array) -> Array:
         """Return the derivatives (count, samples * sensors) of errors over forces.
@@ -58,7 +58,7 @@ class Tangents:
         `rates` (count, samples, model and term states) are the accelerations that each force of unit size gives, and
         `channels` (count, samples, channels) what it adds to the channels at once.
         """
-        columns = [self.problem.system.channel(s.channel)[0] for s in self.observation.sensors]
+        columns = [self.posterior.system.channel(s.channel)[0] for s in self.observation.sensors]
         wide = np.zeros((len(rates), *self.steps.shape[:2]))
         wide[:, :, : rates.shape[2]] = rates
         seen = np.ascontiguousarray(-channels[:, :, columns] * self.gain)
@@ -67,45 +67,45 @@ class Tangents:
 
     def compute_effects(self, fulls: Array, active: frozenset[str]) -> tuple[Array, Array]:
         """Return derivatives of states (sets, samples, n) and channels along the states, for some parameter vectors."""
-        system, observation = self.problem.system, self.observation
-        packed = system.pack(fulls, observation.dt / self.problem.dynamics.nsub, observation.harmonic)
+        system, observation = self.posterior.system, self.observation
+        packed = system.pack(fulls, observation.dt / self.posterior.dynamics.nsub, observation.harmonic)
         return system.compute_each(active, packed, self.states, self.inputs, observation.time)
 
     @cached_property
     def inputs(self) -> Array:
         """The inputs (samples, inputs) that act, with the terms of the drive."""
-        return self.problem.recordings[0].drive(self.full).inputs[: len(self.states)]
+        return self.posterior.recordings[0].drive(self.full).inputs[: len(self.states)]
 
     @cached_property
     def here(self) -> tuple[Array, Array]:
         """Derivatives of states (samples, n) and channels (samples, channels) along the states, with all terms."""
-        rates, seen = self.compute_effects(self.full[None], self.problem.active)
+        rates, seen = self.compute_effects(self.full[None], self.posterior.active)
         return rates[0], seen[0]
 
     def respond_to_input(self, change: Array) -> Array:
         """Return the derivative (1, samples * sensors) of errors over a `change` (samples, inputs) of the inputs."""
-        system, observation = self.problem.system, self.observation
-        packed = system.pack(self.full[None], observation.dt / self.problem.dynamics.nsub, observation.harmonic)
+        system, observation = self.posterior.system, self.observation
+        packed = system.pack(self.full[None], observation.dt / self.posterior.dynamics.nsub, observation.harmonic)
         moved = self.inputs + UNIT * change
-        rates, seen = system.compute_each(self.problem.active, packed, self.states, moved, observation.time)
+        rates, seen = system.compute_each(self.posterior.active, packed, self.states, moved, observation.time)
         return self.respond_to_forces((rates - self.here[0]) / UNIT, (seen - self.here[1]) / UNIT)
 
     def move(self, place: Place) -> Array:
         """Return relative position and velocity (2, samples) at a place."""
-        n = len(self.problem.system.model.states)
-        lever = self.problem.system.lever(self.full, place)
+        n = len(self.posterior.system.model.states)
+        lever = self.posterior.system.lever(self.full, place)
         return place.move(self.states[:, :n], self.observation.inputs, lever)
 
 
 def linearise_filter(
-    problem: Posterior, thetas: Array, index: int = 0, changed: Sequence[Observation] = ()
+    posterior: Posterior, thetas: Array, index: int = 0, changed: Sequence[Observation] = ()
 ) -> tuple[Tangents, Innovations] | None:
     """Return the linearised filter of a recording at the first of some coordinates, and the innovations at all.
 
     `thetas` are (points, n). The innovations of `changed` recordings, with other inputs or readings, at the first point
     come last. None where a sensor is late, bent or changes, or where the filter diverged.
     """
-    single = replace(problem.on((problem.observations[index],)), jobs=1)
+    single = replace(posterior.on((posterior.observations[index],)), jobs=1)
     changing = single.active & {*single.system.bending_terms, *single.system.rescaling, *single.system.lagging_terms}
     if changing or any(map(any, single.recordings[0].count_delays(thetas))):
         return None
@@ -137,9 +137,9 @@ def linearise_filter(
     return Tangents(single, full, seen[:, :n], steps, ahead, slopes, spread, noise, gain), innovations
 
 
-def _compute_slopes(problem: Posterior, full: Array, states: Array, covariance: Array) -> Array:
+def _compute_slopes(posterior: Posterior, full: Array, states: Array, covariance: Array) -> Array:
     """Return the derivatives (samples, sensors, n) of the channels of the sensors over the states of the filter."""
-    running, observation = problem.dynamics, problem.observations[0]
+    running, observation = posterior.dynamics, posterior.observations[0]
     found = np.zeros((len(states), len(observation.sensors), states.shape[1]))
     shown = [running.system.shown(sensor, running.active) for sensor in observation.sensors]
     for s, (_, direct) in enumerate(shown):
@@ -148,8 +148,8 @@ def _compute_slopes(problem: Posterior, full: Array, states: Array, covariance: 
     others = [(s, channel) for s, (channel, direct) in enumerate(shown) if direct < 0]
     if not others:
         return found
-    packed = running.system.pack(full[None], observation.dt / problem.dynamics.nsub, observation.harmonic)
-    inputs = problem.recordings[0].drive(full).inputs[: len(states)]
+    packed = running.system.pack(full[None], observation.dt / posterior.dynamics.nsub, observation.harmonic)
+    inputs = posterior.recordings[0].drive(full).inputs[: len(states)]
     forces = tuple(running.states + i for i in range(running.forces))
     for c in range(states.shape[1]):
         reach = np.sqrt(np.maximum(covariance[:, c, c], 0.0)) + 1e-9 * (1e-300 + np.max(np.abs(states[:, c])))
