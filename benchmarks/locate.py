@@ -33,7 +33,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.stats import beta
 
 from lostmotion.diagnosis.stages import list_half_gaps, locate
 from lostmotion.errors import DataError
@@ -51,6 +50,7 @@ from lostmotion_trials.blind.mechanisms import LARGEST, TABLE, UNKNOWN, Effect, 
 from lostmotion_trials.blind.simulator import EXCITATION_NOISE, BlindMachine, Disturbances, draw_rig, simulate_machine
 from lostmotion_trials.blind.writing import write_case
 from lostmotion_trials.integrators.hidden import Hidden
+from lostmotion_trials.rates import estimate_rate
 
 GAIN = (50.0, 500.0)
 SAMPLES = (1500, 2500)
@@ -191,13 +191,6 @@ def score_first(row: Row, test: str) -> dict[str, bool]:
     return {"any": bool(first), "covariate": quantity, "place": bool(first) and place, "both": quantity and place}
 
 
-def compute_band(hits: int, of: int, level: float = 0.95) -> tuple[float, float]:
-    """Return the interval of Clopper and Pearson (Biometrika 26 (1934) 404-413) for a rate."""
-    half = 0.5 * (1.0 - level)
-    low = float(beta.ppf(half, hits, of - hits + 1)) if hits else 0.0
-    return low, float(beta.ppf(1.0 - half, hits + 1, of - hits)) if hits < of else 1.0
-
-
 def summarise(rows: Sequence[Row]) -> str:
     """Return the rates of all tests with their bands."""
     lines = []
@@ -226,8 +219,8 @@ def summarise(rows: Sequence[Row]) -> str:
 
 
 def _format_cell(hits: int, of: int, what: str) -> str:
-    low, high = compute_band(hits, of)
-    return f"{what} {hits}/{of} = {hits / max(of, 1):.0%} [{low:.1%}, {high:.1%}]"
+    rate = estimate_rate(hits, of)
+    return f"{what} {hits}/{of} = {rate.share:.0%} [{rate.low:.1%}, {rate.high:.1%}]"
 
 
 def read_rows(path: Path) -> list[Row]:
