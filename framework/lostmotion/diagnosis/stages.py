@@ -355,7 +355,7 @@ def compute_force(fit: Fit, observation: Observation, states: Array, key: str) -
     system, recording = posterior.system, posterior.recordings[0]
     full = recording.full(fit.theta)
     drive = recording.drive(full)
-    packed = system.pack(full[None], drive.dt / posterior.dynamics.nsub, drive.harmonic)
+    packed = posterior.dynamics.pack(full[None], drive)
     times: Array = np.asarray(drive.begin + np.arange(len(states)) * drive.dt, dtype=float)
     seen, inputs = states[:, : posterior.dynamics.states], drive.inputs[: len(states)]
     if key not in system.channel_terms:

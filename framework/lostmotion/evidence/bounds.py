@@ -216,6 +216,6 @@ def _measure_one(filtered: Tangents, key: str, term: Term, full: Array) -> float
         changed = posterior.acting(active).recordings[0].drive(full).inputs[: len(filtered.states)] - filtered.inputs
         return float(np.max(np.abs(changed[:, filtered.observation.lead]))) / max(filtered.observation.travel, 1e-300)
     observation, system = filtered.observation, posterior.system
-    packed = system.pack(full[None], observation.dt / posterior.dynamics.nsub, observation.harmonic)
+    packed = posterior.dynamics.pack(full[None], observation)
     force = system.compute_force(key, active, packed, (filtered.states, filtered.inputs, observation.time))
     return float(np.max(np.abs(force))) / posterior.scales.force

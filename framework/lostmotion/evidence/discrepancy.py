@@ -166,7 +166,7 @@ class JointFrame:
 
     def log_likelihood(self, at: Array, choice: Choice) -> float:
         """Return the log-likelihood of the filter at some coordinates (count,)."""
-        return float(self._wake(self.place(at), choice).log_likelihood(at[None, : len(self.posterior.space.free)])[0])
+        return float(self._wake(self.place(at), choice).log_likelihood(at[: len(self.posterior.space.free)]))
 
     def expand(self, at: Array, steps: Array, choice: Choice) -> Expansion:
         """Return one-step errors and their derivatives at some coordinates; `steps` (own,) are those of own ones.

@@ -78,7 +78,7 @@ class SmoothedMotion:
             driven = [self._rates(self._packed, frozenset(), inputs)[0] for inputs in changed]
             return system.accelerate(np.array(driven), place) - system.accelerate(self._driven[0], place)
         place = place_of(system.model, term)
-        packed = system.pack(fulls, observation.dt / posterior.dynamics.nsub, observation.harmonic)
+        packed = posterior.dynamics.pack(fulls, observation)
         forced = self._rates(packed, frozenset({key}), observation.inputs)
         return system.accelerate(forced, place) - system.accelerate(self._bare[0], place)
 
@@ -103,7 +103,7 @@ class SmoothedMotion:
     def _packed(self) -> Array:
         """The parameters of the fit without any term."""
         posterior, observation = self.posterior, self.posterior.observations[0]
-        return posterior.system.pack(self._full[None], observation.dt / posterior.dynamics.nsub, observation.harmonic)
+        return posterior.dynamics.pack(self._full[None], observation)
 
     @cached_property
     def _bare(self) -> Array:

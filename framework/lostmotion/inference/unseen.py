@@ -208,7 +208,7 @@ def _find_start(fit: Fit, starts: Callable[[Fit, int], list[tuple[Array, Array]]
 
 def _score_openings(fit: Fit, openings: Sequence[Observation]) -> float:
     """Return the log-likelihood of the first samples of all recordings; minus infinity where it diverges."""
-    score = float(fit.posterior.on(tuple(openings)).log_likelihood(fit.theta[None])[0])
+    score = float(fit.posterior.on(tuple(openings)).log_likelihood(fit.theta))
     return score if math.isfinite(score) else -math.inf
 
 

@@ -71,7 +71,7 @@ class Lanes(RunningSystem):
         for number, drive in enumerate(points.drives):
             rows = np.flatnonzero(points.which == number)
             if len(rows):
-                packed = self.system.pack(points.params[rows], drive.dt / self.nsub, drive.harmonic)
+                packed = self.pack(points.params[rows], drive)
                 found = run_freely(
                     self.system, self.active, packed, start[rows], drive, self.nsub, points.first[rows],
                     steps, kicks=None if kicks is None else kicks[rows], compiled=self.compiled,

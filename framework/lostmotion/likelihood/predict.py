@@ -143,7 +143,7 @@ def observe_states(
         shown = states[:, direct]
     else:
         drive = recording.drive(full)
-        packed = system.pack(full[None], drive.dt / posterior.dynamics.nsub, drive.harmonic)
+        packed = posterior.dynamics.pack(full[None], drive)
         times = drive.begin + (start + np.arange(len(states))) * drive.dt
         inputs = drive.inputs[start : start + len(states)]
         shown = system.compute_derivatives(posterior.active, packed, states, inputs, times)[1][:, channel]

@@ -11,6 +11,7 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.kernels.smooth import smooth
+from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.innovations import Innovations, Smoothed
 from lostmotion.likelihood.kernel_calls import count_lanes
 from lostmotion.likelihood.observation import Observation
@@ -48,6 +49,10 @@ class RunningSystem(ABC):
     def forces(self) -> int:
         """The number of random forces that are states."""
         return {"white": 0, "latent": 1, "held": self.system.bodies}[self.random]
+
+    def pack(self, fulls: Array, seen: Observation | Drive) -> Array:
+        """Return full vectors (points, parameters) as kernels take them, at the samples of a recording or a drive."""
+        return self.system.pack(fulls, seen.dt / self.nsub, seen.harmonic)
 
     def count_together(self, points: int, jobs: int) -> int:
         """Return how many of some points are filtered in one call, where `jobs` cores share them."""

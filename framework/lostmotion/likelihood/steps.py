@@ -55,7 +55,7 @@ class Steps(RunningSystem):
         for number, drive in enumerate(points.drives):
             rows = np.flatnonzero(points.which == number)
             if len(rows):
-                packed = system.pack(points.params[rows], drive.dt / self.nsub, drive.harmonic)
+                packed = self.pack(points.params[rows], drive)
                 pushed = None if kicks is None else kicks[rows]
                 states[rows], _ = system.run_freely(
                     self.active, packed, start[rows], drive, self.nsub, points.first[rows], steps, kicks=pushed

@@ -68,7 +68,7 @@ class Tangents:
     def compute_effects(self, fulls: Array, active: frozenset[str]) -> tuple[Array, Array]:
         """Return derivatives of states (sets, samples, n) and channels along the states, for some parameter vectors."""
         system, observation = self.posterior.system, self.observation
-        packed = system.pack(fulls, observation.dt / self.posterior.dynamics.nsub, observation.harmonic)
+        packed = self.posterior.dynamics.pack(fulls, observation)
         return system.compute_each(active, packed, self.states, self.inputs, observation.time)
 
     @cached_property
@@ -85,7 +85,7 @@ class Tangents:
     def respond_to_input(self, change: Array) -> Array:
         """Return the derivative (1, samples * sensors) of errors over a `change` (samples, inputs) of the inputs."""
         system, observation = self.posterior.system, self.observation
-        packed = system.pack(self.full[None], observation.dt / self.posterior.dynamics.nsub, observation.harmonic)
+        packed = self.posterior.dynamics.pack(self.full[None], observation)
         moved = self.inputs + UNIT * change
         rates, seen = system.compute_each(self.posterior.active, packed, self.states, moved, observation.time)
         return self.respond_to_forces((rates - self.here[0]) / UNIT, (seen - self.here[1]) / UNIT)
@@ -148,7 +148,7 @@ def _compute_slopes(posterior: Posterior, full: Array, states: Array, covariance
     others = [(s, channel) for s, (channel, direct) in enumerate(shown) if direct < 0]
     if not others:
         return found
-    packed = running.system.pack(full[None], observation.dt / posterior.dynamics.nsub, observation.harmonic)
+    packed = posterior.dynamics.pack(full[None], observation)
     inputs = posterior.recordings[0].drive(full).inputs[: len(states)]
     forces = tuple(running.states + i for i in range(running.forces))
     for c in range(states.shape[1]):
