@@ -16,11 +16,12 @@ from lostmotion.diagnosis.stages import list_fitted_keys
 from lostmotion.evidence import discrepancy
 from lostmotion.evidence.channel_errors import DriveError, SensorError, list_channel_errors
 from lostmotion.evidence.discrepancy import LENGTHS, make_frame
+from lostmotion.evidence.effects import Promise
 from lostmotion.evidence.expansion import Expansion, compute_log_evidence
 from lostmotion.evidence.hypothesis import fit_hypothesis
 from lostmotion.evidence.search import CLOSE, Budget, ExplanationSearch, compute_probabilities
 from lostmotion.inference.curves import add_all_curves
-from lostmotion.inference.fit import choose_first_steps
+from lostmotion.inference.fit import ROUGHLY, choose_first_steps, hold_free, maximise
 from lostmotion.inference.setup import make_posterior, search_maximum, split_heldout
 from lostmotion.kernels.linear_response import respond, respond_plainly
 from lostmotion.likelihood.innovations import Innovations
@@ -264,6 +265,18 @@ def test_a_hypothesis_from_its_own_maximum_stays_there(rubbing):
     assert add_all_curves(rubbing.bare.nominal) is rubbing.bare.nominal
 
 
+def test_a_promise_in_other_parameters_is_fitted_anew(rubbing):
+    """The known fit of the law may hold what the promise has as a free parameter."""
+    search, key, nothing = copy.copy(rubbing), "coulomb_friction", rubbing.found[frozenset()]
+    posterior = rubbing.bare.fits[frozenset({key})].posterior
+    held = maximise(hold_free(posterior, posterior.space.keys.index(f"{key}.force"), 0.5), tolerance=ROUGHLY)
+    search.found, search.bare = {frozenset(): nothing}, replace(rubbing.bare, fits={frozenset(): rubbing.bare.nominal})
+    search.bare.keep(held)
+    promise = Promise(key, 10.0, {f"{key}.force": 0.8}, np.zeros(nothing.frame.count), nothing.frame.none)
+    search._weigh_beside(nothing, promise)
+    assert search.found[frozenset({key})].values[f"{key}.force"] == pytest.approx(0.8, abs=0.02)
+
+
 @pytest.mark.parametrize("option", [0, 5, 10])
 def test_the_evidence_is_that_of_the_forces_of_a_hypothesis(rubbing, option):
     """Forces that are left out leave the point, too: a likelihood that contains them has not paid for them."""
@@ -277,10 +290,10 @@ def test_the_evidence_is_that_of_the_forces_of_a_hypothesis(rubbing, option):
     assert not np.any(found.at[frame.own :][frame.widths(found.choice) == 0.0])
 
 
-@pytest.mark.parametrize(("behind", "weighed"), [(0.5, True), (2.0, False)])
-def test_other_laws_are_weighed_where_a_smooth_force_explains_as_much(rubbing, monkeypatch, behind, weighed):
-    """`behind` is by how much the model without any term is worse, in the unit of what is close."""
-    best, fits = rubbing.best, []
+@pytest.mark.parametrize(("behind", "smooth", "weighed"), [(0.5, 3.0, True), (2.0, 3.0, False), (0.5, 0.0, False)])
+def test_other_laws_are_weighed_where_a_smooth_force_explains_as_much(rubbing, monkeypatch, behind, smooth, weighed):
+    """`behind` is by how much the model without any term is worse; the best law leaves `smooth` to a smooth force."""
+    best, fits = replace(rubbing.best, smooth=smooth), []
     search = copy.copy(rubbing)
     nothing_found = replace(rubbing.found[frozenset()], log_evidence=best.log_evidence - behind * CLOSE)
     search.found = {best.terms: best, frozenset(): nothing_found}

@@ -16,6 +16,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -164,9 +165,10 @@ class JointFrame:
                 observations = tuple(error.correct(o, float(size)) for o in observations)
         return self.posterior if observations is self.posterior.observations else self.posterior.on(observations)
 
-    def log_likelihood(self, at: Array, choice: Choice) -> float:
-        """Return the log-likelihood of the filter at some coordinates (count,)."""
-        return float(self._wake(self.place(at), choice).log_likelihood(at[: len(self.posterior.space.free)]))
+    def log_likelihood(self, at: Array, choice: Choice) -> Any:
+        """Return the log-likelihood at one point (count,), or at many (points, count) with the same channel errors."""
+        bare = self.bare(np.atleast_2d(at)[0], choice)
+        return bare.log_likelihood(at[..., : len(self.posterior.space.free)])
 
     def expand(self, at: Array, steps: Array, choice: Choice) -> Expansion:
         """Return one-step errors and their derivatives at some coordinates; `steps` (own,) are those of own ones.

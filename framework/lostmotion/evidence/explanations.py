@@ -13,6 +13,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
+from scipy.special import softmax
 
 from lostmotion.contracts import Array
 from lostmotion.evidence.bare import Terms
@@ -57,7 +58,8 @@ class Explanations:
     def probabilities(self) -> Mapping[Terms, float]:
         """The posterior probability of each set."""
         allowed = [one for terms, one in self.found.items() if terms - {UNKNOWN} not in self.refuted]
-        return _share_ties(allowed, compute_probabilities(allowed, measure_temper(allowed)))
+        temper = measure_temper(allowed)
+        return _share_ties(allowed, compute_probabilities(allowed, temper), temper)
 
     @property
     def best(self) -> Hypothesis:
@@ -120,18 +122,19 @@ class Explanations:
         return made
 
 
-def _share_ties(found: Sequence[Hypothesis], shares: dict[Terms, float]) -> dict[Terms, float]:
-    """Return probabilities in which laws that the data do not distinguish share theirs by their prior odds.
+def _share_ties(found: Sequence[Hypothesis], shares: dict[Terms, float], temper: float) -> dict[Terms, float]:
+    """Return probabilities in which laws that predict the same readings are not told apart by the widths of priors.
 
-    They have as many parameters, and one is in place of the other in the same set. Their evidences differ by the widths
-    of their priors, and by chance.
+    They have as many parameters, and one is in place of the other in the same set. They share theirs by their prior
+    odds and by what they ask of the discrepancy: a law that predicts the same only beside a larger smooth force is less
+    probable.
     """
     for best in sorted(found, key=lambda one: -one.score()):
         group = [one for one in found if one is best or _is_tied(best, one)]
-        odds = np.exp([min(one.price for one in group) - one.price for one in group])
-        total = sum(shares[one.terms] for one in group)
         if len(group) > 1:
-            shares |= {one.terms: total * float(o / odds.sum()) for one, o in zip(group, odds, strict=True)}
+            weights = softmax([one.log_profile / temper - one.price for one in group])
+            total = sum(shares[one.terms] for one in group)
+            shares |= {one.terms: total * float(w) for one, w in zip(group, weights, strict=True)}
             break
     return shares
 

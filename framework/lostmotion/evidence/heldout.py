@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from lostmotion.contracts import Array
 from lostmotion.evidence.discrepancy import JointFrame
 from lostmotion.evidence.expansion import Expansion
-from lostmotion.evidence.hypothesis import Hypothesis
+from lostmotion.evidence.hypothesis import Hypothesis, solve_within
 from lostmotion.inference.fit import choose_first_steps
 from lostmotion.likelihood.observation import Observation
 
@@ -36,25 +36,29 @@ def _score_piece(found: Hypothesis, observation: Observation, begin: int) -> flo
     steps = choose_first_steps(fitted.over(fitted.space.free[: frame.own]))
     first = begin * len(observation.sensors)
 
-    bounds = frame.bounds
-
     def expand(step: Array) -> Expansion:
-        return cut_before(one.expand(np.clip(found.at + step, *bounds), steps, found.choice), first)
+        return cut_before(one.expand(found.at + step, steps, found.choice), first)
 
     def score(step: Array) -> float:
-        return _score_point(one, found, np.clip(found.at + step, *bounds), first)
+        return _score_point(one, found, found.at + step, first)
 
     levels = np.array([name.startswith("log_") for name in frame.names])
-    return average_over_posterior(NormalPosterior(found.used, found.precision, levels), expand, score)
+    low, high = (bound - found.at for bound in frame.bounds)
+    return average_over_posterior(NormalPosterior(found.used, found.precision, levels, low, high), expand, score)
 
 
 @dataclass(frozen=True)
 class NormalPosterior:
-    """A normal posterior of coordinates `used`, of `precision` (used, used); `levels` (count,) tells noise levels."""
+    """A normal posterior of coordinates `used`, of `precision` (used, used); `levels` (count,) tells noise levels.
+
+    Steps from the maximum are between `low` and `high`, each (count,) or one number for all.
+    """
 
     used: NDArray[np.intp]
     precision: Array
     levels: NDArray[np.bool_]
+    low: Array | float = -math.inf
+    high: Array | float = math.inf
 
     def weigh(self, step: Array) -> float:
         """Return the log density after a step (count,) from the maximum, relative to the maximum."""
@@ -65,11 +69,21 @@ class NormalPosterior:
 
         Without `levels` the noise levels stay.
         """
-        moved = np.flatnonzero(levels | ~self.levels[self.used])
-        pulled = (held.gradient[self.used] - self.precision @ step[self.used])[moved]
-        further, rows = np.zeros(len(step)), self.used[moved]
-        further[rows] = np.linalg.solve(self.add(held)[np.ix_(moved, moved)], pulled)
-        return further, 0.5 * float(pulled @ further[rows])
+        free = np.flatnonzero(levels | ~self.levels[self.used])
+        pulled = (held.gradient[self.used] - self.precision @ step[self.used])[free]
+        precision = self.add(held)[np.ix_(free, free)]
+        rows = self.used[free]
+        low, high = ((np.broadcast_to(bound, len(step)) - step)[rows] for bound in (self.low, self.high))
+
+        def solve(stay: NDArray[np.intp], moved: Array) -> Array:
+            found, rest = moved.copy(), np.setdiff1d(np.arange(len(free)), stay)
+            told = pulled[rest] - precision[np.ix_(rest, stay)] @ moved[stay]
+            found[rest] = np.linalg.solve(precision[np.ix_(rest, rest)], told)
+            return found
+
+        further = np.zeros(len(step))
+        further[rows] = made = solve_within(solve, pulled, np.minimum(low, 0.0), np.maximum(high, 0.0))
+        return further, float(pulled @ made) - 0.5 * float(made @ precision @ made)
 
     def add(self, held: Expansion) -> Array:
         """Return the precision (used, used) with the information of held-out data."""

@@ -10,7 +10,7 @@ of each smooth force are those of the largest evidence.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -35,6 +35,8 @@ ROUNDS, TOLERANCE = 10, 0.4
 """The largest number of rounds, and the gain in log posterior below which a fit has converged."""
 SHARES = (0.4, 0.1, 0.02)
 """Shares of a Gauss-Newton step that are tried where the whole step does not gain."""
+REACHES = (1.0, 3.0, 9.0)
+"""The multiples of the step of noise levels that are tried."""
 MOST_LOG, MOST_LEVEL = 1.5, 4.0
 """The largest change of a logarithm in one step: of a parameter, and of a noise level."""
 
@@ -76,6 +78,14 @@ class Hypothesis:
     def score(self, temper: float = 1.0) -> float:
         """Return the log posterior weight: the log evidence of all data over the temper, less the price."""
         return (self.log_evidence + self.heldout) / temper - self.price
+
+    @property
+    def log_profile(self) -> float:
+        """The log evidence of all data at the maximum of own coordinates, without the widths of their priors."""
+        free = self.frame.posterior.space.free[: self.frame.own]
+        prior = sum(f.log_prior(float(at)) for f, at in zip(free, self.theta, strict=True))
+        occam = 0.5 * float(np.linalg.slogdet(2.0 * math.pi * self.covariance)[1])
+        return self.log_evidence + self.heldout - prior - occam
 
     @property
     def theta(self) -> Array:
@@ -190,10 +200,11 @@ def _maximise(frame: JointFrame, expansion: Expansion, choice: Choice, *, free: 
         if free:
             quadratic = Quadratic.of(frame, expansion.curvature)
             new, _ = quadratic.choose(choice) if turn else quadratic.choose_anew(choice)
-            less = _leave_out_absent(frame, expansion, new)
+            fewer = tuple(one if other >= 0 else -1 for one, other in zip(choice, new, strict=True))
+            less = _leave_out_absent(frame, expansion, fewer)
             if less is not expansion:
                 told = _compute_log_evidence(frame, expansion, choice)
-                free = _compute_log_evidence(frame, less, new) > told
+                free = _compute_log_evidence(frame, less, fewer) > told
             if free:
                 expansion, choice = less, new
         step, promise = compute_step(frame, expansion, choice)
@@ -221,7 +232,7 @@ def _leave_out_absent(frame: JointFrame, expansion: Expansion, choice: Choice) -
     here, steps = expansion.at.copy(), _tune_steps(frame, expansion)
     here[absent] = 0.0
     there = expansion.at + compute_step(frame, expansion, choice)[0]
-    at = max(here, there, key=lambda one: _add_priors(frame, one, choice, frame.log_likelihood(one, choice)))
+    at = max(here, there, key=lambda one: _add_priors(frame, one, frame.log_likelihood(one, choice), choice))
     return frame.expand(at, steps, choice)
 
 
@@ -246,24 +257,25 @@ def _compute_precision(frame: JointFrame, precision: Array, choice: Choice) -> A
 
 
 def solve_posterior(
-    frame: JointFrame, curvature: Curvature, choice: Choice, held: Sequence[int] | NDArray[np.intp] = ()
+    frame: JointFrame, curvature: Curvature, choice: Choice, held: NDArray[np.intp], moved: Array | None = None
 ) -> Array:
-    """Return the step (n,) to the maximum of the quadratic posterior; `held` coordinates stay.
+    """Return the step (n,) to the maximum of the quadratic posterior.
 
-    Coefficients of smooth forces that are absent go to zero. Coordinates beyond those of the frame are amplitudes of
-    terms with the prior of the curvature.
+    `held` coordinates change by those of `moved` (n,), or stay. Coefficients of smooth forces that are absent go to
+    zero. Coordinates beyond those of the frame are amplitudes of terms with the prior of the curvature.
     """
     at, n = curvature.at, len(curvature.at)
     precision, middle = curvature.precision.copy(), curvature.middle.copy()
     precision[: frame.count] = _compute_precision(frame, curvature.precision, choice)
     middle[frame.own : frame.count] = frame.middle
-    used = np.setdiff1d(np.append(_list_used(frame, choice), np.arange(frame.count, n)), held)
-    gone = np.setdiff1d(np.arange(frame.own, n), used)
+    present = np.append(_list_used(frame, choice), np.arange(frame.count, n))
+    used, gone = np.setdiff1d(present, held), np.setdiff1d(np.arange(frame.own, n), present)
     step = np.zeros(n)
+    step[held] = 0.0 if moved is None else moved[held]
     step[gone] = -at[gone]
-    pulled = (curvature.gradient - precision * (at - middle))[used] - curvature.information[np.ix_(used, gone)] @ step[
-        gone
-    ]
+    rest = np.setdiff1d(np.arange(n), used)
+    pulled = (curvature.gradient - precision * (at - middle))[used]
+    pulled -= curvature.information[np.ix_(used, rest)] @ step[rest]
     inner = curvature.information[np.ix_(used, used)] + np.diag(precision[used])
     step[used] = solve_scaled(inner + 1e-6 * np.diag(np.diag(inner)), pulled)
     return step
@@ -272,21 +284,40 @@ def solve_posterior(
 def compute_step(frame: JointFrame, expansion: Expansion, choice: Choice) -> tuple[Array, float]:
     """Return the step (count,) to the maximum of the quadratic posterior within the bounds, and its predicted gain.
 
-    Own coordinates that are pressed against a bound stay, and logarithms change by a limited amount.
+    Logarithms change by a limited amount.
     """
-    free, at = frame.posterior.space.free[: frame.own], expansion.at
     precision = _compute_precision(frame, expansion.precision, choice)
     gradient = _compute_pull(frame, expansion, precision)
-    low, high = frame.bounds
-    pressed = ((at <= low) & (gradient < 0.0)) | ((at >= high) & (gradient > 0.0))
-    step = solve_posterior(frame, expansion.curvature, choice, np.flatnonzero(pressed))
-    for i, f in enumerate(free):
-        if f.log or f.key.startswith("log_"):
-            most = MOST_LOG if f.physical else MOST_LEVEL
-            step[i] = min(max(step[i], -most), most)
-    step = np.clip(at + step, low, high) - at
+    low, high = _limit_step(frame, expansion.at)
+    curvature = expansion.curvature
+    step = solve_within(lambda held, moved: solve_posterior(frame, curvature, choice, held, moved), gradient, low, high)
     curved = float(step @ expansion.information @ step) + float(np.sum(precision * step**2))
     return step, float(gradient @ step) - 0.5 * curved
+
+
+def solve_within(solve: Callable[[NDArray[np.intp], Array], Array], gradient: Array, low: Array, high: Array) -> Array:
+    """Return the step (n,) to the maximum of a quadratic function between `low` and `high`, each (n,), by active sets.
+
+    `solve(held, moved)` returns the step that maximises it while the coordinates `held` change by those of `moved`. One
+    that is pressed against its bound by the `gradient` (n,) stays; one that would go beyond a bound goes there, and the
+    others are optimised given this: a step that is cut off afterwards may be one in the wrong direction.
+    """
+    held = np.flatnonzero(((low >= 0.0) & (gradient < 0.0)) | ((high <= 0.0) & (gradient > 0.0)))
+    step = solve(held, np.zeros(len(gradient)))
+    while len(beyond := np.flatnonzero((step < low) | (step > high))):
+        held = np.union1d(held, beyond)
+        step = solve(held, np.clip(step, low, high))
+    return step
+
+
+def _limit_step(frame: JointFrame, at: Array) -> tuple[Array, Array]:
+    """Return the lowest and the highest change (count,) of coordinates in one step; zero is within."""
+    low, high = (np.asarray(bound - at) for bound in frame.bounds)
+    for i, f in enumerate(frame.posterior.space.free[: frame.own]):
+        if f.log or f.key.startswith("log_"):
+            most = MOST_LOG if f.physical else MOST_LEVEL
+            low[i], high[i] = max(low[i], -most), min(high[i], most)
+    return np.minimum(low, 0.0), np.maximum(high, 0.0)
 
 
 def _compute_pull(frame: JointFrame, expansion: Expansion, precision: Array) -> Array:
@@ -297,10 +328,10 @@ def _compute_pull(frame: JointFrame, expansion: Expansion, precision: Array) -> 
 
 def _compute_log_posterior(frame: JointFrame, expansion: Expansion, choice: Choice) -> float:
     """Return the log posterior up to a constant, at the point of an expansion."""
-    return _add_priors(frame, expansion.at, choice, float(expansion.here.log_likelihood))
+    return _add_priors(frame, expansion.at, float(expansion.here.log_likelihood), choice)
 
 
-def _add_priors(frame: JointFrame, at: Array, choice: Choice, log_likelihood: float) -> float:
+def _add_priors(frame: JointFrame, at: Array, log_likelihood: float, choice: Choice) -> float:
     """Return a log-likelihood of the filter with the log prior of all coordinates."""
     widths = frame.widths(choice)
     used = widths > 0.0
@@ -310,17 +341,22 @@ def _add_priors(frame: JointFrame, at: Array, choice: Choice, log_likelihood: fl
 
 
 def _climb(frame: JointFrame, expansion: Expansion, step: Array, choice: Choice) -> Expansion | None:
-    """Return the expansion after the largest share of a step that gains; None where none gains.
+    """Return the expansion after the best whole step, or after the largest share of it that gains; None without any.
 
-    The whole step is expanded at once, because it usually gains.
+    Whole steps differ in how far noise levels go: the information about a level that is too high is too large, and its
+    steps are too short.
     """
-    steps, value = _tune_steps(frame, expansion), _compute_log_posterior(frame, expansion, choice)
-    whole = frame.expand(expansion.at + step, steps, choice)
-    if _compute_log_posterior(frame, whole, choice) > value:
-        return whole
+    at, steps, value = expansion.at, _tune_steps(frame, expansion), _compute_log_posterior(frame, expansion, choice)
+    levels = np.array([name.startswith("log_") for name in frame.names])
+    low, high = frame.bounds
+    whole = np.array([at + step * np.where(levels, reach, 1.0) for reach in REACHES])
+    whole[:, levels] = np.clip(whole, low, high)[:, levels]
+    gained = [_add_priors(frame, *one, choice) for one in zip(whole, frame.log_likelihood(whole, choice), strict=True)]
+    if max(gained) > value:
+        return frame.expand(whole[int(np.argmax(gained))], steps, choice)
     for share in SHARES:
-        trial = expansion.at + share * step
-        if _add_priors(frame, trial, choice, frame.log_likelihood(trial, choice)) > value:
+        trial = at + share * step
+        if _add_priors(frame, trial, frame.log_likelihood(trial, choice), choice) > value:
             return frame.expand(trial, steps, choice)
     return None
 

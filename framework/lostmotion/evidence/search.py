@@ -182,10 +182,11 @@ class ExplanationSearch:
     def _weigh_alike(self) -> None:
         """Weigh single laws, and sets with one other law than the best one, where fits alone do not rank them.
 
-        That is where a discrepancy adds much to the best set, or explains the fitted data as well as its laws.
+        That is where a discrepancy adds much to the best set, or adds something to it and explains the fitted data as
+        well as its laws.
         """
         best, fits, nothing = self.best, self.bare.fits, self.found[frozenset()]
-        rival = bool(best.terms) and nothing.log_evidence > best.log_evidence - CLOSE
+        rival = bool(best.terms) and best.smooth > 0.0 and nothing.log_evidence > best.log_evidence - CLOSE
         if not rival and best.log_evidence - fits[best.frame.terms].log_evidence < CLOSE:
             return
         alike = [t for t in fits if len(t) == 1 or (len(t) == len(best.terms) and len(t - best.terms) == 1)]
@@ -235,9 +236,13 @@ class ExplanationSearch:
         begin |= {f.key: f.start for f in posterior.space.free if f.key.startswith(f"{promise.key}.")}
         theta = posterior.space.clip(np.array([begin[key] for key in posterior.space.keys]))
         begin |= dict(zip(posterior.space.keys, theta.tolist(), strict=True))
-        fit = self.bare.fits.get(posterior.active) or maximise(posterior, theta, tolerance=ROUGHLY)
-        if fit.status != "diverged":
-            fit = replace(fit, posterior=posterior.stepped(max(posterior.dynamics.nsub, fit.posterior.dynamics.nsub)))
+        known = self.bare.fits.get(posterior.active)
+        if known is None or known.posterior.space.keys != posterior.space.keys:
+            known = maximise(posterior, theta, tolerance=ROUGHLY)
+        if known.status != "diverged":
+            fit = replace(
+                known, posterior=posterior.stepped(max(posterior.dynamics.nsub, known.posterior.dynamics.nsub))
+            )
             self.weigh(fit, begin, promise.choice)
 
     def _drop(self, target: Hypothesis, key: str, less: Terms) -> None:
