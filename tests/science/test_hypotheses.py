@@ -20,8 +20,9 @@ from lostmotion.evidence.effects import Promise
 from lostmotion.evidence.expansion import Expansion, compute_log_evidence
 from lostmotion.evidence.hypothesis import fit_hypothesis
 from lostmotion.evidence.search import CLOSE, Budget, ExplanationSearch, compute_probabilities
+from lostmotion.inference.candidates import ScoreTest, add_term
 from lostmotion.inference.curves import add_all_curves
-from lostmotion.inference.fit import ROUGHLY, choose_first_steps, hold_free, maximise
+from lostmotion.inference.fit import ROUGHLY, begin_at, choose_first_steps, hold_free, maximise
 from lostmotion.inference.setup import make_posterior, search_maximum, split_heldout
 from lostmotion.kernels.linear_response import respond, respond_plainly
 from lostmotion.likelihood.innovations import Innovations
@@ -141,9 +142,15 @@ def rubbing(tmp_path_factory):
     return start_search(tmp_path_factory.mktemp("rub"), rub)
 
 
-def test_derivatives_of_the_linearised_filter_equal_differences(rubbing, monkeypatch):
-    frame = make_frame(rubbing.nominal.posterior, rubbing.nominal.theta, rubbing.errors)
-    steps = choose_first_steps(rubbing.nominal.posterior)
+@pytest.mark.parametrize("bent", [{}, {"cosine": 1e-3, "sine": -7e-4, "pitch": 0.03}])
+def test_derivatives_of_the_linearised_filter_equal_differences(rubbing, monkeypatch, bent):
+    """With the values of `bent`, the sensor has a wave of error whose slope is up to 0.26."""
+    posterior, key = rubbing.bare.nominal.posterior, "position_ripple"
+    begun = begin_at(posterior, rubbing.bare.nominal.theta)
+    if bent:
+        begun = add_term(begun, ScoreTest(key, 0.0, {f"{key}.{name}": v for name, v in bent.items()}, 1.0), {})
+    frame = make_frame(begun, begun.space.start, rubbing.errors)
+    steps = choose_first_steps(begun)
     fast = frame.expand(frame.start, steps, frame.none)
     monkeypatch.setattr(discrepancy, "linearise_filter", lambda *_: None)
     slow = frame.expand(frame.start, steps, frame.none)

@@ -92,15 +92,22 @@ def correct_twice(
     if not twice:
         return readings, slopes
     found = filter_readings(seen, replace(points.select(twice), readings=readings[twice]))
-    noise = points.noise.variances(seen.sensors)
-    for i, errors, variances in zip(twice, found.errors, found.variances, strict=True):
-        predicted, known = readings[i] - errors, variances < 2.0 * noise[i]
-        shown = predicted.copy()
-        for sensor, term, p in reversed(corrections[i].bends):
-            shown[:, sensor] = term.bent(shown[:, sensor], p)
-        readings[i] = np.where(known, seen.readings - (shown - predicted), readings[i])
+    noise = points.noise.variances(seen.sensors)[twice]
+    for k, i in enumerate(twice):
+        known = found.variances[k] < 2.0 * noise[k]
+        predicted = readings[i] - found.errors[k]
+        corrected = seen.readings - compute_sensor_errors(corrections[i].bends, predicted)
+        readings[i] = np.where(known, corrected, readings[i])
         slopes[i] = np.where(known, 1.0, slopes[i])
     return readings, slopes
+
+
+def compute_sensor_errors(bends: Sequence[Bend], values: Array) -> Array:
+    """Return the errors (samples, sensors) of nonlinear sensors at true values of the same shape."""
+    shown = values.copy()
+    for sensor, term, p in reversed(bends):
+        shown[:, sensor] = term.bent(shown[:, sensor], p)
+    return np.asarray(shown - values)
 
 
 def correct_readings(seen: Observation, corrections: SensorCorrections) -> tuple[Array, Array]:

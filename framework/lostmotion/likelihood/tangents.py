@@ -17,15 +17,36 @@ import numpy as np
 
 from lostmotion.contracts import Array, Place
 from lostmotion.kernels.linear_response import respond
+from lostmotion.likelihood.bends import (
+    NUDGE,
+    Bend,
+    compute_sensor_errors,
+    correct_bends,
+    list_corrections,
+    rescale_innovations,
+)
 from lostmotion.likelihood.innovations import Innovations
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.points import join_points
+from lostmotion.likelihood.points import Points, join_points
 from lostmotion.likelihood.posterior import Posterior
 
 REACH = 1e-3
 """Differences of channels are taken over this share of the deviation of a state."""
 UNIT = 1e-4
 """The inputs are changed by this share for their derivatives."""
+
+
+@dataclass(frozen=True)
+class BentSensors:
+    """Nonlinear sensors, whose errors are those at the values that a `first` pass of the filter predicts.
+
+    `rise` (samples, sensors) is the derivative of the error over the predicted value, zero where a reading is corrected
+    by the error at itself, and `slopes` (samples, sensors) those of the correction.
+    """
+
+    first: Tangents
+    rise: Array
+    slopes: Array
 
 
 @dataclass(frozen=True)
@@ -46,6 +67,7 @@ class Tangents:
     spread: Array
     noise: tuple[Array, Array, Array]
     gain: Array
+    bent: BentSensors | None = None
 
     @property
     def observation(self) -> Observation:
@@ -62,8 +84,11 @@ class Tangents:
         wide = np.zeros((len(rates), *self.steps.shape[:2]))
         wide[:, :, : rates.shape[2]] = rates
         seen = np.ascontiguousarray(-channels[:, :, columns] * self.gain)
+        if self.bent is not None:
+            seen += self.bent.rise * self.bent.first.respond_to_forces(rates, channels).reshape(seen.shape)
         told = (self.steps, self.ahead, self.slopes, self.spread, *self.noise, self.observation.dt)
-        return np.asarray(respond(*told, wide, seen).reshape(len(rates), -1))
+        found = respond(*told, wide, seen)
+        return np.asarray((found if self.bent is None else found / self.bent.slopes).reshape(len(rates), -1))
 
     def compute_effects(self, fulls: Array, active: frozenset[str]) -> tuple[Array, Array]:
         """Return derivatives of states (sets, samples, n) and channels along the states, for some parameter vectors."""
@@ -103,38 +128,70 @@ def linearise_filter(
     """Return the linearised filter of a recording at the first of some coordinates, and the innovations at all.
 
     `thetas` are (points, n). The innovations of `changed` recordings, with other inputs or readings, at the first point
-    come last. None where a sensor is late, bent or changes, or where the filter diverged.
+    come last. None where a sensor is late or changes, or where the filter diverged.
     """
     single = replace(posterior.on((posterior.observations[index],)), jobs=1)
-    changing = single.active & {*single.system.bending_terms, *single.system.rescaling, *single.system.lagging_terms}
-    if changing or any(map(any, single.recordings[0].count_delays(thetas))):
+    if single.active & {*single.system.rescaling, *single.system.lagging_terms}:
         return None
-    points, view = single.recordings[0].points(thetas), single.filters[0].view()
+    if any(map(any, single.recordings[0].count_delays(thetas))):
+        return None
+    points, others = single.recordings[0].points(thetas), [single.on((other,)).filters[0] for other in changed]
     if np.any(points.lag != 0.0):
         return None
-    others = [single.on((other,)).filters[0] for other in changed]
-    shifted = [other.recording.points(thetas[:1]) for other in others]
-    every, kept = (
-        join_points([points, *shifted], [view, *(o.view() for o in others)]),
-        single.dynamics.make_kept(view.samples),
-    )
-    innovations = single.dynamics.filter_and_keep(view, every, kept)
+    views = [single.filters[0].view(), *(other.view() for other in others)]
+    parts = [points, *(other.recording.points(thetas[:1]) for other in others)]
+    seen = np.stack([view.readings for view, part in zip(views, parts, strict=True) for _ in range(len(part))])
+    every, single = join_points(parts, views), single.on((views[0],))
+    bends = [list_corrections(single.system, single.active, full, views[0].sensors).bends for full in every.params]
+    return _run_twice(single, every, seen, bends) if any(bends) else _run(single, every)
+
+
+def _run_twice(
+    posterior: Posterior, points: Points, seen: Array, bends: Sequence[tuple[Bend, ...]]
+) -> tuple[Tangents, Innovations] | None:
+    """Return the same as `_run` for readings `seen` (points, samples, sensors) of nonlinear sensors: see `bends.py`."""
+    view = posterior.observations[0]
+    pairs = [correct_bends(replace(view, readings=own), bent) for own, bent in zip(seen, bends, strict=True)]
+    readings, slopes = np.stack([one.readings for one, _ in pairs]), np.stack([slope for _, slope in pairs])
+    if (begun := _run(posterior, replace(points, readings=readings))) is None:
+        return None
+    first, found = begun
+    known = found.variances < 2.0 * points.noise.variances(view.sensors)[:, None]
+    predicted = readings - found.errors
+    wrong = np.stack([compute_sensor_errors(bent, one) for bent, one in zip(bends, predicted, strict=True)])
+    readings, slopes = np.where(known, seen - wrong, readings), np.where(known, 1.0, slopes)
+    if (ended := _run(posterior, replace(points, readings=readings))) is None:
+        return None
+    reach = NUDGE * np.nanmax(np.abs(predicted[0]), axis=0, initial=1e-300)
+    sides = [compute_sensor_errors(bends[0], predicted[0] + side * reach) for side in (1.0, -1.0)]
+    rise = np.where(known[0] & np.isfinite(predicted[0]), (sides[0] - sides[1]) / (2.0 * reach), 0.0)
+    bent = BentSensors(first, rise, np.where(np.isfinite(slopes[0]), slopes[0], 1.0))
+    return replace(ended[0], bent=bent), rescale_innovations(ended[1], slopes)
+
+
+def _run(posterior: Posterior, points: Points) -> tuple[Tangents, Innovations] | None:
+    """Return the linearised filter at the first of some points, and the innovations at all; None after a divergence.
+
+    The posterior has one recording, as a filter sees it.
+    """
+    view, full, gain = posterior.observations[0], points.params[0], points.gain[0]
+    kept = posterior.dynamics.make_kept(view.samples)
+    innovations = posterior.dynamics.filter_and_keep(view, points, kept)
     if not innovations.finite[0]:
         return None
     seen, _, before, ahead, steps = kept
-    single, full, gain = single.on((view,)), points.params[0], points.gain[0]
-    n = single.dynamics.states
-    states, shown = seen.shape[1], points.noise.shown[0]
+    n, states, shown = posterior.dynamics.states, seen.shape[1], points.noise.shown[0]
     slopes = np.zeros((*innovations.errors.shape[1:], states + len(shown)))
-    slopes[:, :, :states] = _compute_slopes(single, full, before, ahead)
+    slopes[:, :, :states] = _compute_slopes(posterior, full, before, ahead)
     slopes *= gain[:, None]
     ends = np.cumsum([sensor.noise_states for sensor in view.sensors])
     for s, (sensor, end) in enumerate(zip(view.sensors, ends, strict=True)):
         own = slice(end - sensor.noise_states, end)
         slopes[:, s, states:][:, own] = shown[own]
-    spread = np.where(np.isfinite(view.readings), innovations.variances[0], math.inf)
+    read = np.isfinite(view.readings if points.readings is None else points.readings[0])
+    spread = np.where(read, innovations.variances[0], math.inf)
     noise = (points.noise.transition[0], points.noise.driving[0], points.noise.first[0])
-    return Tangents(single, full, seen[:, :n], steps, ahead, slopes, spread, noise, gain), innovations
+    return Tangents(posterior, full, seen[:, :n], steps, ahead, slopes, spread, noise, gain), innovations
 
 
 def _compute_slopes(posterior: Posterior, full: Array, states: Array, covariance: Array) -> Array:
