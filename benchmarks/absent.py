@@ -21,7 +21,7 @@ from lostmotion.diagnosis.stages import list_fitted_keys
 from lostmotion.evidence.bare import Budget
 from lostmotion.evidence.bounds import bound_absent
 from lostmotion.evidence.search import ExplanationSearch
-from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
+from lostmotion.inference.setup import make_posterior, search_maximum, split_heldout
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import default
@@ -39,7 +39,7 @@ def bound_clean(machine: SmallMachine, folder: Path) -> float:
     prepared = prepare(folder / "case.toml", default())
     system = System(prepared.model, prepared.terms)
     train, _ = split_heldout(prepared.observations)
-    nominal = search_maximum(make_problem(system, prepared.case, train, jobs=1), np.random.default_rng(0))
+    nominal = search_maximum(make_posterior(system, prepared.case, train, jobs=1), np.random.default_rng(0))
     search = ExplanationSearch(nominal, list_fitted_keys(system), (), Budget())
     search.weigh(search.bare.fits[frozenset()])
     keys = [k for k, t in zip(system.keys, system.terms, strict=True) if t.name == machine.mechanism]

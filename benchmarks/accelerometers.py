@@ -227,15 +227,15 @@ def _measure_more(d: Any, machine: Machine, states: Array, observation: Any) -> 
     """Return levels of noise over their truths, and how often the band of the position holds the true one."""
     from lostmotion.inference.unseen import smooth_body_position
 
-    problem, theta = d.after.problem, d.after.theta
-    process, white = problem.random_force(theta), problem.noise(theta).white
+    posterior, theta = d.after.posterior, d.after.theta
+    process, white = posterior.recordings[0].random_force(theta), posterior.recordings[0].noise(theta).white
     place = smooth_body_position(d.after, d.shown)
     true, highest = EXCITATION_NOISE * machine.peak, float(np.abs(states[:, 0]).max())
     return {
         "random_over_true": math.sqrt(process / machine.dt) / true,
         "noise_over_true": math.sqrt(white) / (machine.noise * float(states[:, 2].std())),
-        "usual_over_true": math.exp(0.5 * problem.scales.usual) / math.sqrt(machine.dt) / true,
-        "length_over_true": problem.scales.length / highest,
+        "usual_over_true": math.exp(0.5 * posterior.scales.usual) / math.sqrt(machine.dt) / true,
+        "length_over_true": posterior.scales.length / highest,
         "band": float(np.mean(np.abs(place.mean - states[:, 0]) <= 2.0 * place.sd)),
         "band_widest": float(2.0 * place.sd.max() / highest),
     }

@@ -24,7 +24,7 @@ from lostmotion.case import CaseFile, Prior
 from lostmotion.diagnosis.experiment import compute_bayes_factor, propose
 from lostmotion.inference.candidates import compute_slopes, fit_term, run_score_test
 from lostmotion.inference.fit import maximise
-from lostmotion.inference.setup import make_problem, search_maximum
+from lostmotion.inference.setup import make_posterior, search_maximum
 from lostmotion.likelihood.drive import DriveHarmonic
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System, key_of
@@ -139,13 +139,13 @@ def fitted(machine, observation):
     terms = tuple(registry.make("term", name) for name in (machine.truth, machine.other))
     case = CaseFile(machine.name, Path(), (), machine.model, machine.known, machine.estimate, {}, (), "")
     nominal = search_maximum(
-        make_problem(System(registry.make("model", machine.model), terms), case, (observation,)),
+        make_posterior(System(registry.make("model", machine.model), terms), case, (observation,)),
         np.random.default_rng(0),
     )
     slopes = compute_slopes(nominal)
     fits = [fit_term(nominal, run_score_test(nominal, slopes, key_of(term))) for term in terms]
     # A fit with one term may show the other where to begin.
-    return [maximise(f.problem, f.theta) for f in fits]
+    return [maximise(f.posterior, f.theta) for f in fits]
 
 
 def studied(machine, draws=3, seed=0):

@@ -17,7 +17,7 @@ import numpy as np
 from lostmotion.diagnosis.compare import cut_heldout
 from lostmotion.diagnosis.stages import list_fitted_keys
 from lostmotion.evidence.search import Budget, ExplanationSearch, compute_probabilities
-from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
+from lostmotion.inference.setup import make_posterior, search_maximum, split_heldout
 from lostmotion.kernels.threads import hold_linear_algebra
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.prepare import prepare
@@ -30,7 +30,7 @@ def explain(path: Path, seconds: float) -> ExplanationSearch:
     prepared = prepare(path, default(), DEFAULT)
     system = System(prepared.model, prepared.terms)
     train, held = split_heldout(prepared.observations, DEFAULT.heldout)
-    nominal = search_maximum(make_problem(system, prepared.case, train, jobs=1), np.random.default_rng(0))
+    nominal = search_maximum(make_posterior(system, prepared.case, train, jobs=1), np.random.default_rng(0))
     pieces = [(piece.observation, piece.begin) for piece in cut_heldout(prepared.observations, held)]
     begun = time.process_time()
     say = lambda text: print(f"{time.process_time() - begun:7.1f} s  {text}", flush=True)  # noqa: E731
@@ -39,7 +39,7 @@ def explain(path: Path, seconds: float) -> ExplanationSearch:
 
 def describe(hypothesis, best):
     """Return the lines of a hypothesis."""
-    keys = hypothesis.frame.problem.free[: hypothesis.frame.own]
+    keys = hypothesis.frame.posterior.space.free[: hypothesis.frame.own]
     sds = np.sqrt(np.maximum(np.diag(hypothesis.covariance), 0.0))
     rows = []
     for f, at, sd in zip(keys, hypothesis.theta, sds, strict=True):

@@ -23,10 +23,11 @@ import numpy as np
 
 from lostmotion.identification.sampling import SampledPosterior, SamplingPlan, identify, make_task
 from lostmotion.inference.fit import Fit, maximise
-from lostmotion.inference.setup import choose_steps, find_modes, make_problem, polish_modes
+from lostmotion.inference.setup import choose_steps, find_modes, make_posterior, polish_modes
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import RANDOM, Problem
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.reference import Reference
+from lostmotion.likelihood.space import RANDOM
 from lostmotion.likelihood.system import System
 from studies import TRUE, case_of, system_of
 
@@ -50,17 +51,17 @@ def measured(machine: Machine, periods: int, seed: int, excitation: float) -> tu
     )
 
 
-def posed(observation: Observation, jobs: int = 2) -> Problem:
-    """Return the problem of c, x0 and both noise levels, started at the truth."""
-    problem = make_problem(System(system_of().model, ()), case_of(("c", "x0")), (observation,), jobs=jobs)
+def posed(observation: Observation, jobs: int = 2) -> Posterior:
+    """Return the posterior of c, x0 and both noise levels, started at the truth."""
+    posterior = make_posterior(System(system_of().model, ()), case_of(("c", "x0")), (observation,), jobs=jobs)
     start = {"c": math.log(TRUE["c"]), "x0": math.log(TRUE["x0"])}
-    frees = tuple(replace(f, start=start.get(f.key, f.start)) for f in problem.free)
-    return replace(problem, free=frees)
+    frees = tuple(replace(f, start=start.get(f.key, f.start)) for f in posterior.space.free)
+    return posterior.over(frees)
 
 
-def fitted(problem: Problem) -> Fit:
+def fitted(posterior: Posterior) -> Fit:
     """Return the maximum near the truth with steps finer than those of identify, so that these are not measured."""
-    return maximise(choose_steps(problem, maximise(problem).theta, accuracy=FINEST))
+    return maximise(choose_steps(posterior, maximise(posterior).theta, accuracy=FINEST))
 
 
 def sharpness(draws: float) -> None:
@@ -83,7 +84,9 @@ def _sharp(machine: Machine, excitation: float, draws: float) -> str:
     sd, sigma = logs.std(axis=0), NOISE_SHARE * float(seen.states[:, 0].std())
     pieces = PIECES * PER_PERIOD if machine.amplitude == LEVELS["chaotic"] and not excitation else None
     least = bounds(machine, seen, sigma, (excitation * machine.amplitude) ** 2 * observation.dt, window=pieces)
-    at_least = bounds(machine, seen, sigma, math.exp(fit.problem.free[fit.problem.keys.index(RANDOM)].low))
+    at_least = bounds(
+        machine, seen, sigma, math.exp(fit.posterior.space.free[fit.posterior.space.keys.index(RANDOM)].low)
+    )
     missed = (logs.mean(axis=0) - np.log([TRUE["c"], TRUE["x0"]])) / sd
     told = f"{_pair(1e6 * sd)}{_pair(1e6 * least)}{_pair(sd / least)}  misses by {missed[0]:+.1f} {missed[1]:+.1f} sd"
     told += f"; over the bound with the least random force {_pair(sd / at_least)}" if not excitation else ""
@@ -99,21 +102,23 @@ def speed(samples: int) -> None:
     """Print likelihood runs and effective draws a second, and what a plain NumPy filter would do of both."""
     begin = time.perf_counter()
     _, observation = measured(Machine(), round(samples / PER_PERIOD), 1, 1e-3)
-    problem = posed(observation)
-    problem.innovations(problem.start)
+    posterior = posed(observation)
+    posterior.innovations(posterior.space.start)
     begin = time.perf_counter()
-    fits = polish_modes(find_modes(problem, np.random.default_rng(0)))
+    fits = polish_modes(find_modes(posterior, np.random.default_rng(0)))
     searched = time.perf_counter() - begin
-    problem = fits[0].problem
+    posterior = fits[0].posterior
     theta = fits[0].theta
-    alone, both = runs_a_second(replace(problem, jobs=1), theta), runs_a_second(problem, theta)
-    print(f"{observation.samples} samples, {len(theta)} unknowns, {problem.nsub} steps at most between samples")
+    alone, both = runs_a_second(replace(posterior, jobs=1), theta), runs_a_second(posterior, theta)
+    print(
+        f"{observation.samples} samples, {len(theta)} unknowns, {posterior.dynamics.nsub} steps at most between samples"
+    )
     print(f"search and fits of {len(fits)} mode(s)            {searched:10.1f} s")
     print(
         f"likelihood runs a second, one core      {alone:10.1f}   {1e9 / alone / observation.samples:.0f} ns a sample"
     )
     print(f"likelihood runs a second, two cores     {both:10.1f}")
-    plain, apart = against_plain(problem, theta)
+    plain, apart = against_plain(posterior, theta)
     print(f"the same by plain NumPy, one core       {plain:10.4f}   (log-likelihood apart by {apart:.1e})")
     print(f"ours over plain NumPy, one core         {alone / plain:10.0f}")
     begin = time.perf_counter()
@@ -126,27 +131,31 @@ def speed(samples: int) -> None:
     print(f"whole identify                          {taken + searched:10.1f} s   (wanted: less than 90 s)")
 
 
-def runs_a_second(problem: Problem, theta: Any, seconds: float = 2.0) -> float:
+def runs_a_second(posterior: Posterior, theta: Any, seconds: float = 2.0) -> float:
     """Return how often a second the likelihood is computed, as many at a time as the sampler hands over."""
     points = np.repeat(theta[None], 8, axis=0)
-    problem.log_likelihoods(points)
+    posterior.log_likelihood(points)
     begin, done = time.perf_counter(), 0
     while time.perf_counter() - begin < seconds:
-        problem.log_likelihoods(points)
+        posterior.log_likelihood(points)
         done += len(points)
     return done / (time.perf_counter() - begin)
 
 
-def against_plain(problem: Problem, theta: Any, samples: int = 2000) -> tuple[float, float]:
+def against_plain(posterior: Posterior, theta: Any, samples: int = 2000) -> tuple[float, float]:
     """Return runs a second of the plain filter over the whole recording, timed on its beginning, and how far it is off.
 
     The second is relative to the log-likelihood of that beginning.
     """
-    part = problem.on((problem.observations[0].part(0, samples),))
+    part = posterior.on((posterior.observations[0].part(0, samples),))
     ours = part.innovations(theta).log_likelihood
     begin = time.perf_counter()
-    plain = replace(part, engine=Reference()).innovations(theta).log_likelihood
-    taken = (time.perf_counter() - begin) * problem.observations[0].samples / samples
+    plain = (
+        replace(part, dynamics=Reference(part.system, part.active, part.dynamics.nsub))
+        .innovations(theta)
+        .log_likelihood
+    )
+    taken = (time.perf_counter() - begin) * posterior.observations[0].samples / samples
     return 1.0 / taken, abs(plain - ours) / abs(ours)
 
 
@@ -158,9 +167,9 @@ class Counted:
     runs: int = 0
 
     def __post_init__(self) -> None:
-        problem, reach = self.fit.problem, WIDTH * np.array(list(self.fit.sd.values()))
-        self.low = np.maximum(problem.clip(np.full(len(reach), -np.inf)), self.fit.theta - reach)
-        self.high = np.minimum(problem.clip(np.full(len(reach), np.inf)), self.fit.theta + reach)
+        posterior, reach = self.fit.posterior, WIDTH * np.array(list(self.fit.sd.values()))
+        self.low = np.maximum(posterior.space.clip(np.full(len(reach), -np.inf)), self.fit.theta - reach)
+        self.high = np.minimum(posterior.space.clip(np.full(len(reach), np.inf)), self.fit.theta + reach)
 
     def spread(self, cube: Any) -> Any:
         """Return coordinates of points of the unit cube."""
@@ -168,12 +177,12 @@ class Counted:
 
     def heights(self, points: Any) -> Any:
         """Return log posterior densities (count,); very low ones outside of the bounds."""
-        points, problem = np.atleast_2d(points), self.fit.problem
-        found = np.array([problem.log_prior(p) for p in points])
+        points, posterior = np.atleast_2d(points), self.fit.posterior
+        found = np.array([posterior.space.log_prior(p) for p in points])
         inside = np.isfinite(found)
         self.runs += int(inside.sum())
         if inside.any():
-            found[inside] += problem.log_likelihoods(points[inside])
+            found[inside] += posterior.log_likelihood(points[inside])
         return np.maximum(found, -1e300)
 
 
@@ -249,7 +258,7 @@ def _samplers(fits: list[Fit]) -> Iterator[tuple[str, Callable[[], Result]]]:
 def _about(fit: Fit, count: int) -> Any:
     rng = np.random.default_rng(2)
     points = rng.multivariate_normal(fit.theta, fit.local.covariance, count)
-    low, high = (np.array([getattr(f, end) for f in fit.problem.free]) for end in ("low", "high"))
+    low, high = (np.array([getattr(f, end) for f in fit.posterior.space.free]) for end in ("low", "high"))
     return np.clip(points, low + 1e-6, high - 1e-6)
 
 

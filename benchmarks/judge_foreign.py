@@ -23,7 +23,7 @@ from judge_machines import simulate_law
 from judge_truth import Hiding, Truth, is_complete, record, save_truth, widen, write_driven_case
 from library import ESTIMATED, draw_drive
 from lostmotion.errors import LostMotionError
-from lostmotion.inference.setup import choose_steps, make_problem, search_maximum, split_heldout
+from lostmotion.inference.setup import choose_steps, make_posterior, search_maximum, split_heldout
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import default
@@ -129,8 +129,8 @@ def fit_nominal(folder: Path) -> float:
     """Return the log-likelihood of the nominal model, fitted to the part of a recording that a diagnosis fits."""
     prepared = prepare(folder / "case.toml", default())
     train, _ = split_heldout(prepared.observations)
-    problem = make_problem(System(prepared.model, prepared.terms), prepared.case, train, jobs=1)
-    return search_maximum(choose_steps(problem, problem.start), np.random.default_rng(0)).log_likelihood
+    posterior = make_posterior(System(prepared.model, prepared.terms), prepared.case, train, jobs=1)
+    return search_maximum(choose_steps(posterior, posterior.space.start), np.random.default_rng(0)).log_likelihood
 
 
 def check_motion(rig: BlindMachine, motion: np.ndarray, pilot: Pilot) -> None:

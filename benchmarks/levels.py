@@ -246,7 +246,7 @@ def decide_levels(folder: Path) -> None:
         )
         gaps, points = list_grid(both)
         for name, posterior in (("exponents alone", both.without_d2()), ("with dimensions", both)):
-            heights = posterior.log_likelihoods(points)
+            heights = posterior.log_likelihood(points)
             share = np.exp(heights - heights.max()).reshape(len(gaps), -1).sum(axis=1)
             small = share[gaps < BETWEEN].sum() / share.sum()
             print(f"recordings {seed}, {name}: {small:.2f} for half gaps below {1e3 * BETWEEN:g} mm, where the true "
@@ -255,7 +255,7 @@ def decide_levels(folder: Path) -> None:
 
 def list_grid(posterior: Inversion) -> tuple[Array, Array]:
     """Return the gaps of a grid over the prior, and its points."""
-    ends = [np.linspace(f.low, f.high, n) for f, n in zip(posterior.free, (400, 100), strict=True)]
+    ends = [np.linspace(f.low, f.high, n) for f, n in zip(posterior.space.free, (400, 100), strict=True)]
     return ends[0], np.stack(np.meshgrid(*ends, indexing="ij"), axis=-1).reshape(-1, 2)
 
 

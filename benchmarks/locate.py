@@ -33,13 +33,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.stats import beta
 
 from lostmotion.diagnosis.stages import list_half_gaps, locate
 from lostmotion.errors import DataError
 from lostmotion.inference.candidates import compute_slopes, run_score_test
 from lostmotion.inference.odds import LikelihoodRatio, compute_log_ratios, list_likely
-from lostmotion.inference.setup import choose_steps, make_problem, search_maximum
+from lostmotion.inference.setup import choose_steps, make_posterior, search_maximum
 from lostmotion.likelihood.latent import smooth_latent_force
 from lostmotion.likelihood.system import System, key_of
 from lostmotion.preparation.prepare import Prepared, prepare
@@ -51,6 +50,7 @@ from lostmotion_trials.blind.mechanisms import LARGEST, TABLE, UNKNOWN, Effect, 
 from lostmotion_trials.blind.simulator import EXCITATION_NOISE, BlindMachine, Disturbances, draw_rig, simulate_machine
 from lostmotion_trials.blind.writing import write_case
 from lostmotion_trials.integrators.hidden import Hidden
+from lostmotion_trials.rates import estimate_rate
 
 GAIN = (50.0, 500.0)
 SAMPLES = (1500, 2500)
@@ -148,9 +148,9 @@ def run_machine(kind: str, seed: int, number: int) -> Row:
     names = [key for key in names if effect and effect.at in ("", key.partition("@")[2] or "ground")]
     system = System(made.model, tuple(t for t in made.terms if key_of(t) in names))
     begin = time.perf_counter()
-    fit = search_maximum(make_problem(system, made.case, made.observations, jobs=1), np.random.default_rng(0))
+    fit = search_maximum(make_posterior(system, made.case, made.observations, jobs=1), np.random.default_rng(0))
     fitted = time.perf_counter()
-    honest = choose_steps(fit.problem, fit.theta)
+    honest = choose_steps(fit.posterior, fit.theta)
     missing, plays = smooth_latent_force(honest, fit.theta), list_half_gaps(honest, fit.theta)
     located = locate(made.model, made.observations[0], missing, plays=plays, rng=np.random.default_rng([seed, number]))
     shared = time.perf_counter()
@@ -191,13 +191,6 @@ def score_first(row: Row, test: str) -> dict[str, bool]:
     return {"any": bool(first), "covariate": quantity, "place": bool(first) and place, "both": quantity and place}
 
 
-def compute_band(hits: int, of: int, level: float = 0.95) -> tuple[float, float]:
-    """Return the interval of Clopper and Pearson (Biometrika 26 (1934) 404-413) for a rate."""
-    half = 0.5 * (1.0 - level)
-    low = float(beta.ppf(half, hits, of - hits + 1)) if hits else 0.0
-    return low, float(beta.ppf(1.0 - half, hits + 1, of - hits)) if hits < of else 1.0
-
-
 def summarise(rows: Sequence[Row]) -> str:
     """Return the rates of all tests with their bands."""
     lines = []
@@ -226,8 +219,8 @@ def summarise(rows: Sequence[Row]) -> str:
 
 
 def _format_cell(hits: int, of: int, what: str) -> str:
-    low, high = compute_band(hits, of)
-    return f"{what} {hits}/{of} = {hits / max(of, 1):.0%} [{low:.1%}, {high:.1%}]"
+    rate = estimate_rate(hits, of)
+    return f"{what} {hits}/{of} = {rate.share:.0%} [{rate.low:.1%}, {rate.high:.1%}]"
 
 
 def read_rows(path: Path) -> list[Row]:

@@ -39,7 +39,7 @@ INCH = 0.0254
 def list_rows(seen: Found):
     """Return a row for each parameter: median and interval, how much wider with a memory, published, distance."""
     rows = []
-    for key, free, unit in zip(seen.result.keys, seen.fit.problem.free, seen.result.units, strict=True):
+    for key, free, unit in zip(seen.result.keys, seen.fit.posterior.space.free, seen.result.units, strict=True):
         usual, robust = seen.deviations(free.key)
         between = seen.result.intervals.get(key)
         ours = f"{between.median:.5g} [{between.low:.5g}, {between.high:.5g}] {unit}" if between else "no interval"

@@ -67,7 +67,7 @@ def findings(d):
     wide = {"before": d.before, "after": d.after, **({"friction": friction} if friction else {})}
     return {
         "found": list(d.found),
-        "probability": {k: explained.inclusion(k) for k in d.after.problem.system.keys},
+        "probability": {k: explained.inclusion(k) for k in d.after.posterior.system.keys},
         "nothing": explained.probabilities.get(frozenset(), 0.0),
         "gains": {"+".join(sorted(k)): fit.log_likelihood - bottom for k, fit in explained.fits.items()},
         "promised": dict(sorted(explained.promised.items(), key=lambda row: row[1])),
@@ -75,10 +75,10 @@ def findings(d):
         "status": {"+".join(sorted(k)): f"{fit.status} {fit.rounds}" for k, fit in explained.fits.items()},
         "random_gain": d.random_gain,
         "verdict": [*d.named, *["unknown"] * d.unknown] or ["random_force"] * d.unexplained,
-        "levels": {n: dict(zip(f.problem.keys, map(float, f.theta), strict=True)) for n, f in wide.items()},
+        "levels": {n: dict(zip(f.posterior.space.keys, map(float, f.theta), strict=True)) for n, f in wide.items()},
         "usual": {n: {k: float(s) for k, s in f.sd.items()} for n, f in wide.items()},
         "intervals": {n: to_plain(compute_intervals(f, draw_parameters(f, rng))) for n, f in wide.items()},
-        "nsub": [d.before.problem.nsub, d.after.problem.nsub],
+        "nsub": [d.before.posterior.dynamics.nsub, d.after.posterior.dynamics.nsub],
     }
 
 
@@ -109,12 +109,12 @@ def predictions(d, observation, hidden):
 
 def truth_of(d, hidden):
     """Return the fit with every parameter at its true value and the noise levels as they were found."""
-    fit, system = d.after, d.after.problem.system
-    kept = [i for i, free in enumerate(fit.problem.free) if not free.physical]
+    fit, system = d.after, d.after.posterior.system
+    kept = [i for i, free in enumerate(fit.posterior.space.free) if not free.physical]
     full = system.vector({**TRUE, FORCE: hidden})
-    free = tuple(fit.problem.free[i] for i in kept)
-    problem = replace(fit.problem, known=full, free=free, active=frozenset({FRICTION}))
-    return replace(fit, problem=problem, local=replace(fit.local, theta=fit.theta[kept]))
+    free = tuple(fit.posterior.space.free[i] for i in kept)
+    posterior = replace(fit.posterior, known=full).over(free).acting({FRICTION})
+    return replace(fit, posterior=posterior, local=replace(fit.local, theta=fit.theta[kept]))
 
 
 def several(studies, args):

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from lostmotion.likelihood.drive import Drive
-from lostmotion.likelihood.engine import Points, RunningSystem, SensorNoises
 from lostmotion.likelihood.lanes import Lanes
 from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.points import Points, SensorNoises
 from lostmotion.likelihood.reference import Reference
 from lostmotion.likelihood.system import System
 from lostmotion.noises import NoiseBlock
@@ -27,7 +27,7 @@ DT = 2.0 * math.pi / 40.0 / 160.0
 
 
 def asked(samples, count):
-    """Return what an engine is handed: points within a thousandth of the truth."""
+    """Return a system, an observation, and points within a thousandth of the truth."""
     system, rng = System(LinBacklash(), (CoulombFriction(),)), np.random.default_rng(0)
     full = system.vector(VALUES)
     drive = Drive.smooth([lambda t: 100.0 * np.cos(40.0 * t)], DT, samples)
@@ -42,14 +42,14 @@ def asked(samples, count):
         one, 0.0 * one, 0.0 * one, np.tile([truth[0], 0.1], (count, 1)),
         np.tile(np.diag([1e-8, 1e-2]), (count, 1, 1)), (drive,), number, number,
     )  # fmt: skip
-    return RunningSystem(system, system.everything, SUBSTEPS), observation, points
+    return system, observation, points
 
 
 @pytest.mark.parametrize("count", [1, 16, 32], ids=["1 point", "16 points", "32 points"])
 def test_filter_against_plain_matrices(benchmark, count):
     """20,000 samples in lanes, over 200 samples at one point with matrices; the speed of one core is printed."""
-    work, part = asked(SAMPLES, count), asked(PART, 1)
-    fast, slow = Lanes(), Reference()
+    (system, *work), (_, *part) = asked(SAMPLES, count), asked(PART, 1)
+    fast, slow = (run(system, system.everything, SUBSTEPS) for run in (Lanes, Reference))
     assert fast.filter(*work).finite.all()
     benchmark.pedantic(lambda: fast.filter(*work), rounds=7, warmup_rounds=1)
     speed = SAMPLES * count / benchmark.stats.stats.min

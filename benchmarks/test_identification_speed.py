@@ -26,14 +26,18 @@ def near(theta):
 
 
 def test_likelihood_outruns_plain_numpy_and_agrees_with_it(benchmark, fit):
-    problem, theta = replace(fit.problem, jobs=1), fit.theta
-    part = problem.on((problem.observations[0].part(0, PART),))
+    posterior, theta = replace(fit.posterior, jobs=1), fit.theta
+    part = posterior.on((posterior.observations[0].part(0, PART),))
 
     def plainly():
-        return replace(part, engine=Reference()).innovations(theta).log_likelihood
+        return (
+            replace(part, dynamics=Reference(part.system, part.active, part.dynamics.nsub))
+            .innovations(theta)
+            .log_likelihood
+        )
 
-    benchmark.pedantic(lambda: problem.log_likelihoods(near(theta)), rounds=9, warmup_rounds=1)
-    often = ratio_of(lambda: problem.log_likelihoods(near(theta)), plainly, rounds=12)
+    benchmark.pedantic(lambda: posterior.log_likelihood(near(theta)), rounds=9, warmup_rounds=1)
+    often = ratio_of(lambda: posterior.log_likelihood(near(theta)), plainly, rounds=12)
     ratio = often / POINTS
     ours, plain = part.innovations(theta).log_likelihood, plainly()
     faster = AS_LONG_AS / PART / ratio
@@ -45,11 +49,11 @@ def test_likelihood_outruns_plain_numpy_and_agrees_with_it(benchmark, fit):
 
 def test_steps_where_the_force_is_straight_cost_little(benchmark, fit):
     """Eight times finer steps at a contact take less than three times as long: the rest of the way is one step."""
-    problem, theta = replace(fit.problem, jobs=1), fit.theta
-    finer = replace(problem, nsub=8 * problem.nsub)
-    benchmark.pedantic(lambda: finer.log_likelihoods(near(theta)), rounds=9, warmup_rounds=1)
+    posterior, theta = replace(fit.posterior, jobs=1), fit.theta
+    finer = posterior.stepped(8 * posterior.dynamics.nsub)
+    benchmark.pedantic(lambda: finer.log_likelihood(near(theta)), rounds=9, warmup_rounds=1)
     ratio = ratio_of(
-        lambda: finer.log_likelihoods(near(theta)), lambda: problem.log_likelihoods(near(theta)), rounds=15
+        lambda: finer.log_likelihood(near(theta)), lambda: posterior.log_likelihood(near(theta)), rounds=15
     )
     benchmark.extra_info["ratio"] = ratio
     assert ratio < 3.0

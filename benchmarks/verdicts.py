@@ -14,7 +14,6 @@ import time
 from collections import Counter, defaultdict
 
 import numpy as np
-from scipy.stats import beta
 
 from labelled_fresh import fresh_series
 from labelled_recorded import recorded
@@ -24,6 +23,7 @@ from lostmotion.registry import default
 from lostmotion_chaos.analysis.channel import AnalysedChannel
 from lostmotion_chaos.analysis.run import AnalysisRequest, analyse
 from lostmotion_chaos.analysis.source import Source
+from lostmotion_trials.rates import estimate_rate
 
 SAID = ("periodic", "quasiperiodic", "chaotic", "stochastic", "undecided")
 MARKS = {"for": "+", "against": "-", "silent": "."}
@@ -45,16 +45,10 @@ def animals(which: str, samples: int) -> list[LabelledSeries]:
     return makers[which](samples) if which in makers else recorded()
 
 
-def band(hits: int, tries: int) -> tuple[float, float]:
-    """Return the central 95 % interval of a rate: Clopper, Pearson, Biometrika 26 (1934) 404."""
-    low = beta.ppf(0.025, hits, tries - hits + 1) if hits else 0.0
-    return float(low), float(beta.ppf(0.975, hits + 1, tries - hits)) if hits < tries else 1.0
-
-
 def rate(hits: int, tries: int) -> str:
     """Return a rate with its band in words."""
-    low, high = band(hits, tries)
-    return f"{hits} of {tries} ({100 * hits / tries:.1f} %, 95 % band {100 * low:.1f} to {100 * high:.1f} %)"
+    found = estimate_rate(hits, tries)
+    return f"{hits} of {tries} ({100 * found.share:.1f} %, 95 % band {100 * found.low:.1f} to {100 * found.high:.1f} %)"
 
 
 def shown(table: Table) -> None:

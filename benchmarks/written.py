@@ -10,9 +10,12 @@ import time
 
 import numpy as np
 
+from lostmotion.likelihood.lanes import Lanes
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import NOISE, RANDOM, FreeParameter, Problem, Scales
+from lostmotion.likelihood.posterior import Posterior
+from lostmotion.likelihood.space import RANDOM, FreeParameter, ParameterSpace, Scales
 from lostmotion.likelihood.system import System
+from lostmotion.noises import NOISE
 from lostmotion.registry import default
 from lostmotion.written import model_of
 
@@ -32,7 +35,7 @@ CASES = {
 }
 
 
-def problem_of(model, values) -> Problem:
+def posterior_of(model, values) -> Posterior:
     """Return the likelihood of a recording of noise under a model with these values."""
     rng = np.random.default_rng(0)
     drive = np.zeros((SAMPLES, len(model.inputs)))
@@ -43,20 +46,21 @@ def problem_of(model, values) -> Problem:
         FreeParameter(RANDOM, "1", math.log(1e-3), -math.inf, math.inf),
         FreeParameter(NOISE, "1", math.log(5e-3), -math.inf, math.inf),
     )
-    return Problem(system, (observation,), Scales(20.0, 5e-3, 0.05), system.vector(values), free, nsub=2)
+    space, running = ParameterSpace(free), Lanes(system, nsub=2)
+    return Posterior(space, (observation,), running, Scales(20.0, 5e-3, 0.05), system.vector(values))
 
 
 def main() -> None:
     """Print the ratio of the least times, both taken in turn."""
     for name, (texts, values) in CASES.items():
-        problems = [problem_of(m, values) for m in (default().make("model", name), model_of(texts)())]
-        theta = np.tile([f.start for f in problems[0].free], (POINTS, 1))
-        told = [problem.log_likelihoods(theta) for problem in problems]
+        posteriors = [posterior_of(m, values) for m in (default().make("model", name), model_of(texts)())]
+        theta = np.tile([f.start for f in posteriors[0].space.free], (POINTS, 1))
+        told = [posterior.log_likelihood(theta) for posterior in posteriors]
         times: list[list[float]] = [[], []]
         for _ in range(ROUNDS):
-            for k, problem in enumerate(problems):
+            for k, posterior in enumerate(posteriors):
                 begin = time.perf_counter()
-                problem.log_likelihoods(theta)
+                posterior.log_likelihood(theta)
                 times[k].append(time.perf_counter() - begin)
         least = [min(own) for own in times]
         apart = float(np.abs(told[0] - told[1]).max() / np.abs(told[0]).max())

@@ -8,10 +8,10 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 
-from lostmotion.inference.setup import choose_steps, make_problem
+from lostmotion.inference.setup import choose_steps, make_posterior
 from lostmotion.likelihood.predict import filter_recording, observe_states, simulate_run
-from lostmotion.likelihood.problem import NOISE
 from lostmotion.likelihood.system import System
+from lostmotion.noises import NOISE
 from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import default
 from lostmotion.simulation.simulated_machine import Plan, assembly_of, simulate
@@ -59,22 +59,22 @@ def compute_measures():
         simulate(plan).save(Path(folder) / "recording.csv")
         (Path(folder) / "case.toml").write_text(CASE, encoding="utf-8")
         prepared = prepare(Path(folder) / "case.toml", registry)
-    problem = make_problem(System(prepared.model, ()), prepared.case, prepared.observations)
-    problem = choose_steps(problem, problem.start)
+    posterior = make_posterior(System(prepared.model, ()), prepared.case, prepared.observations)
+    posterior = choose_steps(posterior, posterior.space.start)
     observation = prepared.observations[0]
-    theta = problem.start.copy()
-    gap, noise = problem.keys.index("x0"), problem.keys.index(NOISE)
+    theta = posterior.space.start.copy()
+    gap, noise = posterior.space.keys.index("x0"), posterior.space.keys.index(NOISE)
     theta[noise] = np.log(0.01 * np.std(observation.response))
     free, likelihood = [], []
     for value in np.log(GAPS):
         theta[gap] = value
-        begin = filter_recording(problem, theta).states[0]
-        states = simulate_run(problem, theta, begin, 0, observation.samples)
+        begin = filter_recording(posterior, theta).states[0]
+        states = simulate_run(posterior, theta, begin, 0, observation.samples)
         free.append(
-            np.sqrt(np.mean((observe_states(problem, theta, states) - observation.response) ** 2))
+            np.sqrt(np.mean((observe_states(posterior, theta, states) - observation.response) ** 2))
             / np.std(observation.response)
         )
-        likelihood.append(problem.innovations(theta).log_likelihood)
+        likelihood.append(posterior.innovations(theta).log_likelihood)
     return np.array(free), np.array(likelihood)
 
 

@@ -13,14 +13,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Literal, Self
 
-from lostmotion.defaults import RARE
 from lostmotion.errors import ContractError, nearest
 from lostmotion.methods import Denoiser, Embedder, Quantifier, Surrogate
 from lostmotion.noises import Noise, NoiseBlock, NoiseParameter, SensorScales
 from lostmotion.parts import PSEUDO_NEEDS, Array, Drive, Group, Input, Interface, Motion, Param, Place, Values
 from lostmotion.quantities import Dimension, quantity_of
-from lostmotion.recording.arrays import table_of_arrays
-from lostmotion.recording.table import Table
 from lostmotion.simulators import Simulator
 from lostmotion.subjects import Attractors, Data, Flow, Motions, Orbit, Series
 
@@ -28,7 +25,7 @@ __all__ = [
     "KINDS", "PSEUDO_NEEDS", "Array", "Assembly", "Attractors", "Data", "Denoiser", "Drive", "DriveTerm", "Dynamics",
     "Embedder", "Flow", "Group", "Input", "Interface", "Machine", "Model", "Motion", "Motions", "Noise", "NoiseBlock",
     "NoiseParameter", "Orbit", "Param", "Place", "Quantifier", "SensorScales", "SensorTerm", "Series", "Simulator",
-    "Surrogate", "Table", "Term", "Values", "place_of", "table_of_arrays"]  # fmt: skip
+    "Surrogate", "Term", "Values", "place_of"]  # fmt: skip
 
 _NOWHERE = Place("", lambda y, u: (0.0, 0.0))
 UNKNOWN_TO_STEPS = frozenset({"acceleration", "force_input", "shake_input"})
@@ -180,7 +177,7 @@ class Term(ABC):
     starts at zero, except the first ones, for which `begins` gives their size: a dimension or a parameter. `further`
     declares the results of `derived`. `equals` names terms that no recording of a machine with constant parameters can
     tell from this one, `extends` simpler laws that it contains. `force` and `rate` are static, or methods that read
-    numeric fields. How rare a cause is stands in one table, `defaults.RARE`.
+    numeric fields.
     """
 
     at: str
@@ -236,11 +233,6 @@ class Term(ABC):
     def marked(self) -> bool:
         """Whether the term is read from the stored values (`SensorTerm.quantisation`) and therefore not fitted."""
         return False
-
-    @property
-    def unlikely(self) -> float:
-        """The log odds against this cause: those of a rare one in `defaults.RARE`, else zero."""
-        return RARE[self.name].odds if self.name in RARE else 0.0
 
     def null(self) -> dict[str, float]:
         """Return the null of each amplitude, by name: with these values the term has no effect."""

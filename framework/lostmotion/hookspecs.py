@@ -151,7 +151,7 @@ def lostmotion_screens() -> Mapping[str, tuple[str, str]]:
 def lostmotion_readers() -> Mapping[str, tuple[str, str]]:
     """Return `{"xyz": ("package.module:function", "requirement")}` for each ending of a file name, without its dot.
 
-    The function takes the `Path` of a recording and returns a `Table` (`contracts`). It runs in a process of its own,
+    The function takes the `Path` of a recording and returns a `Table` (`recording`). It runs in a process of its own,
     with limits of time and memory. If it raises `ImportError`, users are told to install the requirement with pip. An
     ending that the framework reads itself is refused.
     """

@@ -87,6 +87,11 @@ def unit_of(name: str, motion: str) -> str:
     return (SI if motion == "translation" else ANGULAR)[quantity_of(name)]
 
 
+def name_force(motion: str) -> str:
+    """Return the word for a force of a kind of motion: "torque" where `motion` is "rotation"."""
+    return "force" if motion == "translation" else "torque"
+
+
 class Dimension(NamedTuple):
     """Powers of generalised force, length and time: `Dimension(1, -1, 1)` is a damping coefficient.
 

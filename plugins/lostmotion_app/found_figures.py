@@ -103,9 +103,9 @@ class SwitchedPrediction:
         with self.problem.watch():
             arrays, machine = self.found.evidence.arrays, self.found.result.machine
             held = float(arrays["time"][int(np.argmax(arrays.get("heldout", np.ones(1)) > 0.0))])
-            start = float(self.tried.problem.observations[0].time[0])
+            start = float(self.tried.posterior.observations[0].time[0])
             chosen = [term.key for term in machine.terms if term.key in self.terms.value]
-            known = self.tried.problem.system.index
+            known = self.tried.posterior.system.index
             values = {key: value for key, value in machine.values.items() if key in known}
             found = self.tried.predict(values, chosen, begin=max(held - start, 0.0))
             self.curves.replace(self.line, found.time, found.predicted[:, 0])

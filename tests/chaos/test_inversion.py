@@ -11,7 +11,7 @@ from lostmotion.case import CaseFile, Prior
 from lostmotion.case.drive_levels import Level, Measured
 from lostmotion.codec import to_plain
 from lostmotion.errors import CaseError, DataError
-from lostmotion.likelihood.space import FreeParameter
+from lostmotion.likelihood.space import FreeParameter, ParameterSpace
 from lostmotion.registry import default
 from lostmotion.settings import DEFAULT
 from lostmotion_chaos.levels.levels import (
@@ -51,7 +51,7 @@ def inversion(levels, made, *, known=None):
         {"alpha": NumberLaw(math.log(level.amplitude), (-1.0, 0.0), True), "zeta": NumberLaw(0.0, (0.0, 1.0))}
         for level in levels
     )
-    return Inversion(tuple(levels), (made,), (0,) * len(levels), laws, free)
+    return Inversion(tuple(levels), (made,), (0,) * len(levels), laws, ParameterSpace(free))
 
 
 def window(alpha, zeta):
@@ -62,7 +62,7 @@ def window(alpha, zeta):
 def posterior(made, x0, zeta):
     """The posterior (x0, zeta) on a grid, normalised."""
     points = np.stack(np.meshgrid(x0, zeta, indexing="ij"), axis=-1).reshape(-1, 2)
-    heights = made.log_likelihoods(points)
+    heights = made.log_likelihood(points)
     weights = np.exp(heights - heights.max())
     return (weights / weights.sum()).reshape(len(x0), len(zeta))
 
@@ -114,13 +114,13 @@ def test_coexisting_attractors_leave_both_motions_possible():
 
 def test_a_misread_level_is_unlikely_but_not_impossible():
     levels = [Level("a", 0.5, 1.0, "chaotic"), Level("b", 0.5, 1.0, "periodic")]
-    heights = inversion(levels, atlas(window)).log_likelihoods(np.array([[1.0, 0.05], [2.0, 0.05]]))
+    heights = inversion(levels, atlas(window)).log_likelihood(np.array([[1.0, 0.05], [2.0, 0.05]]))
     assert np.isfinite(heights).all()
 
 
 def test_outside_of_the_map_nothing_is_possible():
     found = inversion([Level("a", 0.5, 1.0, "chaotic")], atlas(window))
-    assert found.log_likelihoods(np.array([[1.0, 0.05], [1.0, 0.2], [4.0, 0.05]])).tolist()[1:] == [-math.inf] * 2
+    assert found.log_likelihood(np.array([[1.0, 0.05], [1.0, 0.2], [4.0, 0.05]])).tolist()[1:] == [-math.inf] * 2
 
 
 def test_blending_is_linear_between_cells_and_mixes_in_the_ring():
@@ -216,11 +216,11 @@ def test_an_open_stiffness_adds_the_frequency_ratio_to_the_map(tmp_path):
     made = make_inversion(case, levels, default(), tmp_path, survey)
     assert made.atlases[0].names == ("alpha", "zeta", "frequency_ratio")
     assert made.atlases[0].shape == (8, 2, 3)
-    inside = made.log_likelihoods(np.array([[1.0, 0.04, 0.0], [0.8, 0.03, made.free[2].low]]))
+    inside = made.log_likelihood(np.array([[1.0, 0.04, 0.0], [0.8, 0.03, made.space.free[2].low]]))
     assert np.isfinite(inside).all()
     assert set(made.compute_numbers(np.array([[1.0, 0.04, 0.0]]))) == {"zeta"}
     again = make_inversion(case, levels, default(), tmp_path, MapGrid(maps=tuple(tmp_path.glob("*.nc"))))
-    assert np.array_equal(again.log_likelihoods(np.array([[1.0, 0.04, 0.0]])), inside[:1])
+    assert np.array_equal(again.log_likelihood(np.array([[1.0, 0.04, 0.0]])), inside[:1])
     wide = replace(case, estimate={**estimate, "x0": Prior(low=0.5, high=1.3)})
     with pytest.raises(DataError, match="priors ask for"):
         make_inversion(wide, levels, default(), tmp_path, MapGrid(maps=tuple(tmp_path.glob("*.nc"))))
@@ -237,7 +237,7 @@ def test_a_task_is_ready_to_be_sampled_and_changes_with_what_was_seen(tmp_path):
     )
     assert told[-1] == (64, 64)
     assert [(s.name, s.unit, s.power) for s in task.shown] == [("x0", "m", 1.0), ("zeta", "1", 0.0)]
-    assert np.isfinite(task.posterior.log_likelihoods(task.maximum[None])).all()
+    assert np.isfinite(task.posterior.log_likelihood(task.maximum[None])).all()
     assert np.allclose(compute_derived(task.posterior, task.maximum[None]).get("zeta", 0.0), 0.0)
     other = replace(case, levels=(levels[0],))
     again = make_quantifier_task(

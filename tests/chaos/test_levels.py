@@ -111,9 +111,9 @@ def oscillator(**estimate):
 
 def grid_of(inversion, counts):
     """Points (n, parameters) over the prior, and their posterior weights."""
-    ends = [np.linspace(f.low, f.high, n) for f, n in zip(inversion.free, counts, strict=True)]
+    ends = [np.linspace(f.low, f.high, n) for f, n in zip(inversion.space.free, counts, strict=True)]
     points = np.stack(np.meshgrid(*ends, indexing="ij"), axis=-1).reshape(-1, len(ends))
-    heights = inversion.log_likelihoods(points) + np.array([inversion.log_prior(p) for p in points])
+    heights = inversion.log_likelihood(points) + inversion.space.log_prior(points)
     weights = np.exp(heights - heights.max())
     return points, weights / weights.sum()
 

@@ -119,7 +119,7 @@ class Known:
     theta = np.zeros(0)
 
     def __init__(self, run):
-        self.run, self.problem = run, self
+        self.run, self.posterior, self.filters = run, self, (self,)
 
     def on(self, observations):
         return self
@@ -142,7 +142,7 @@ class Known:
 )
 def test_a_run_that_diverges_or_creeps_is_no_decay(monkeypatch, course, measured):
     monkeypatch.setattr(free_decays, "simulate_run", lambda p, theta, y0, start, steps: p.run[start : start + steps])
-    monkeypatch.setattr(free_decays, "observe_states", lambda problem, theta, states, where: states[:, 0])
+    monkeypatch.setattr(free_decays, "observe_states", lambda posterior, theta, states, where: states[:, 0])
     one = observation(noisy(swing(6.0), np.random.default_rng(5)))
     (stretch,) = find_stretches(one)
     seen = decay_of(one.response, DT)

@@ -15,7 +15,7 @@ from lostmotion import testing
 from lostmotion.cli import main
 from lostmotion.contracts import Dynamics, Param, Place
 from lostmotion.errors import CaseError, ContractError, PluginError
-from lostmotion.inference.setup import make_problem
+from lostmotion.inference.setup import make_posterior
 from lostmotion.likelihood.stepped import make_system
 from lostmotion.preparation.prepare import prepare
 from lostmotion.quantities import INERTIA
@@ -136,8 +136,10 @@ def test_the_same_case_in_python(folder):
     priors = {"m": lm.LogUniform(0.3, 3.0), "c": lm.LogUniform(0.05, 3.0), "k": lm.LogUniform(1.0, 20.0)}
     one = lm.Case(recording, cart, estimate=priors).prepare(default())
     two = prepare(folder / "case.toml", Registry.discover())
-    there, here = (make_problem(make_system(p.model, p.terms), p.case, p.observations, jobs=1) for p in (one, two))
-    assert here.log_likelihoods(here.start[None]) == pytest.approx(there.log_likelihoods(there.start[None]), rel=1e-6)
+    there, here = (make_posterior(make_system(p.model, p.terms), p.case, p.observations, jobs=1) for p in (one, two))
+    assert here.log_likelihood(here.space.start[None]) == pytest.approx(
+        there.log_likelihood(there.space.start[None]), rel=1e-6
+    )
 
 
 def test_a_case_made_in_python_is_written_with_the_file_of_its_class(folder, tmp_path):
@@ -174,12 +176,12 @@ def test_it_is_listed_shown_and_checked(folder):
 def test_a_case_that_cannot_be_used_says_why(folder, old, new, says):
     (folder / "case.toml").write_text(CASE.replace(old, new), encoding="utf-8")
     with pytest.raises((CaseError, PluginError), match=re.escape(says)):
-        problem_of(folder / "case.toml")
+        posterior_of(folder / "case.toml")
 
 
-def problem_of(path):
+def posterior_of(path):
     prepared = prepare(path, Registry.discover())
-    return make_problem(make_system(prepared.model, ()), prepared.case, prepared.observations)
+    return make_posterior(make_system(prepared.model, ()), prepared.case, prepared.observations)
 
 
 @dataclass(frozen=True)
@@ -241,13 +243,13 @@ def test_a_faulty_class_breaks_the_rule_that_says_so(fault):
     assert says in broken[name]
 
 
-def wagon_problem(wagon):
+def wagon_posterior(wagon):
     force, seen = readings()
     recording = lm.Recording.from_arrays(
         sensors={"position": seen}, inputs={"force": force}, rate=1.0 / DT, units={"position": "m", "force": "N"}
     )
     prepared = lm.Case(recording, wagon, estimate={"m": lm.LogUniform(0.3, 3.0)}).prepare(default(), ())
-    return make_problem(make_system(prepared.model, ()), prepared.case, prepared.observations, jobs=1)
+    return make_posterior(make_system(prepared.model, ()), prepared.case, prepared.observations, jobs=1)
 
 
 @pytest.mark.parametrize(
@@ -266,18 +268,18 @@ def test_an_instance_that_was_not_checked_stops_with_a_sentence(fault, says):
 
 def ask(wagon):
     """Ask a machine for all that a fit asks."""
-    problem = wagon_problem(wagon)
-    problem.system.senses_force("position")
-    problem.system.own_inertia(problem.full(problem.start), wagon.places[0])
-    problem.log_likelihoods(problem.start[None])
+    posterior = wagon_posterior(wagon)
+    posterior.system.senses_force("position")
+    posterior.system.own_inertia(posterior.recordings[0].full(posterior.space.start), wagon.places[0])
+    posterior.log_likelihood(posterior.space.start[None])
 
 
 def test_arguments_of_a_step_are_read_only_inputs_and_a_divergence_is_marked():
-    problem = wagon_problem(Wagon())
-    assert np.isfinite(problem.log_likelihoods(problem.start[None])).all()
-    wild = replace(problem, system=make_system(Wagon("nan"), ()))
-    assert problem.system.model != wild.system.model
-    assert wild.log_likelihoods(problem.start[None]) == [-np.inf]
+    posterior = wagon_posterior(Wagon())
+    assert np.isfinite(posterior.log_likelihood(posterior.space.start[None])).all()
+    wild = replace(posterior, dynamics=replace(posterior.dynamics, system=make_system(Wagon("nan"), ())))
+    assert posterior.system.model != wild.system.model
+    assert wild.log_likelihood(posterior.space.start[None]) == [-np.inf]
 
 
 def test_a_term_that_asks_for_what_steps_cannot_tell_has_no_place():

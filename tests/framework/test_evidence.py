@@ -8,36 +8,33 @@ import pytest
 
 from lostmotion.inference.fit import Fit, LocalExpansion
 from lostmotion.inference.laplace import sample_evidence
-from lostmotion.likelihood.space import FreeParameter
+from lostmotion.likelihood.space import FreeParameter, ParameterSpace
 
 
 @dataclass(frozen=True)
 class Toy:
-    """A problem whose log-likelihood is a normal bump about `middle` with the spread `sd`."""
+    """A posterior whose log-likelihood is a normal bump about `middle` with the spread `sd`."""
 
-    free: tuple[FreeParameter, ...]
+    space: ParameterSpace
     middle: np.ndarray
     sd: np.ndarray
 
-    def log_prior(self, theta):
-        return sum(f.log_prior(float(c)) for f, c in zip(self.free, theta, strict=True))
-
-    def log_likelihoods(self, points):
+    def log_likelihood(self, points):
         return -0.5 * np.sum(((points - self.middle) / self.sd) ** 2, axis=1)
 
-    def log_posteriors(self, points):
-        return self.log_likelihoods(points) + np.array([self.log_prior(point) for point in points])
+    def log_density(self, points):
+        return self.log_likelihood(points) + self.space.log_prior(points)
 
 
 def fit_of(middle, sd, low, high):
     free = tuple(
         FreeParameter(f"p{i}", "1", m, a, b) for i, (m, a, b) in enumerate(zip(middle, low, high, strict=True))
     )
-    toy = Toy(free, np.array(middle), np.array(sd))
+    toy = Toy(ParameterSpace(free), np.array(middle), np.array(sd))
     top = np.clip(middle, low, high)
-    height = float(toy.log_likelihoods(top[None])[0])
+    height = float(toy.log_likelihood(top[None])[0])
     local = LocalExpansion(
-        top, height, height + toy.log_prior(top), np.zeros(2), np.diag(1.0 / np.array(sd) ** 2), np.array(sd)
+        top, height, height + toy.space.log_prior(top), np.zeros(2), np.diag(1.0 / np.array(sd) ** 2), np.array(sd)
     )
     return Fit(toy, local, "converged", 1)
 
@@ -61,7 +58,7 @@ def test_a_posterior_that_is_cut_in_half_has_half_the_evidence():
 
 def test_where_all_diverges_nothing_is_claimed():
     fit = fit_of([0.0, 0.0], [1.0, 1.0], [-9.0, -9.0], [9.0, 9.0])
-    broken = replace(fit, problem=replace(fit.problem, middle=np.array([np.inf, 0.0])))
+    broken = replace(fit, posterior=replace(fit.posterior, middle=np.array([np.inf, 0.0])))
     check = sample_evidence(broken, np.random.default_rng(2), 50)
     assert check.effective == 0.0
     assert math.isinf(check.error)

@@ -100,20 +100,20 @@ def test_a_truth_counts_only_where_it_can_show_itself():
 @pytest.mark.slow
 def test_a_louder_drive_is_taken_to_be_noisier(springs):
     *_, (truth, _) = springs
-    observation = truth.problem.observations[0]
+    observation = truth.posterior.observations[0]
     model = RehearsedModel.of(truth)
     offered = list_candidates(observation, 400, choose_limits(observation, FREQUENCY), np.random.default_rng(0))
     loud = max(offered, key=lambda e: e.level)
-    i = truth.problem.keys.index("log_random_force")
+    i = truth.posterior.space.keys.index("log_random_force")
     assert model.get_coordinates(loud)[i] - truth.theta[i] == pytest.approx(2 * math.log(2), rel=0.01)
-    assert model.pose(loud).free[i].low > truth.problem.free[i].low
+    assert model.pose(loud).space.free[i].low > truth.posterior.space.free[i].low
 
 
 @pytest.mark.slow
 def test_a_model_believes_what_it_has_made(springs):
     """A recording made by either model speaks for it: with a gain of 50 to be expected, no chance."""
     *_, fits = springs
-    observation = fits[0].problem.observations[0]
+    observation = fits[0].posterior.observations[0]
     models = [RehearsedModel.of(fit) for fit in fits]
     offered = list_candidates(
         observation, observation.samples, choose_limits(observation, FREQUENCY), np.random.default_rng(0)
@@ -133,19 +133,19 @@ def test_simulated_noise_has_the_memory_that_was_found(springs):
         FreeParameter(key, "1", value, -30.0, 30.0) for key, value in ((AR1_LEVEL, 0.0), (AR1_MEMORY, math.log(0.02)))
     )
     observation = replace(sine(), readings=np.zeros((20000, 1)), inputs=np.zeros((20000, 1)))
-    problem = replace(truth.problem, observations=(observation,), free=(*truth.problem.free, *slow))
-    block = replace(problem.noise(problem.start), white=0.0)
+    posterior = replace(truth.posterior, observations=(observation,)).over((*truth.posterior.space.free, *slow))
+    block = replace(posterior.recordings[0].noise(posterior.space.start), white=0.0)
     noise = block.draw(np.zeros(20000), np.random.default_rng(0))
     assert noise.std() == pytest.approx(1.0, abs=0.05)
     assert math.sqrt(block.variance_after(9999)) == pytest.approx(1.0, abs=1e-9)
     assert np.corrcoef(noise[1:], noise[:-1])[0, 1] == pytest.approx(math.exp(-1 / RATE / 0.02), abs=0.02)
-    assert not truth.problem.noise(truth.theta).shown.any()
+    assert not truth.posterior.recordings[0].noise(truth.theta).shown.any()
 
 
 @pytest.mark.slow
 def test_a_machine_that_runs_away_is_not_proposed(springs):
     *_, (truth, _) = springs
-    observation = truth.problem.observations[0]
+    observation = truth.posterior.observations[0]
     offered = list_candidates(observation, 400, choose_limits(observation, FREQUENCY), np.random.default_rng(0))
     mad = replace(offered[0], inputs=1e12 * offered[0].inputs)
     assert simulate_recording(RehearsedModel.of(truth), mad, np.random.default_rng(0)) is None

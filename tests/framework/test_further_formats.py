@@ -386,6 +386,6 @@ def write_package(site: Path, name: str, ending: str) -> None:
         "from lostmotion.hookspecs import hookimpl\n\n\n"
         "@hookimpl\ndef lostmotion_readers():\n"
         f"    return {{{ending!r}: ('{name}:read', {project!r})}}\n\n\n"
-        "def read(path):\n    import numpy as np\n    from lostmotion.contracts import table_of_arrays\n\n"
+        "def read(path):\n    import numpy as np\n    from lostmotion.recording import table_of_arrays\n\n"
         "    return table_of_arrays({'count': np.fromfile(path, dtype='<i2')}, {'count': 'mm'})\n"
     )

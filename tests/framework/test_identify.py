@@ -12,8 +12,8 @@ from lostmotion.errors import CaseError, DataError
 from lostmotion.identification.convergence import group_walkers, measure_quality
 from lostmotion.identification.moves import make_state
 from lostmotion.identification.sampling import SamplingPlan, ShownCoordinate, Task, TMixture, identify, make_task
-from lostmotion.likelihood.problem import FreeParameter
 from lostmotion.likelihood.sensors import Sensor
+from lostmotion.likelihood.space import FreeParameter, ParameterSpace
 from lostmotion.storage import save_datasets
 
 MEAN = np.array([1.0, -2.0, 0.3])
@@ -23,16 +23,17 @@ PRECISION = np.linalg.inv(COVARIANCE)
 
 @dataclass(frozen=True)
 class Bell:
-    """A problem whose likelihood is normal, or falls exponentially from the lower bound of its last parameter."""
+    """A posterior whose likelihood is normal, or falls exponentially from the lower bound of its last parameter."""
 
     free: tuple[FreeParameter, ...] = tuple(FreeParameter(k, "N", 0.0, -40.0, 40.0) for k in "abc")
     pressed: bool = False
     asked: list = field(default_factory=list)
 
-    def log_prior(self, theta):
-        return sum(f.log_prior(float(c)) for f, c in zip(self.free, theta, strict=True))
+    @property
+    def space(self):
+        return ParameterSpace(self.free)
 
-    def log_likelihoods(self, points):
+    def log_likelihood(self, points):
         self.asked.extend(points)
         return np.array([self.height(t) for t in points])
 
@@ -43,9 +44,9 @@ class Bell:
         return -0.5 * float(d @ PRECISION @ d)
 
 
-def task_at(problem, theta=MEAN, covariance=COVARIANCE):
-    shown = tuple(ShownCoordinate(f.key, f.unit, 1.0 if f.log else 0.0) for f in problem.free)
-    return Task(problem, TMixture.of_modes(theta[None], [covariance], np.ones(1), problem.free), shown, theta)
+def task_at(posterior, theta=MEAN, covariance=COVARIANCE):
+    shown = tuple(ShownCoordinate(f.key, f.unit, 1.0 if f.log else 0.0) for f in posterior.space.free)
+    return Task(posterior, TMixture.of_modes(theta[None], [covariance], np.ones(1), posterior.space.free), shown, theta)
 
 
 def fit_of(theta=(0.1, -5.0, 1.0, 2.0, -3.0), log_posterior=0.0, log_evidence=0.0):
@@ -56,11 +57,13 @@ def fit_of(theta=(0.1, -5.0, 1.0, 2.0, -3.0), log_posterior=0.0, log_evidence=0.
     )
     keys = ("c", "x0", "offset[two]", "log_noise[two]", "log_random_force[two]")
     free = tuple(FreeParameter(k, "?", 0.0, -40.0, 40.0, log=k == "x0") for k in keys)
-    problem = SimpleNamespace(
-        free=free, observations=observations, system=SimpleNamespace(model=SimpleNamespace(motion="rotation"))
+    posterior = SimpleNamespace(
+        space=ParameterSpace(free),
+        observations=observations,
+        system=SimpleNamespace(model=SimpleNamespace(motion="rotation")),
     )
     local = SimpleNamespace(covariance=np.eye(5), log_posterior=log_posterior)
-    return SimpleNamespace(problem=problem, theta=np.array(theta), local=local, log_evidence=log_evidence)
+    return SimpleNamespace(posterior=posterior, theta=np.array(theta), local=local, log_evidence=log_evidence)
 
 
 def draw(seed=0, plan=None, **settings):
@@ -93,13 +96,13 @@ def test_a_poor_start_is_made_good():
 
 def test_posterior_that_presses_against_its_bound():
     free = (FreeParameter("a", "N", 0.0, -40.0, 40.0), FreeParameter("b", "N", 0.0, 0.0, 40.0))
-    problem = Bell(free, pressed=True)
-    task = task_at(problem, np.zeros(2), np.diag([1.0, 4.0]))
+    posterior = Bell(free, pressed=True)
+    task = task_at(posterior, np.zeros(2), np.diag([1.0, 4.0]))
     result = identify(task, rng=np.random.default_rng(4), plan=SamplingPlan(ess=2000))
     assert result.converged
     assert result.intervals["b"].median == pytest.approx(np.log(2.0) / 3.0, rel=0.1)
     assert result.intervals["b"].high == pytest.approx(-np.log(0.025) / 3.0, rel=0.15)
-    assert min(t[1] for t in problem.asked) >= 0.0
+    assert min(t[1] for t in posterior.asked) >= 0.0
 
 
 def test_logarithms_become_numbers():
@@ -168,9 +171,9 @@ def test_a_task_weighs_modes_by_their_evidence_and_keeps_all():
 
 
 def test_evaluations_are_counted():
-    problem = Bell()
-    result = identify(task_at(problem), rng=np.random.default_rng(0), plan=SamplingPlan(max_steps=20))
-    assert result.evaluations == len(problem.asked)
+    posterior = Bell()
+    result = identify(task_at(posterior), rng=np.random.default_rng(0), plan=SamplingPlan(max_steps=20))
+    assert result.evaluations == len(posterior.asked)
 
 
 def test_density_of_the_cloud_is_that_of_its_draws():

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from lostmotion.contracts import Assembly
 from lostmotion.errors import ContractError, DataError
 from lostmotion.likelihood.drive import Drive
+from lostmotion.likelihood.lanes import Lanes
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import NOISE, RANDOM, FreeParameter, Problem, Scales
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.reference import Reference
+from lostmotion.likelihood.space import RANDOM, FreeParameter, ParameterSpace, Scales
 from lostmotion.likelihood.system import Clock, System
+from lostmotion.noises import NOISE
 from lostmotion.quantities import quantity_of, unit_of
 from lostmotion.registry import default
 from lostmotion_chaos.flows.flow import Harmonic, make_stepped_flow
@@ -33,33 +38,33 @@ def moved(model):
     return np.stack([0.3 * np.sin(6.0 * t), 1.8 * np.cos(6.0 * t)], axis=1)[:, : len(model.driven)]
 
 
-def problem_of(model, inputs, **more):
-    """Return the problem of one sensor at the first body, with dry friction in it."""
+def posterior_of(model, inputs, run=Lanes):
+    """Return the posterior of one sensor at the first body, with dry friction in it."""
     system = System.of(Assembly(model) + default().make("term", "coulomb_friction", at=model.interfaces[-1].name))
     key = system.keys[0]
     full = system.vector({**{k: v for k, v in GAP.items() if k in system.index}, f"{key}.force": 0.1})
     readings = 0.1 * np.sin(6.0 * np.arange(SAMPLES) * DT)
     observation = Observation.of("run", readings, inputs, DT, "position")
     frees = (FreeParameter(RANDOM, "1", -6.0, -20.0, 5.0), FreeParameter(NOISE, "1", -3.0, -20.0, 3.0))
-    return Problem(system, (observation,), Scales(1.0, 0.2, 0.2), full, frees, frozenset({key}), **more)
+    return Posterior(ParameterSpace(frees), (observation,), run(system, frozenset({key})), Scales(1.0, 0.2, 0.2), full)
 
 
 @pytest.mark.parametrize("model", MODELS)
 def test_inputs_that_a_recording_lacks_are_zero(model):
     inputs = moved(model)
     whole = np.concatenate([inputs, np.zeros((SAMPLES, len(model.inputs) - inputs.shape[1]))], axis=1)
-    narrow, wide = problem_of(model, inputs), problem_of(model, whole)
+    narrow, wide = posterior_of(model, inputs), posterior_of(model, whole)
     assert whole.shape[1] > inputs.shape[1]
     assert narrow.observations[0].inputs.shape == whole.shape
-    assert np.isfinite(narrow.log_posterior(narrow.start))
-    assert narrow.log_posterior(narrow.start) == wide.log_posterior(wide.start)
+    assert np.isfinite(narrow.log_density(narrow.space.start))
+    assert narrow.log_density(narrow.space.start) == wide.log_density(wide.space.start)
     assert wide.on(wide.observations).observations[0] is wide.observations[0]
 
 
 @pytest.mark.parametrize("model", MODELS)
 def test_motion_and_derivatives_take_fewer_inputs(model):
-    system, inputs = problem_of(model, moved(model)).system, moved(model)
-    full = problem_of(model, inputs).known
+    system, inputs = posterior_of(model, moved(model)).system, moved(model)
+    full = posterior_of(model, inputs).known
     whole = np.concatenate([inputs, np.zeros((SAMPLES, len(model.inputs) - inputs.shape[1]))], axis=1)
     start = np.full(len(model.states), 0.05)
     runs = [system.simulate(full, system.keys, start, Drive.held(u, DT), 4).states for u in (inputs, whole)]
@@ -75,9 +80,9 @@ def test_motion_and_derivatives_take_fewer_inputs(model):
 
 @pytest.mark.parametrize("model", MODELS)
 def test_a_harmonic_drive_moves_the_first_input_alone(model):
-    problem = problem_of(model, moved(model))
-    values = {slot.key: float(problem.known[i]) for i, slot in enumerate(problem.system.slots)}
-    flow = make_stepped_flow(problem.system, values, drive=Harmonic(0.3, 6.0, 0.2), steps=100)
+    posterior = posterior_of(model, moved(model))
+    values = {slot.key: float(posterior.known[i]) for i, slot in enumerate(posterior.system.slots)}
+    flow = make_stepped_flow(posterior.system, values, drive=Harmonic(0.3, 6.0, 0.2), steps=100)
     inputs = flow._make_inputs(4, flow.period / 4).reshape(4, 3, -1)[:, 0]
     angle = 2.0 * np.pi * np.arange(4) / 4 + 0.2
     np.testing.assert_allclose(inputs[:, 0], 0.3 * np.cos(angle), atol=1e-15)
@@ -87,16 +92,16 @@ def test_a_harmonic_drive_moves_the_first_input_alone(model):
 
 
 @pytest.mark.slow
-def test_the_two_engines_agree_on_a_place_with_a_lever():
+def test_lanes_and_matrices_agree_on_a_place_with_a_lever():
     """Friction between the teeth of wheels of ratio 3, through lanes and in matrices."""
     model = default().make("model", "gear_pair", motion="rotation")
     found = []
-    for more in ({}, {"engine": Reference()}):
+    for run in (Lanes, Reference):
         system = System.of(Assembly(model) + default().make("term", "coulomb_friction", at="mesh"))
         full = system.vector({**GAP, "ratio": 3.0, "coulomb_friction@mesh.force": 0.2})
-        rough = problem_of(model, moved(model), **more)
-        whole = Problem(system, rough.observations, rough.scales, full, rough.free, frozenset(system.keys), **more)
-        found.append(whole.innovations(whole.start))
+        rough = posterior_of(model, moved(model), run)
+        whole = replace(rough, dynamics=run(system, frozenset(system.keys)), known=full)
+        found.append(whole.innovations(whole.space.start))
     np.testing.assert_allclose(found[0].errors, found[1].errors, rtol=1e-8, atol=1e-11)
     np.testing.assert_allclose(found[0].variances, found[1].variances, rtol=1e-8)
 

@@ -13,9 +13,9 @@ from scipy.linalg import expm
 
 from lostmotion.case import CaseFile, Prior, SensorSpec
 from lostmotion.inference.modes import StartingPoints, is_same_mode, select_modes
-from lostmotion.inference.setup import find_modes, make_problem, polish_modes, search_maximum
+from lostmotion.inference.setup import find_modes, make_posterior, polish_modes, search_maximum
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import FreeParameter
+from lostmotion.likelihood.space import FreeParameter, ParameterSpace
 from lostmotion.likelihood.system import System
 from lostmotion.registry import default
 from lostmotion.settings import DEFAULT, Settings
@@ -38,10 +38,10 @@ def ring(*, push: float, seed: int, samples: int) -> Observation:
     return Observation.of("ring", seen, u[:, None], DT, "position", held=True)
 
 
-def problem_for(*observations: Observation):
+def posterior_for(*observations: Observation):
     priors = {"c": Prior(0.1, 10.0, "log"), "k": Prior(500.0, 1e4, "log")}
     case = CaseFile("ring", Path(), (), "linear_oscillator", {"m": 1.0}, priors, {}, (), "")
-    return make_problem(System(default().make("model", "linear_oscillator"), ()), case, observations)
+    return make_posterior(System(default().make("model", "linear_oscillator"), ()), case, observations)
 
 
 def hertz(fit) -> float:
@@ -51,19 +51,19 @@ def hertz(fit) -> float:
 @pytest.mark.parametrize("seed", [0, 1])
 def test_both_modes_of_a_folded_ring_are_found(seed: int) -> None:
     """A single search settles for the wrong one; their evidences differ by less than 1, as the push is faint."""
-    problem = problem_for(ring(push=0.02, seed=seed, samples=60))
-    assert hertz(search_maximum(problem, np.random.default_rng(0))) == pytest.approx(FOLDED, rel=0.01)
-    both = find_modes(problem, np.random.default_rng(0))
+    posterior = posterior_for(ring(push=0.02, seed=seed, samples=60))
+    assert hertz(search_maximum(posterior, np.random.default_rng(0))) == pytest.approx(FOLDED, rel=0.01)
+    both = find_modes(posterior, np.random.default_rng(0))
     assert sorted(hertz(f) for f in both) == pytest.approx([TRUE, FOLDED], rel=0.01)
     assert both[0].log_evidence >= both[1].log_evidence > both[0].log_evidence - 1.0
-    assert both[0].problem is both[1].problem
+    assert both[0].posterior is both[1].posterior
     finer = polish_modes(both)
     assert sorted(hertz(f) for f in finer) == pytest.approx([TRUE, FOLDED], rel=0.01)
-    assert finer[0].problem is finer[1].problem
+    assert finer[0].posterior is finer[1].posterior
 
 
 def test_a_push_that_is_felt_leaves_one_mode() -> None:
-    only = find_modes(problem_for(ring(push=1.0, seed=0, samples=200)), np.random.default_rng(0))
+    only = find_modes(posterior_for(ring(push=1.0, seed=0, samples=200)), np.random.default_rng(0))
     assert [hertz(f) for f in only] == pytest.approx([TRUE], rel=0.01)
 
 
@@ -73,28 +73,23 @@ class Hills:
 
     centres: tuple[float, ...]
     ripple: float = 0.0
-    nsub: int = 1
     settings: Settings = DEFAULT
+    space = ParameterSpace((FreeParameter("x", "1", 0.0, -100.0, 100.0),))
+    dynamics = SimpleNamespace(nsub=1)
 
-    def clip(self, points):
-        return points
-
-    def log_prior(self, theta):
-        return 0.0
-
-    def log_likelihoods(self, points):
+    def log_likelihood(self, points):
         x = np.asarray(points)[:, 0]
         smooth = np.logaddexp.reduce([-0.5 * (x - c) ** 2 for c in self.centres], axis=0)
         return smooth + self.ripple * np.cos(2.0 * math.pi * x)
 
-    def log_posteriors(self, points):
-        return self.log_likelihoods(points)
+    def log_density(self, points):
+        return self.log_likelihood(points)
 
     def fit(self, at: float, sd: float = 1.0):
         """Return what `distinct` asks of a fit that stopped at a place."""
-        height = float(self.log_likelihoods(np.array([[at]]))[0])
+        height = float(self.log_likelihood(np.array([[at]]))[0])
         local = SimpleNamespace(log_posterior=height)
-        return SimpleNamespace(problem=self, theta=np.array([at]), sd={"x": sd}, local=local, log_evidence=height)
+        return SimpleNamespace(posterior=self, theta=np.array([at]), sd={"x": sd}, local=local, log_evidence=height)
 
 
 @pytest.mark.parametrize(
@@ -140,8 +135,8 @@ def test_a_rough_hill_is_one_mode() -> None:
     """The kink of a backlash makes the posterior rough; two seeds find the same single maximum. No chance."""
     priors = {"c": Prior(0.8, 80.0, "log"), "x0": Prior(5e-4, 5e-2, "log")}
     case = CaseFile("clatter", Path(), (), "lin_backlash", {"m": 1.0, "k0": 4e4, "k1": 0.0}, priors, {}, (), "")
-    problem = make_problem(System(default().make("model", "lin_backlash"), ()), case, (clatter(),))
-    found = [find_modes(problem, np.random.default_rng(seed)) for seed in range(2)]
+    posterior = make_posterior(System(default().make("model", "lin_backlash"), ()), case, (clatter(),))
+    found = [find_modes(posterior, np.random.default_rng(seed)) for seed in range(2)]
     assert [len(f) for f in found] == [1, 1]
     assert all(f[0].values["c"] == pytest.approx(8.0, rel=0.05) for f in found)
 
@@ -164,20 +159,22 @@ def clatter() -> Observation:
 
 
 def test_the_walk_to_a_mode_stays_within_its_bounds() -> None:
-    problem = problem_for(ring(push=0.02, seed=0, samples=60))
-    narrow = replace(problem, free=tuple(replace(f, high=7.7) if f.key == "k" else f for f in problem.free))
+    posterior = posterior_for(ring(push=0.02, seed=0, samples=60))
+    narrow = posterior.over(replace(f, high=7.7) if f.key == "k" else f for f in posterior.space.free)
     only = find_modes(narrow, np.random.default_rng(0))
     assert [hertz(f) for f in only] == pytest.approx([TRUE], rel=0.01)
-    assert isinstance(only[0].problem.free[0], FreeParameter)
+    assert isinstance(only[0].posterior.space.free[0], FreeParameter)
 
 
 def test_hills_are_compared_with_the_noise_of_each_recording() -> None:
-    """Both modes of a faint and of a loud ring, with levels of their own in one problem for both of them."""
+    """Both modes of a faint and of a loud ring, with levels of their own in one posterior for both of them."""
     observations = tuple(replace(ring(push=0.02, seed=s, samples=60), name=n) for s, n in ((0, "faint"), (1, "loud")))
     loud = replace(observations[1], readings=30.0 * observations[1].readings, inputs=30.0 * observations[1].inputs)
     both = find_modes(
-        problem_for(observations[0], loud), np.random.default_rng(0), sensor=SensorSpec(offset=Prior(mean=0.0, sd=0.01))
+        posterior_for(observations[0], loud),
+        np.random.default_rng(0),
+        sensor=SensorSpec(offset=Prior(mean=0.0, sd=0.01)),
     )
     assert sorted(hertz(f) for f in both) == pytest.approx([TRUE, FOLDED], rel=0.01)
-    assert both[0].problem is both[1].problem
-    assert {"offset[loud]", "log_noise[faint]", "log_random_force[loud]"} < set(both[0].problem.keys)
+    assert both[0].posterior is both[1].posterior
+    assert {"offset[loud]", "log_noise[faint]", "log_random_force[loud]"} < set(both[0].posterior.space.keys)

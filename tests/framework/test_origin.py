@@ -9,9 +9,12 @@ import pytest
 
 from lostmotion.inference.fit import Fit, maximise
 from lostmotion.inference.origin import list_shifted, list_unlocated, shift_origin
+from lostmotion.likelihood.lanes import Lanes
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import NOISE, RANDOM, FreeParameter, Problem, Scales
+from lostmotion.likelihood.posterior import Posterior
+from lostmotion.likelihood.space import RANDOM, FreeParameter, ParameterSpace, Scales
 from lostmotion.likelihood.system import System
+from lostmotion.noises import NOISE
 from lostmotion_plugins.models.basic import RigidDrive
 from lostmotion_plugins.terms.elastic import LinearStiffness
 from lostmotion_plugins.terms.periodic import Cogging
@@ -29,7 +32,10 @@ def fit_drive(channel: str, *terms) -> Fit:
     known = system.vector({"m": 1.0, "c": 0.1, **WAVE, **{f"{t.name}.coefficient": 2.0 for t in terms}})
     frees = (FreeParameter(RANDOM, "1", -10.0, -60.0, 5.0), FreeParameter(NOISE, "1", -6.0, -20.0, 3.0))
     active = frozenset({"cogging", *(t.name for t in terms)})
-    return maximise(Problem(system, (observation,), Scales(6.0, 1.0, 0.16), known, frees, active), np.array([-3.0, -5]))
+    return maximise(
+        Posterior(ParameterSpace(frees), (observation,), Lanes(system, active), Scales(6.0, 1.0, 0.16), known),
+        np.array([-3.0, -5]),
+    )
 
 
 @pytest.mark.parametrize(

@@ -16,17 +16,27 @@ from lostmotion.contracts import Param
 from lostmotion.inference.setup import (
     cut_beginnings,
     make_free_parameter,
-    make_problem,
+    make_posterior,
     search_maximum,
     separate_levels,
 )
 from lostmotion.likelihood.lanes import Lanes
 from lostmotion.likelihood.noise_levels import LEAST, make_own_levels
 from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.predict import observe_states, predict_freely
-from lostmotion.likelihood.problem import NOISE, OFFSET, RANDOM, Problem, Scales
-from lostmotion.likelihood.space import FreeParameter, ParameterSpace, RecordingCoordinates, list_keys, split_key
+from lostmotion.likelihood.space import (
+    OFFSET,
+    RANDOM,
+    FreeParameter,
+    ParameterSpace,
+    RecordingCoordinates,
+    Scales,
+    list_keys,
+    split_key,
+)
 from lostmotion.likelihood.system import Slot, System
+from lostmotion.noises import NOISE
 from lostmotion.quantities import DAMPING
 from lostmotion.registry import default
 
@@ -60,9 +70,9 @@ def case_of(estimate: dict[str, Prior]) -> CaseFile:
     return CaseFile("study", Path(), (), "linear_oscillator", known, estimate, {}, (), "")
 
 
-def problem_for(*observations: Observation, **estimate: Prior) -> Problem:
+def posterior_for(*observations: Observation, **estimate: Prior) -> Posterior:
     system = System(default().make("model", "linear_oscillator"), ())
-    return make_problem(system, case_of(estimate or PRIORS), observations)
+    return make_posterior(system, case_of(estimate or PRIORS), observations)
 
 
 TWO = (recorded("low", 1, **QUIET), recorded("run 2.5 [high]", 2, **LOUD))
@@ -72,7 +82,7 @@ LOW, HIGH = (t.name for t in TWO)
 @pytest.fixture(scope="module")
 def apart():
     """The fit of two levels with all of the sensor's parameters their own."""
-    fit = search_maximum(problem_for(*TWO), np.random.default_rng(0))
+    fit = search_maximum(posterior_for(*TWO), np.random.default_rng(0))
     return separate_levels(fit, SensorSpec(offset=Prior(mean=0.0, sd=0.1)))
 
 
@@ -84,33 +94,33 @@ def test_keys_say_the_recording() -> None:
 
 
 def test_each_recording_is_filtered_with_its_own_values(apart) -> None:
-    """The joint likelihood is, bit by bit, that of two problems which know of one recording only. No chance."""
-    problem, values = apart.problem, dict(zip(apart.problem.keys, apart.theta, strict=True))
-    joint = problem.innovations(apart.theta)
-    for i, observation in enumerate(problem.observations):
-        own = [f for f in problem.free if f.recording in (None, observation.name)]
-        single = replace(problem, observations=(observation,), free=tuple(replace(f, key=f.parameter) for f in own))
+    """The joint likelihood is, bit by bit, that of two posteriors which know of one recording only. No chance."""
+    posterior, values = apart.posterior, dict(zip(apart.posterior.space.keys, apart.theta, strict=True))
+    joint = posterior.innovations(apart.theta)
+    for i, observation in enumerate(posterior.observations):
+        own = [f for f in posterior.space.free if f.recording in (None, observation.name)]
+        single = replace(posterior, observations=(observation,)).over(replace(f, key=f.parameter) for f in own)
         theta = np.array([values[f.key] for f in own])
         seen = single.innovations(theta)
         part = slice(0, observation.samples) if i == 0 else slice(-observation.samples, None)
         assert np.array_equal(joint.errors[part], seen.errors)
         assert np.array_equal(joint.variances[part], seen.variances)
-        assert problem.noise(apart.theta, i).white == single.noise(theta).white
-        assert np.array_equal(problem.full(apart.theta, i), single.full(theta))
+        assert posterior.recordings[i].noise(apart.theta).white == single.recordings[0].noise(theta).white
+        assert np.array_equal(posterior.recordings[i].full(apart.theta), single.recordings[0].full(theta))
 
 
 def test_differences_filter_only_what_has_moved(apart, monkeypatch) -> None:
-    problem, theta = replace(apart.problem, jobs=1), apart.theta
+    posterior, theta = replace(apart.posterior, jobs=1), apart.theta
     points = np.vstack([theta, theta + 1e-3 * np.eye(len(theta))])
     runs = []
     plain = Lanes.filter
-    monkeypatch.setattr(Lanes, "filter", lambda e, d, o, at: (runs.append(len(at)), plain(e, d, o, at))[1])
-    together = problem.filter_many(points)
-    shared = sum(f.recording is None for f in problem.free)
+    monkeypatch.setattr(Lanes, "filter", lambda run, o, at: (runs.append(len(at)), plain(run, o, at))[1])
+    together = posterior.innovations(points)
+    shared = sum(f.recording is None for f in posterior.space.free)
     assert shared == 2
     assert sum(runs) == 2 + 2 * shared + (len(theta) - shared)
     for i, point in enumerate(points):
-        alone = problem.innovations(point)
+        alone = posterior.innovations(point)
         assert np.array_equal(together[i].errors, alone.errors)
         assert np.array_equal(together[i].variances, alone.variances)
 
@@ -126,16 +136,16 @@ def test_levels_of_each_recording_are_found(apart) -> None:
         f"log_random_force[{HIGH}]": math.log((SLIP * LOUD["drive"]) ** 2 * DT),
         f"offset[{LOW}]": 0.0, f"offset[{HIGH}]": LOUD["zero"],
     }  # fmt: skip
-    assert list(values) == list(apart.problem.keys)
+    assert list(values) == list(apart.posterior.space.keys)
     assert set(values) == set(truths)
-    misses = {k: (c - truths[k]) / sd[k] for k, c in zip(apart.problem.keys, apart.theta, strict=True)}
+    misses = {k: (c - truths[k]) / sd[k] for k, c in zip(apart.posterior.space.keys, apart.theta, strict=True)}
     assert all(abs(miss) < 4.0 for miss in misses.values()), misses
     assert values[f"offset[{HIGH}]"] > 10.0 * sd[f"offset[{HIGH}]"]
-    assert apart.log_likelihood > search_maximum(problem_for(*TWO), np.random.default_rng(0)).log_likelihood + 1000.0
+    assert apart.log_likelihood > search_maximum(posterior_for(*TWO), np.random.default_rng(0)).log_likelihood + 1000.0
 
 
 def test_usual_random_force_is_in_proportion_to_each_drive(apart) -> None:
-    low, high = (f for f in apart.problem.free if f.parameter == RANDOM)
+    low, high = (f for f in apart.posterior.space.free if f.parameter == RANDOM)
     assert high.mean - low.mean == pytest.approx(2.0 * math.log(LOUD["drive"] / QUIET["drive"]), abs=0.05)
     assert high.high - low.high == pytest.approx(high.mean - low.mean)
     assert (low.low, high.low) == pytest.approx((low.mean + LEAST, high.mean + LEAST))
@@ -143,23 +153,25 @@ def test_usual_random_force_is_in_proportion_to_each_drive(apart) -> None:
 
 def test_a_shift_of_the_response_is_a_shift_of_its_zero() -> None:
     observation = TWO[0]
-    problem = separate_levels(
-        search_maximum(problem_for(observation), np.random.default_rng(0)), SensorSpec(offset=Prior(-1.0, 1.0))
-    ).problem
-    assert problem.keys == ("c", "k", OFFSET, RANDOM, NOISE)
-    theta = problem.start
-    moved = theta + 0.125 * (np.array(problem.keys) == OFFSET)
-    other = problem.on((replace(observation, readings=observation.readings + 0.125),))
-    assert other.innovations(moved).log_likelihood == pytest.approx(problem.innovations(theta).log_likelihood, abs=1e-3)
-    assert other.innovations(theta).log_likelihood < problem.innovations(theta).log_likelihood - 100.0
+    posterior = separate_levels(
+        search_maximum(posterior_for(observation), np.random.default_rng(0)), SensorSpec(offset=Prior(-1.0, 1.0))
+    ).posterior
+    assert posterior.space.keys == ("c", "k", OFFSET, RANDOM, NOISE)
+    theta = posterior.space.start
+    moved = theta + 0.125 * (np.array(posterior.space.keys) == OFFSET)
+    other = posterior.on((replace(observation, readings=observation.readings + 0.125),))
+    assert other.innovations(moved).log_likelihood == pytest.approx(
+        posterior.innovations(theta).log_likelihood, abs=1e-3
+    )
+    assert other.innovations(theta).log_likelihood < posterior.innovations(theta).log_likelihood - 100.0
 
 
 def test_nothing_is_split_where_nothing_is_its_own() -> None:
-    one = search_maximum(problem_for(TWO[0]), np.random.default_rng(0))
+    one = search_maximum(posterior_for(TWO[0]), np.random.default_rng(0))
     assert separate_levels(one, SensorSpec()) is one
-    two = search_maximum(problem_for(*TWO), np.random.default_rng(0))
+    two = search_maximum(posterior_for(*TWO), np.random.default_rng(0))
     assert separate_levels(two, SensorSpec("shared")) is two
-    zeros = separate_levels(two, SensorSpec("shared", Prior(mean=0.0, sd=1.0))).problem.keys
+    zeros = separate_levels(two, SensorSpec("shared", Prior(mean=0.0, sd=1.0))).posterior.space.keys
     assert zeros == ("c", "k", f"offset[{LOW}]", f"offset[{HIGH}]", RANDOM, NOISE)
 
 
@@ -176,8 +188,10 @@ def test_a_base_motion_sets_what_is_usual_by_its_own_amplitude() -> None:
         Observation.of("b", base[:, 0], 2.0 * base, DT / 2.0, "position"),
     )
     system = System(default().make("model", "robot_joint"), ())
-    problem = Problem(system, observations, Scales(1.0, 1.0, 1.0, usual=-3.0), system.vector({}), ())
-    low, high = (f for f in make_own_levels(problem, -2.0) if f.parameter == RANDOM)
+    posterior = Posterior(
+        ParameterSpace(()), observations, Lanes(system), Scales(1.0, 1.0, 1.0, usual=-3.0), system.vector({})
+    )
+    low, high = (f for f in make_own_levels(posterior, -2.0) if f.parameter == RANDOM)
     assert (low.mean, low.start) == pytest.approx((-3.0, -2.0))
     assert (high.mean, high.start) == pytest.approx((-3.0 + math.log(2.0), -2.0 + math.log(2.0)))
 
@@ -185,17 +199,17 @@ def test_a_base_motion_sets_what_is_usual_by_its_own_amplitude() -> None:
 def test_a_prior_with_each_gives_every_recording_its_own_value() -> None:
     """Two dampings, 3 and 6 N s/m, each found within four standard deviations (one seeded pair; chance below 1e-3)."""
     observations = (recorded("a", 3), recorded("b", 4, c=2.0 * C))
-    problem = problem_for(*observations, c=replace(PRIORS["c"], each=True), k=PRIORS["k"])
-    assert problem.keys == ("c[a]", "c[b]", "k", RANDOM, NOISE)
-    fit = search_maximum(problem, np.random.default_rng(0))
+    posterior = posterior_for(*observations, c=replace(PRIORS["c"], each=True), k=PRIORS["k"])
+    assert posterior.space.keys == ("c[a]", "c[b]", "k", RANDOM, NOISE)
+    fit = search_maximum(posterior, np.random.default_rng(0))
     for i, (key, truth) in enumerate({"c[a]": C, "c[b]": 2.0 * C}.items()):
         assert abs(math.log(fit.values[key] / truth)) < 4.0 * fit.sd[key]
-        assert problem.full(fit.theta, i)[problem.system.index["c"]] == fit.values[key]
+        assert posterior.recordings[i].full(fit.theta)[posterior.system.index["c"]] == fit.values[key]
     assert fit.sd["c[a]"] < 0.05
-    other = problem.on((recorded("c", 5, samples=200),))
+    other = posterior.on((recorded("c", 5, samples=200),))
     middle = math.sqrt(fit.values["c[a]"] * fit.values["c[b]"])
-    assert other.full(fit.theta)[problem.system.index["c"]] == pytest.approx(middle)
-    assert problem_for(observations[0], c=replace(PRIORS["c"], each=True)).keys == ("c", RANDOM, NOISE)
+    assert other.recordings[0].full(fit.theta)[posterior.system.index["c"]] == pytest.approx(middle)
+    assert posterior_for(observations[0], c=replace(PRIORS["c"], each=True)).space.keys == ("c", RANDOM, NOISE)
 
 
 def test_a_route_that_is_nowhere_is_refused() -> None:
@@ -207,27 +221,27 @@ def test_a_route_that_is_nowhere_is_refused() -> None:
 
 
 def test_predictions_use_what_the_recording_has_for_itself(apart) -> None:
-    problem, theta = apart.problem, apart.theta
+    posterior, theta = apart.posterior, apart.theta
     states = np.zeros((3, 2))
     zero = apart.values[f"offset[{HIGH}]"]
-    assert observe_states(problem, theta, states, (0, 1)) == pytest.approx(np.full(3, zero))
-    (runs,) = predict_freely(problem, theta, np.zeros((1, 2)), np.array([0]), 20, index=1)
+    assert observe_states(posterior, theta, states, (0, 1)) == pytest.approx(np.full(3, zero))
+    (runs,) = predict_freely(posterior, theta, np.zeros((1, 2)), np.array([0]), 20, index=1)
     assert np.abs(runs.error).max() < 6.0 * LOUD["noise"]
 
 
 def test_the_beginnings_of_all_recordings_are_searched() -> None:
-    assert [t.samples for t in cut_beginnings(problem_for(TWO[0])).observations] == [3000]
+    assert [t.samples for t in cut_beginnings(posterior_for(TWO[0])).observations] == [3000]
     many = [recorded(str(i), i, samples=n) for i, n in enumerate((3000, 500, 3000, 3000))]
-    assert [t.samples for t in cut_beginnings(problem_for(*many)).observations] == [1500, 500, 1500, 1500]
+    assert [t.samples for t in cut_beginnings(posterior_for(*many)).observations] == [1500, 500, 1500, 1500]
 
 
 def test_log_likelihoods_are_those_of_single_points() -> None:
-    problem = problem_for(TWO[0])
-    points = np.stack([problem.start, problem.start + 0.1, problem.start])
-    points[2, problem.keys.index("k")] = 60.0
-    expected = [problem.innovations(p).log_likelihood for p in points[:2]]
-    assert list(problem.log_likelihoods(points)) == [*expected, -math.inf]
-    assert list(replace(problem, jobs=1).log_likelihoods(points)) == [*expected, -math.inf]
+    posterior = posterior_for(TWO[0])
+    points = np.stack([posterior.space.start, posterior.space.start + 0.1, posterior.space.start])
+    points[2, posterior.space.keys.index("k")] = 60.0
+    expected = [posterior.innovations(p).log_likelihood for p in points[:2]]
+    assert list(posterior.log_likelihood(points)) == [*expected, -math.inf]
+    assert list(replace(posterior, jobs=1).log_likelihood(points)) == [*expected, -math.inf]
 
 
 FREES = [

@@ -11,9 +11,12 @@ import pytest
 from scipy.optimize import minimize_scalar
 
 from lostmotion.likelihood.input_curve import REACH, InputCurve
+from lostmotion.likelihood.lanes import Lanes
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import NOISE, RANDOM, FreeParameter, Problem, Scales
+from lostmotion.likelihood.posterior import Posterior
+from lostmotion.likelihood.space import RANDOM, FreeParameter, ParameterSpace, Scales
 from lostmotion.likelihood.system import System
+from lostmotion.noises import NOISE
 from lostmotion.signals.linear_prediction import ORDER, find_prediction, predict_before
 from lostmotion_plugins.models.basic import LinearOscillator
 from lostmotion_plugins.terms.drive import ExcitationDelay
@@ -100,7 +103,13 @@ def test_a_late_drive_is_known_at_the_first_samples():
     force = np.cos(omega * t + 0.9)[:, None]
     observation = replace(Observation.of("run", shown, force, DT, "acceleration"), begun=begun)
     frees = (FreeParameter(RANDOM, "1", -40.0, -60.0, 5.0), FreeParameter(NOISE, "1", math.log(noise), -20.0, 3.0))
-    problem = Problem(system, (observation,), Scales(1.0, 0.02, 0.1), known, frees, frozenset({"excitation_delay"}))
+    posterior = Posterior(
+        ParameterSpace(frees),
+        (observation,),
+        Lanes(system, frozenset({"excitation_delay"})),
+        Scales(1.0, 0.02, 0.1),
+        known,
+    )
     mean = -SAMPLES * (math.log(noise) + 0.5 * math.log(2.0 * math.pi) + 0.5)
-    found = float(problem.log_likelihoods(problem.start[None])[0])
+    found = float(posterior.log_likelihood(posterior.space.start[None])[0])
     assert abs(found - mean) < 4.0 * math.sqrt(0.5 * SAMPLES)

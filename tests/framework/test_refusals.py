@@ -117,7 +117,7 @@ class Lost:
 def test_a_term_without_a_finite_force_is_refused():
     """Where a filter diverged with a correct term, the term promises nothing, and no error is attributed to it."""
     observation = Observation.of("seen", np.sin(np.arange(40.0)), np.zeros((40, 1)), 0.1, "position")
-    fit = SimpleNamespace(problem=SimpleNamespace(system=oscillator(Rootless, Plain), observations=(observation,)))
+    fit = SimpleNamespace(posterior=SimpleNamespace(system=oscillator(Rootless, Plain), observations=(observation,)))
     with pytest.raises(ContractError, match="force of rootless is not a finite number"):
         _solve_score_test(fit, "rootless", (None,), {}, Lost())
     assert _solve_score_test(fit, "plain", (None,), {}, Lost()).gain == 0.0

@@ -11,7 +11,7 @@ from lostmotion.identification.normal_scores import Scores
 from lostmotion.identification.population import count_effective, temper_weights
 from lostmotion.identification.sampling import SamplingPlan, ShownCoordinate, Task, identify
 from lostmotion.identification.t_mixture import TMixture
-from lostmotion.likelihood.problem import FreeParameter
+from lostmotion.likelihood.space import FreeParameter
 from lostmotion_chaos.levels.incremental_mixture import find_mixture
 
 
@@ -143,7 +143,7 @@ def test_importance_sampling_finds_a_rugged_posterior(sampled):
 def test_importance_sampling_keeps_the_whole_prior_in_sight(sampled):
     toy, mixture = sampled
     corners = np.array([[x, y] for x in (0.001, 0.5, 0.999) for y in (0.001, 0.5, 0.999)])
-    prior = np.array([toy.log_prior(c) for c in corners])
+    prior = toy.space.log_prior(corners)
     assert np.all(mixture.log_density(corners) > prior + math.log(0.02))
 
 

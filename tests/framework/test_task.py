@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from lostmotion.identification.task import limit_covariance
-from lostmotion.likelihood.problem import FreeParameter
+from lostmotion.likelihood.space import FreeParameter
 
 FREE = (FreeParameter("c", "1", 0.0, -1.0, 1.0), FreeParameter("log_noise", "1", 0.0, -10.0, 2.0))
 

@@ -16,6 +16,7 @@ def hypothesis(score, *terms, error=0.0):
         scatter=1.0,
         expansion=SimpleNamespace(here=SimpleNamespace(errors=np.full(100, error), variances=np.ones(100))),
         price=0.0,
+        log_profile=0.0,
         score=lambda temper=1.0: score / temper,
     )
 

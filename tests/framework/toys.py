@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lostmotion.identification.sampling import ShownCoordinate, Task, TMixture
-from lostmotion.likelihood.problem import FreeParameter
+from lostmotion.likelihood.space import FreeParameter, ParameterSpace
 
 
 @dataclass(frozen=True)
@@ -16,10 +16,11 @@ class Toy:
     height: Callable
     free: tuple[FreeParameter, ...]
 
-    def log_prior(self, theta):
-        return sum(f.log_prior(float(c)) for f, c in zip(self.free, theta, strict=True))
+    @property
+    def space(self):
+        return ParameterSpace(self.free)
 
-    def log_likelihoods(self, points):
+    def log_likelihood(self, points):
         return self.height(points)
 
 

@@ -15,7 +15,7 @@ import numpy as np
 
 import lostmotion
 from lostmotion.case import CaseFile, Prior
-from lostmotion.inference.setup import make_problem
+from lostmotion.inference.setup import make_posterior
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
 from lostmotion.registry import default
@@ -49,9 +49,9 @@ def likelihoods(force: np.ndarray, position: np.ndarray, jobs: int) -> list[floa
     estimate = {"c": Prior(0.8, 80.0, "log"), "x0": Prior(1e-3, 2e-2, "log")}
     case = CaseFile("study", Path(), (), "lin_backlash", known, estimate, {}, (), "")
     observation = Observation.of("seen", position, force[:, None], 1 / 640, "position")
-    problem = make_problem(system, case, (observation,), jobs=jobs)
-    start = problem.start
-    return [float(x) for x in problem.log_likelihoods(np.stack([start, start + 0.01, start - 0.01]))]
+    posterior = make_posterior(system, case, (observation,), jobs=jobs)
+    start = posterior.space.start
+    return [float(x) for x in posterior.log_likelihood(np.stack([start, start + 0.01, start - 0.01]))]
 
 
 def exponents(jobs: int) -> list[float]:

@@ -15,12 +15,12 @@ from test_units import CASE
 from lostmotion.cli import main
 from lostmotion.inference.fit import compute_sensitivity
 from lostmotion.likelihood.drive import Drive
-from lostmotion.likelihood.engine import Points, RunningSystem, SensorNoises
+from lostmotion.likelihood.innovations import Innovations
 from lostmotion.likelihood.lanes import Lanes
-from lostmotion.likelihood.noise_levels import LEAST
+from lostmotion.likelihood.noise_levels import LEAST, USUAL
 from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.points import Points, SensorNoises
 from lostmotion.likelihood.predict import WORST, FreeRuns, predict_freely
-from lostmotion.likelihood.problem import USUAL, Innovations
 from lostmotion.likelihood.space import FreeParameter, ParameterSpace
 from lostmotion.likelihood.system import System
 from lostmotion.noises import NoiseBlock
@@ -158,7 +158,7 @@ class Filter:
 
     def run(self, z, drive, y, cov):
         """Return variances, covariances behind the samples, and state and covariance of the machine before the last."""
-        running = RunningSystem(self.system, self.system.everything, 1, "latent" if self.pace else "white")
+        running = Lanes(self.system, self.system.everything, 1, "latent" if self.pace else "white")
         observation = Observation.of("long", z, drive.inputs, self.dt, "position")
         one, number = np.ones((1, 1)), np.zeros(1, dtype=np.int64)
         noise = SensorNoises.of([[NoiseBlock(white=self.r)]])
@@ -166,7 +166,8 @@ class Filter:
             self.full[None], np.array([self.q]), np.array([self.pace]), noise, one, 0.0 *
             one, 0.0 * one, y[None], cov[None], (drive,), number, number,
         )  # fmt: skip
-        kept, seen = Lanes().run_for_smoother(running, observation, points)
+        kept = running.make_kept(observation.samples)
+        seen = running.filter_and_keep(observation, points, kept)
         assert seen.finite.all()
         return seen.variances[0, :, 0], kept[1], kept[2][-1, :2], kept[3][-1, :2, :2]
 
@@ -206,13 +207,9 @@ def test_covariances_stay_positive_over_ten_million_steps(c, share, pace, noise)
 class Cliff:
     """A likelihood in one coordinate, that of a mean; beyond 1 the filter does not get through."""
 
-    free: tuple[FreeParameter, ...] = (FreeParameter("mean", "1", 0.0, -5.0, 5.0),)
+    space = ParameterSpace((FreeParameter("mean", "1", 0.0, -5.0, 5.0),))
 
-    @property
-    def space(self):
-        return ParameterSpace(self.free)
-
-    def filter_many(self, points):
+    def innovations(self, points):
         seen = np.linspace(-1.0, 1.0, 9)
         return Innovations(
             np.where(points > 1.0, np.nan, seen - points), np.ones((len(points), 9)), points[:, 0] <= 1.0
@@ -234,7 +231,7 @@ def test_a_free_run_that_leaves_all_bounds_errs_by_the_most(monkeypatch):
         settings = DEFAULT
         observations = (Observation.of("still", np.array([1.0, 2.0, 3.0, 5.0]), np.zeros((4, 1)), 1.0, "position"),)
 
-    def observed(problem, theta, states, where=(0, 0), sensor=0):
+    def observed(posterior, theta, states, where=(0, 0), sensor=0):
         return np.array([0.0, 1e200, np.nan])
 
     monkeypatch.setattr(predict, "_simulate_runs", lambda *args: np.zeros((1, 3, 2)))

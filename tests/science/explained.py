@@ -7,7 +7,7 @@ from lostmotion.diagnosis.compare import cut_heldout
 from lostmotion.diagnosis.stages import list_fitted_keys
 from lostmotion.evidence.bare import Budget
 from lostmotion.evidence.course import Course
-from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
+from lostmotion.inference.setup import make_posterior, search_maximum, split_heldout
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import Registry
@@ -59,6 +59,6 @@ def explain_machine(folder, extra, **made):
     """Return the explanations of such a recording, by all terms of the library and with its held-out part."""
     prepared, system = made_of(folder, extra, **made)
     train, held = split_heldout(prepared.observations)
-    nominal = search_maximum(make_problem(system, prepared.case, train, jobs=1), np.random.default_rng(0))
+    nominal = search_maximum(make_posterior(system, prepared.case, train, jobs=1), np.random.default_rng(0))
     pieces = [(piece.observation, piece.begin) for piece in cut_heldout(prepared.observations, held)]
     return explain(nominal, list_fitted_keys(system), pieces)

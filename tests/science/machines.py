@@ -9,7 +9,7 @@ gap does. At 32 Hz what is left over is nearly white, and the loop of force over
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -19,10 +19,12 @@ from lostmotion.identification.sampling import SampledPosterior, SamplingPlan, i
 from lostmotion.identification.trajectory import SampledCase, choose_terms, make_trajectory_task, sample_case
 from lostmotion.inference.fit import Fit, compute_robust_covariance, maximise
 from lostmotion.inference.modes import select_modes
-from lostmotion.inference.setup import choose_steps, make_problem, separate_levels
+from lostmotion.inference.setup import choose_steps, make_posterior, separate_levels
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.predict import filter_recording, observe_states, simulate_run
-from lostmotion.likelihood.problem import NOISE, RANDOM, Problem
+from lostmotion.likelihood.space import RANDOM
 from lostmotion.likelihood.system import System
+from lostmotion.noises import NOISE
 from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import default
 
@@ -89,7 +91,7 @@ class Found:
 
     def index(self, key: str) -> int:
         """Return which coordinate a parameter is."""
-        return self.fit.problem.keys.index(key)
+        return self.fit.posterior.space.keys.index(key)
 
     def deviations(self, key: str) -> tuple[float, float]:
         """Return the standard deviation of a coordinate by the likelihood, and by its scores over blocks (sandwich).
@@ -123,29 +125,31 @@ def damper(folder: Path, data: Path, names: tuple[str, ...], plan: SamplingPlan 
     prepared = prepare(case, registry)
     terms = choose_terms(prepared, (), registry)
     rng, system = np.random.default_rng(0), System(prepared.model, terms)
-    problem = replace(make_problem(system, prepared.case, prepared.observations), active=frozenset(system.keys))
-    fits = [separate_levels(fit, prepared.case.sensor) for fit in hills(problem, rng)]
+    posterior = make_posterior(system, prepared.case, prepared.observations).acting(system.keys)
+    fits = [separate_levels(fit, prepared.case.sensor) for fit in hills(posterior, rng)]
     return found(SampledCase(identify(make_trajectory_task(prepared, fits, terms), rng=rng, plan=plan), tuple(fits)))
 
 
-def hills(problem: Problem, rng: np.random.Generator) -> list[Fit]:
+def hills(posterior: Posterior, rng: np.random.Generator) -> list[Fit]:
     """Return the distinct maxima that are reached from draws of the priors, best first; what is wrong starts as noise.
 
     The search of `identify` starts with a large random force, which is right for chaos. Here it would end on a hill
     where that force explains everything, of log evidence lower by a hundred. So the measurement noise starts at 5 % of
     the response, the random force at what is usual, and the rest within a third of the priors' widths.
     """
-    starts = np.repeat(problem.start[None], STARTS, axis=0)
-    for i, free in enumerate(problem.free):
+    starts = np.repeat(posterior.space.start[None], STARTS, axis=0)
+    for i, free in enumerate(posterior.space.free):
         if free.key == NOISE:
-            starts[:, i] = np.log(0.05 * problem.scales.force)
+            starts[:, i] = np.log(0.05 * posterior.scales.force)
         elif free.key == RANDOM:
-            starts[:, i] = problem.scales.usual
+            starts[:, i] = posterior.scales.usual
         else:
             starts[1:, i] = [free.quantile(share) for share in rng.uniform(1 / 3, 2 / 3, STARTS - 1)]
-    fits = [maximise(choose_steps(problem, start), start) for start in problem.clip(starts)]
-    best = max((fit.problem for fit in fits), key=lambda p: p.nsub)
-    return select_modes([f if f.problem.nsub == best.nsub else maximise(best, f.theta) for f in fits], 20.0)
+    fits = [maximise(choose_steps(posterior, start), start) for start in posterior.space.clip(starts)]
+    best = max((fit.posterior for fit in fits), key=lambda p: p.dynamics.nsub)
+    return select_modes(
+        [f if f.posterior.dynamics.nsub == best.dynamics.nsub else maximise(best, f.theta) for f in fits], 20.0
+    )
 
 
 def thinned(folder: Path, data: Path, name: str) -> str:
@@ -161,10 +165,10 @@ def thinned(folder: Path, data: Path, name: str) -> str:
 def found(sample: SampledCase) -> Found:
     """Return a posterior with the free run of its best fit, its error (rms) a share of the scatter of the response."""
     fit = sample.fits[0]
-    problem, theta = fit.problem, fit.theta
-    observation = problem.observations[0]
-    states = simulate_run(problem, theta, filter_recording(problem, theta).states[0], 0, observation.samples)
-    error = observe_states(problem, theta, states) - observation.response
+    posterior, theta = fit.posterior, fit.theta
+    observation = posterior.observations[0]
+    states = simulate_run(posterior, theta, filter_recording(posterior, theta).states[0], 0, observation.samples)
+    error = observe_states(posterior, theta, states) - observation.response
     return Found(sample.result, fit, float(np.sqrt(np.nanmean(error**2)) / np.nanstd(observation.response)))
 
 

@@ -11,7 +11,7 @@ from scipy.signal import lfilter
 from lostmotion.case import CaseFile, Prior
 from lostmotion.inference.candidates import ScoreTest, add_term
 from lostmotion.inference.fit import maximise, restart
-from lostmotion.inference.setup import make_problem, polish_fit
+from lostmotion.inference.setup import make_posterior, polish_fit
 from lostmotion.inference.sharing import compare_recordings
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
@@ -45,11 +45,11 @@ def fitted(observations, *terms):
     """Return the fit of an oscillator with damping and stiffness unknown, begun at the truth; `terms` may be tried."""
     system = System(default().make("model", "linear_oscillator"), terms)
     case = CaseFile("study", Path(), (), "linear_oscillator", {"m": M}, PRIORS, {}, (), "")
-    problem = make_problem(system, case, tuple(observations), jobs=1)
-    start = problem.start.copy()
-    for i, key in enumerate(problem.keys):
+    posterior = make_posterior(system, case, tuple(observations), jobs=1)
+    start = posterior.space.start.copy()
+    for i, key in enumerate(posterior.space.keys):
         start[i] = np.log({"c": C, "k": K}[key]) if key in PRIORS else start[i]
-    return maximise(problem, start)
+    return maximise(posterior, start)
 
 
 def rubbed(name, seed, level, *, friction=0.0, c=C, samples=1000, noise=0.005, finer=16):

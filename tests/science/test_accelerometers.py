@@ -16,13 +16,14 @@ from scipy.stats import binom
 from lostmotion.diagnosis.gather_facts import find_position
 from lostmotion.diagnosis.notes import note_unknown_position
 from lostmotion.inference.fit import maximise
-from lostmotion.inference.setup import choose_steps, compute_scales, make_problem, search_maximum, split_heldout
+from lostmotion.inference.setup import choose_steps, compute_scales, make_posterior, search_maximum, split_heldout
 from lostmotion.inference.unseen import smooth_body_position
 from lostmotion.likelihood.noise_levels import compute_usual_level
 from lostmotion.likelihood.observation import Observation, window_force
-from lostmotion.likelihood.problem import NOISE, RANDOM
 from lostmotion.likelihood.reference import Reference
+from lostmotion.likelihood.space import RANDOM
 from lostmotion.likelihood.system import System
+from lostmotion.noises import NOISE
 from lostmotion.registry import default
 
 SOURCE = Path(__file__).parents[2] / "benchmarks" / "accelerometers.py"
@@ -40,16 +41,18 @@ def recorded(number):
 
 
 def posed(number):
-    """Return a machine, its problem on what is fitted, the coordinates of the truth, and the true states."""
+    """Return a machine, its posterior on what is fitted, the coordinates of the truth, and the true states."""
     machine, observation, states = recorded(number)
     system = System(default().make("model", machine.model), ())
-    problem = make_problem(system, machines.make_case(machine), split_heldout([observation])[0])
+    posterior = make_posterior(system, machines.make_case(machine), split_heldout([observation])[0])
     levels = {
         RANDOM: math.log((machines.EXCITATION_NOISE * machine.peak) ** 2 * machine.dt),
         NOISE: math.log(machine.noise * states[:, 2].std()),
     }
-    true = np.array([levels[f.key] if f.key in levels else math.log(machine.values[f.key]) for f in problem.free])
-    return machine, problem, problem.clip(true), states, observation
+    true = np.array(
+        [levels[f.key] if f.key in levels else math.log(machine.values[f.key]) for f in posterior.space.free]
+    )
+    return machine, posterior, posterior.space.clip(true), states, observation
 
 
 @pytest.mark.slow
@@ -65,9 +68,9 @@ def test_the_size_of_a_motion_is_told_by_its_acceleration(number):
 
 @pytest.mark.slow
 def test_the_usual_noise_of_a_hammer_goes_with_its_peak():
-    machine, problem, _, _, observation = posed(0)
-    size = math.sqrt(math.exp(compute_usual_level(problem, 1.0)) / machine.dt)
-    assert size == pytest.approx(1e-3 * np.abs(problem.observations[0].inputs).max(), rel=0.01)
+    machine, posterior, _, _, observation = posed(0)
+    size = math.sqrt(math.exp(compute_usual_level(posterior, 1.0)) / machine.dt)
+    assert size == pytest.approx(1e-3 * np.abs(posterior.observations[0].inputs).max(), rel=0.01)
     assert size > 3e-3 * np.std(observation.inputs)
 
 
@@ -105,11 +108,12 @@ def test_what_edges_of_hits_do_between_samples_is_told_as_it_is():
 
 
 def test_the_engines_agree_on_a_recording_with_hits():
-    _, problem, true, _, observation = posed(0)
+    _, posterior, true, _, observation = posed(0)
     struck = int(np.argmax(observation.input_variance > 0.0))
-    short = choose_steps(problem.on((observation.part(max(struck - 300, 0), struck + 300),)), true)
+    short = choose_steps(posterior.on((observation.part(max(struck - 300, 0), struck + 300),)), true)
     assert short.observations[0].input_variance.any()
-    ours, plain = short.innovations(true), replace(short, engine=Reference()).innovations(true)
+    plain = replace(short, dynamics=Reference(short.system, short.active, short.dynamics.nsub)).innovations(true)
+    ours = short.innovations(true)
     np.testing.assert_allclose(plain.errors, ours.errors, rtol=0.0, atol=1e-9 * np.abs(ours.errors).max())
     np.testing.assert_allclose(plain.variances, ours.variances, rtol=1e-9)
 
@@ -121,25 +125,25 @@ def test_a_search_with_an_accelerometer_reaches_the_truth(number):
 
     Where a body flies free from contact to contact (14), the likelihood still has maxima some tens below the highest.
     """
-    machine, problem, true, states, _ = posed(number)
-    fit = search_maximum(problem, np.random.default_rng(0))
-    assert fit.local.log_posterior > fit.problem.log_posterior(true) - 50.0
+    machine, posterior, true, states, _ = posed(number)
+    fit = search_maximum(posterior, np.random.default_rng(0))
+    assert fit.local.log_posterior > fit.posterior.log_density(true) - 50.0
     assert abs(fit.theta[-2] - true[-2]) < 2.0
-    mean, covariance = fit.problem.observations[0].begun
+    mean, covariance = fit.posterior.observations[0].begun
     assert np.all(np.abs(mean - states[0, :2]) < 3.0 * np.sqrt(np.diag(covariance)))
-    known = [fit.sd[f.key] for f in fit.problem.free[:3]]
+    known = [fit.sd[f.key] for f in fit.posterior.space.free[:3]]
     assert np.all(np.abs(fit.theta - true)[:3] < 5.0 * np.array(known)), machine
 
 
 @pytest.mark.slow
 def test_the_likelihood_is_smooth_where_a_body_creeps_up_to_a_contact():
     """With three points of linearisation it jumped by 300 between values of c that differ by one in ten million."""
-    machine, problem, true, states, _ = posed(56)
-    exact = (states[0, :2], np.diag((1e-3 * np.array([problem.scales.length, problem.scales.velocity])) ** 2))
-    known = problem.on((replace(problem.observations[0], begun=exact),))
+    machine, posterior, true, states, _ = posed(56)
+    exact = (states[0, :2], np.diag((1e-3 * np.array([posterior.scales.length, posterior.scales.velocity])) ** 2))
+    known = posterior.on((replace(posterior.observations[0], begun=exact),))
     thetas = np.repeat(true[None], 16, axis=0)
     thetas[:, 0] += 1e-7 * np.arange(16)
-    assert np.ptp(choose_steps(known, true).log_posteriors(thetas)) < 0.05, machine
+    assert np.ptp(choose_steps(known, true).log_density(thetas)) < 0.05, machine
 
 
 def test_a_part_of_a_recording_begins_where_it_does():
@@ -159,17 +163,19 @@ def test_a_position_that_no_sensor_shows_is_told_with_its_band():
 
     Over 100 machines the band holds the position in about 95 of 100 samples: `benchmarks/accelerometers.py`.
     """
-    machine, problem, true, states, observation = posed(0)
-    fit = maximise(choose_steps(problem, true), true)
+    machine, posterior, true, states, observation = posed(0)
+    fit = maximise(choose_steps(posterior, true), true)
     place = smooth_body_position(fit, observation)
     error = place.mean - states[:, 0]
     assert np.mean(np.abs(error) < 2.0 * place.sd) > 0.9
     assert np.std(error) > 0.3 * np.sqrt(np.mean(place.sd**2))
     assert notes_on_position(fit, observation) == ()
-    loud = replace(fit, local=replace(fit.local, theta=fit.theta + 10.0 * (np.array(fit.problem.keys) == RANDOM)))
-    pairs = zip(fit.problem.free, loud.theta, strict=True)
+    loud = replace(
+        fit, local=replace(fit.local, theta=fit.theta + 10.0 * (np.array(fit.posterior.space.keys) == RANDOM))
+    )
+    pairs = zip(fit.posterior.space.free, loud.theta, strict=True)
     levels = [replace(f, low=x, high=x) if f.key == RANDOM else f for f, x in pairs]
-    (said,) = notes_on_position(replace(loud, problem=replace(fit.problem, free=tuple(levels))), observation)
+    (said,) = notes_on_position(replace(loud, posterior=fit.posterior.over(levels)), observation)
     told = re.search(r"known to \+-(\S+) mm only .* (\S+) % of its amplitude", said)
     amplitude = 1e3 * math.sqrt(2.0) * states[:, 0].std()
     assert float(told[1]) / amplitude == pytest.approx(0.01 * float(told[2]), rel=0.15)

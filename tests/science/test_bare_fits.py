@@ -15,7 +15,7 @@ from lostmotion.inference.candidates import join_term
 from lostmotion.inference.curves import add_all_curves
 from lostmotion.inference.fit import maximise, restart
 from lostmotion.inference.penalties import compute_price, compute_unknown_price
-from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
+from lostmotion.inference.setup import make_posterior, search_maximum, split_heldout
 from lostmotion.likelihood.work import count_work
 
 NOTHING, FRICTION, LEVELS = frozenset(), frozenset({"coulomb_friction"}), frozenset({"directional_friction"})
@@ -31,15 +31,15 @@ def levels(x, v, t):
 def nominal(tmp_path_factory):
     prepared, system = made_of(tmp_path_factory.mktemp("levels"), levels)
     train, _ = split_heldout(prepared.observations)
-    return search_maximum(make_problem(system, prepared.case, train, jobs=1), np.random.default_rng(0))
+    return search_maximum(make_posterior(system, prepared.case, train, jobs=1), np.random.default_rng(0))
 
 
 def begin(nominal, *, seconds=600.0, temper=1.0):
     """Return the bare fits of a few terms, with that of no term."""
-    errors = list_channel_errors(nominal, list(nominal.problem.observations))
-    whole = nominal.problem.observations
+    errors = list_channel_errors(nominal, list(nominal.posterior.observations))
+    whole = nominal.posterior.observations
     return BareFits(
-        add_all_curves(nominal), nominal.problem.system, KEYS, errors, Budget(seconds=seconds), whole, temper
+        add_all_curves(nominal), nominal.posterior.system, KEYS, errors, Budget(seconds=seconds), whole, temper
     )
 
 
@@ -75,7 +75,7 @@ def test_a_set_without_a_law_may_have_the_simpler_one_in_its_place(climbed):
 def test_a_wave_of_the_drive_is_left_out_and_one_of_the_machine_is_not(climbed, monkeypatch):
     gain = frozenset({"excitation_gain"})
     assert climbed.leave_out_waves(FRICTION) == FRICTION
-    monkeypatch.setattr(bare, "find_wave", lambda problem, key: key)
+    monkeypatch.setattr(bare, "find_wave", lambda posterior, key: key)
     assert climbed.leave_out_waves(FRICTION | gain) == FRICTION
     assert climbed.leave_out_waves(gain) == NOTHING
 
@@ -110,7 +110,7 @@ def test_only_the_best_fit_of_a_set_is_kept_and_none_that_diverged(nominal):
 def test_on_a_part_of_the_samples_the_evidence_counts_for_all_of_them(climbed, nominal):
     """With a quarter of the samples as the temper the evidence counts fourfold, and the price once."""
     part, fit = begin(nominal, temper=0.25), climbed.fits[FRICTION]
-    price = compute_price(fit.problem, len(KEYS))
+    price = compute_price(fit.posterior, len(KEYS))
     assert price > 0.0
     assert part.weigh(fit) == pytest.approx(4.0 * fit.log_evidence - price)
     assert climbed.weigh(fit) == pytest.approx(fit.log_evidence - price)
@@ -140,15 +140,15 @@ def test_a_budget_is_used_up_by_processor_time_and_not_by_waiting():
 def test_a_budget_of_work_does_not_depend_on_the_load_of_the_machine(nominal):
     budget = Budget(steps=1.5 * count_steps(nominal))
     assert not budget.spent
-    nominal.problem.log_likelihoods(nominal.theta[None])
+    nominal.posterior.log_likelihood(nominal.theta[None])
     assert not budget.spent
-    nominal.problem.log_likelihoods(nominal.theta[None])
+    nominal.posterior.log_likelihood(nominal.theta[None])
     assert budget.spent
 
 
 def count_steps(fit):
     before = count_work()
-    fit.problem.log_likelihoods(fit.theta[None])
+    fit.posterior.log_likelihood(fit.theta[None])
     return count_work() - before
 
 

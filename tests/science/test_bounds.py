@@ -12,7 +12,7 @@ from lostmotion.evidence.bare import Budget
 from lostmotion.evidence.bounds import ALIKE, bound_absent, bound_absolute, bound_positive
 from lostmotion.evidence.search import ExplanationSearch
 from lostmotion.inference.candidates import ScoreTest, fit_term
-from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
+from lostmotion.inference.setup import make_posterior, search_maximum, split_heldout
 
 MACHINES = 12
 
@@ -27,7 +27,7 @@ def weigh_nothing(folder, extra, seed):
     folder.mkdir(exist_ok=True)
     prepared, system = made_of(folder, extra, seed=seed)
     train, _ = split_heldout(prepared.observations)
-    nominal = search_maximum(make_problem(system, prepared.case, train, jobs=1), np.random.default_rng(0))
+    nominal = search_maximum(make_posterior(system, prepared.case, train, jobs=1), np.random.default_rng(0))
     search = ExplanationSearch(nominal, list_fitted_keys(system), (), Budget())
     search.weigh(search.bare.fits[frozenset()])
     return search
@@ -76,7 +76,7 @@ def test_a_term_that_an_estimated_parameter_imitates_has_no_bound(still):
 
 def test_shares_of_forces_are_those_of_their_laws(still):
     search, bounds = still
-    force = search.nominal.problem.scales.force
+    force = search.nominal.posterior.scales.force
     offset, friction = bounds["offset_force", "force"], bounds["coulomb_friction", "force"]
     assert offset.force == pytest.approx(offset.upper / force, rel=1e-6)
     assert friction.force == pytest.approx(friction.upper / force, rel=0.01)

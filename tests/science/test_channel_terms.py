@@ -5,7 +5,6 @@ The recordings are the exact steady response of a linear oscillator, written dow
 
 import math
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 import pytest
@@ -13,12 +12,13 @@ from explained import explain
 
 from lostmotion.inference.fit import maximise
 from lostmotion.inference.setup import make_noise_levels
-from lostmotion.likelihood.bends import correct_readings, correct_twice
+from lostmotion.likelihood.bends import correct_readings, correct_twice, list_corrections
 from lostmotion.likelihood.drive import DriveHarmonic
+from lostmotion.likelihood.lanes import Lanes
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import Problem, Scales
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.reference import Reference
-from lostmotion.likelihood.space import FreeParameter
+from lostmotion.likelihood.space import FreeParameter, ParameterSpace, Scales
 from lostmotion.likelihood.system import System
 from lostmotion_plugins.models.basic import LinearOscillator
 from lostmotion_plugins.terms.drive import ExcitationDelay, ExcitationGain, ExcitationHarmonic
@@ -57,8 +57,11 @@ def explained(response, seed):
     scales = Scales(AMPLITUDE, 1.2, 1.0 / OMEGA, usual=math.log((1e-3 * AMPLITUDE) ** 2 * DT), span=SAMPLES * DT)
     free = FreeParameter("c", "N s/m", math.log(C), math.log(0.05), math.log(4.0), log=True)
     known = system.vector({"m": M, "c": C, "k": K})
-    problem = Problem(system, (observation,), scales, known, (free, *make_noise_levels((observation,), scales)), nsub=2)
-    fits = [maximise(problem, np.array([math.log(C), level, problem.start[-1]])) for level in (scales.usual, 0.0)]
+    space = ParameterSpace((free, *make_noise_levels((observation,), scales)))
+    posterior = Posterior(space, (observation,), Lanes(system, nsub=2), scales, known)
+    fits = [
+        maximise(posterior, np.array([math.log(C), level, posterior.space.start[-1]])) for level in (scales.usual, 0.0)
+    ]
     nominal = max(fits, key=lambda f: f.local.log_posterior)
     return explain(nominal, system.keys)
 
@@ -118,7 +121,7 @@ RIPPLE, PITCH = 0.02, 0.3
 
 
 def rippled(seed):
-    """Return a problem with a wave of a sensor as large as its noise, which is added after the wave."""
+    """Return a posterior with a wave of a sensor as large as its noise, which is added after the wave."""
     rng, (cosine, sine, pitch), t = np.random.default_rng(seed), (0.0, RIPPLE, PITCH), np.arange(SAMPLES) * DT
     readings = PositionRipple.bent(moved(), (cosine, sine, pitch)) + RIPPLE * rng.standard_normal(SAMPLES)
     force = sum(a * np.cos(w * t) for a, w in TONES)
@@ -128,7 +131,8 @@ def rippled(seed):
     known = system.vector({"m": M, "c": C, "k": K, "position_ripple.pitch": PITCH})
     free = FreeParameter("position_ripple.sine", "m", 0.5 * RIPPLE, -1.0, 1.0, mean=0.0, sd=0.1)
     levels = make_noise_levels((seen,), scales)
-    return Problem(system, (seen,), scales, known, (free, *levels), frozenset({"position_ripple"}), nsub=2)
+    running = Lanes(system, frozenset({"position_ripple"}), nsub=2)
+    return Posterior(ParameterSpace((free, *levels)), (seen,), running, scales, known)
 
 
 def test_a_wave_of_a_sensor_is_measured_beside_noise_of_its_own_size():
@@ -136,20 +140,20 @@ def test_a_wave_of_a_sensor_is_measured_beside_noise_of_its_own_size():
 
     With the error computed at the noisy reading instead, the mean error is more than twenty of them.
     """
-    fits = [maximise(problem, problem.start) for problem in map(rippled, range(5))]
+    fits = [maximise(posterior, posterior.space.start) for posterior in map(rippled, range(5))]
     errors = [(f.values["position_ripple.sine"] - RIPPLE) / f.sd["position_ripple.sine"] for f in fits]
     assert abs(np.mean(errors)) < 2.0 / math.sqrt(len(errors))
 
 
 def test_the_correction_at_predictions_is_that_of_the_true_error():
     """Where the filter knows the position better than the sensor, readings lose the wave but not their noise."""
-    problem = rippled(0)
-    view, theta = problem.observations[0], maximise(problem, problem.start).theta
-    corrections = problem._list_corrections(theta, 0)
-    points = problem.points(theta[None], 0)
-    run = partial(problem.engine.filter, problem.running)
+    posterior = rippled(0)
+    view, theta = posterior.observations[0], maximise(posterior, posterior.space.start).theta
+    full = posterior.recordings[0].full(theta)
+    corrections = list_corrections(posterior.system, posterior.active, full, view.sensors)
+    points = posterior.recordings[0].points(theta[None])
     true = view.readings[:, 0] - (PositionRipple.bent(moved(), (0.0, RIPPLE, PITCH)) - moved())
-    twice = correct_twice(run, view, [corrections], points)[0][0, :, 0]
+    twice = correct_twice(posterior.dynamics.filter, view, [corrections], points)[0][0, :, 0]
     once = correct_readings(view, corrections)[0][:, 0]
     settled = slice(100, None)
     assert np.std((twice - true)[settled]) < 0.3 * np.std((once - true)[settled])
@@ -157,13 +161,14 @@ def test_the_correction_at_predictions_is_that_of_the_true_error():
 
 def test_points_with_corrections_of_their_own_are_filtered_together():
     """Seven sizes of the wave in one call give what each gives alone, and what the plain filter gives."""
-    problem = rippled(1)
-    part = problem.observations[0].part(0, 120)
-    problem = problem.on((part,))
-    thetas = np.tile(maximise(problem, problem.start).theta, (7, 1))
+    posterior = rippled(1)
+    part = posterior.observations[0].part(0, 120)
+    posterior = posterior.on((part,))
+    thetas = np.tile(maximise(posterior, posterior.space.start).theta, (7, 1))
     thetas[:, 0] = np.linspace(-RIPPLE, 2.0 * RIPPLE, 7)
-    together = problem.filter_many(thetas)
-    for engine, near in ((problem.engine, 1e-12), (Reference(), 1e-7)):
-        alone = [replace(problem, engine=engine).innovations(theta) for theta in thetas]
+    together = posterior.innovations(thetas)
+    plain = Reference(posterior.system, posterior.active, posterior.dynamics.nsub)
+    for dynamics, near in ((posterior.dynamics, 1e-12), (plain, 1e-7)):
+        alone = [replace(posterior, dynamics=dynamics).innovations(theta) for theta in thetas]
         np.testing.assert_allclose(together.errors, [one.errors for one in alone], rtol=near, atol=near * RIPPLE)
         np.testing.assert_allclose(together.variances, [one.variances for one in alone], rtol=near)

@@ -19,7 +19,7 @@ from lostmotion.evidence.hypothesis import fit_hypothesis
 from lostmotion.inference.curves import add_all_curves
 from lostmotion.inference.fit import maximise
 from lostmotion.inference.random_force import has_usual_random_force
-from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
+from lostmotion.inference.setup import make_posterior, search_maximum, split_heldout
 from lostmotion.noises import AR1_LEVEL, AR1_MEMORY
 
 KEYS = ("coulomb_friction", "cubic_stiffness")
@@ -41,7 +41,7 @@ def nominal_of(folder, extra, **made):
     """Return the nominal fit of a recording of the oscillator with a further force."""
     prepared, system = made_of(folder, extra, **made)
     train, _ = split_heldout(prepared.observations)
-    return search_maximum(make_problem(system, prepared.case, train, jobs=1), np.random.default_rng(0))
+    return search_maximum(make_posterior(system, prepared.case, train, jobs=1), np.random.default_rng(0))
 
 
 @pytest.fixture(scope="module")
@@ -53,8 +53,8 @@ def clean(tmp_path_factory):
 def suppose_nothing(nominal):
     """Return the hypothesis that nothing is missing."""
     wide = add_all_curves(nominal)
-    errors = list_channel_errors(nominal, list(nominal.problem.observations))
-    frame = make_frame(wide.problem, wide.theta, errors)
+    errors = list_channel_errors(nominal, list(nominal.posterior.observations))
+    frame = make_frame(wide.posterior, wide.theta, errors)
     return fit_hypothesis(frame, frame.start, 0.0)
 
 
@@ -76,7 +76,7 @@ def shifted(found, name, deviations):
 def test_a_clean_machine_needs_no_correction(hypothesis, clean):
     none = find_corrections(hypothesis)
     assert not none
-    observation = clean.problem.observations[0]
+    observation = clean.posterior.observations[0]
     assert none.correct(observation) is observation
     assert none.refit(clean) is clean
     assert list(none.describe(observation)) == []
@@ -86,7 +86,7 @@ def test_a_clean_machine_needs_no_correction(hypothesis, clean):
 def test_an_error_beyond_its_bound_is_proposed_as_a_law(tmp_path, late, found):
     """A drive is late by 0.3 samples at most, or has a name: a promise must not assume that more is usual."""
     fit = add_all_curves(nominal_of(tmp_path, nothing, late=late * (T[1] - T[0])))
-    frame = make_frame(fit.problem, fit.theta, list_channel_errors(fit, list(fit.problem.observations)))
+    frame = make_frame(fit.posterior, fit.theta, list_channel_errors(fit, list(fit.posterior.observations)))
     empty = fit_hypothesis(frame, frame.start, 0.0)
     assert (frame.count - 1 in frame.list_pressed(empty.at)) is found
     (promise,) = list_promises(empty, ["excitation_delay"], {}, {"excitation_delay": 0.0}, 0.0)
@@ -112,10 +112,10 @@ def test_a_known_value_is_corrected_by_its_factor(hypothesis, clean):
     assert name == "m"
     assert factor == pytest.approx(np.exp(size))
     fit = found.refit(clean)
-    at = fit.problem.system.index["m"]
-    assert fit.problem.known[at] == pytest.approx(factor * clean.problem.known[at])
-    assert clean.problem.known[at] == VALUES["m"], "the fit before is unchanged"
-    assert f"m is {factor:.4g} times its known value" in list(found.describe(clean.problem.observations[0]))
+    at = fit.posterior.system.index["m"]
+    assert fit.posterior.known[at] == pytest.approx(factor * clean.posterior.known[at])
+    assert clean.posterior.known[at] == VALUES["m"], "the fit before is unchanged"
+    assert f"m is {factor:.4g} times its known value" in list(found.describe(clean.posterior.observations[0]))
 
 
 def test_errors_that_only_together_are_clear_are_corrected_and_leave_no_force(tmp_path):
@@ -131,14 +131,14 @@ def test_errors_that_only_together_are_clear_are_corrected_and_leave_no_force(tm
     assert max(map(abs, sizes)) < CLEAR
     assert not has_usual_random_force(nominal)
     assert has_usual_random_force(right.refit(nominal))
-    said = list(right.describe(nominal.problem.observations[0]))
+    said = list(right.describe(nominal.posterior.observations[0]))
     assert [one.startswith(("the scale of", "m is")) for one in said] == [True, True, True, False]
     assert said[-1].startswith("or one of these errors is larger")
 
 
 def test_a_recording_is_corrected_by_sizes_and_shapes(clean):
-    observation = clean.problem.observations[0].part(FIRST, FIRST + SAMPLES)
-    shape = np.arange(float(clean.problem.observations[0].samples))
+    observation = clean.posterior.observations[0].part(FIRST, FIRST + SAMPLES)
+    shape = np.arange(float(clean.posterior.observations[0].samples))
     sensor, drive = SensorError(0, 2, {observation.name: (0, shape)}, 0.01), DriveError(0, False, 0.01)
     right = Corrections(((sensor, 2e-6), (drive, 0.05)), clear=(True, True))
     found = right.correct(observation)
@@ -153,21 +153,21 @@ def test_a_recording_is_corrected_by_sizes_and_shapes(clean):
 
 def test_quantisation_is_read_from_the_values_as_they_were_stored(clean):
     """A correction, here of hum, moves the values from the multiples of the step."""
-    stored = clean.problem.observations[0]
+    stored = clean.posterior.observations[0]
     step = 0.05 * float(np.std(stored.readings))
     stored = replace(stored, readings=step * np.round(stored.readings / step))
     hum = 0.2 * step * np.sin(2.0 * np.pi * 7.3 * stored.time)
-    fit = maximise(clean.problem.on((replace(stored, readings=stored.readings + hum[:, None]),)), clean.theta)
+    fit = maximise(clean.posterior.on((replace(stored, readings=stored.readings + hum[:, None]),)), clean.theta)
     ((key, (values, _)),) = find_quantised(fit, (stored,)).items()
     assert key.startswith("sensor_quantisation")
     assert values == pytest.approx([step])
-    assert find_quantised(fit, fit.problem.observations) == {}
+    assert find_quantised(fit, fit.posterior.observations) == {}
 
 
 def test_a_drive_that_is_late_is_corrected_to_when_it_acted(clean):
     """The linear shift of a smooth force by 0.3 samples; what its curvature adds is below 3 %."""
     force, dt = multisine(10.0, 0.5, 5.0, 0), T[1] - T[0]
-    observation = clean.problem.observations[0]
+    observation = clean.posterior.observations[0]
     shown = replace(observation, inputs=force(observation.time)[:, None])
     late = Corrections(((DriveError(0, True, 0.1), -0.3),), clear=(True,))
     right = late.correct(shown).inputs[:, 0]
@@ -181,7 +181,7 @@ def test_a_course_finds_friction_and_keeps_the_model_without_it(tmp_path):
     found = Course(KEYS, (), Budget(seconds=600.0), lambda _: None).find_explanations(nominal)
     assert found.terms == FRICTION
     assert {NOTHING, FRICTION} <= set(found.found) & set(found.fits)
-    assert found.nominal.problem.system is nominal.problem.system
+    assert found.nominal.posterior.system is nominal.posterior.system
     assert found.skipped == ()
 
 
@@ -194,15 +194,15 @@ def test_a_course_without_time_says_what_it_did_not_extend(tmp_path):
 
 def test_a_long_recording_is_searched_on_stretches_and_weighed_on_all_samples(tmp_path, monkeypatch):
     nominal = nominal_of(tmp_path, rub)
-    whole = nominal.problem.observations[0]
+    whole = nominal.posterior.observations[0]
     parts = (whole.part(0, 150), whole.part(whole.samples - 150, whole.samples))
-    monkeypatch.setattr(course_module, "cut_stretches", lambda problem: problem.on(parts))
+    monkeypatch.setattr(course_module, "cut_stretches", lambda posterior: posterior.on(parts))
     steps = []
     found = Course(KEYS, (), Budget(seconds=600.0), steps.append).find_explanations(nominal)
     assert "search on 300 samples in 2 stretches" in steps
     assert found.terms == FRICTION
-    assert all(one.frame.problem.samples == whole.samples for one in found.found.values())
-    assert all(fit.problem.samples == whole.samples for fit in found.fits.values())
+    assert all(one.frame.posterior.samples == whole.samples for one in found.found.values())
+    assert all(fit.posterior.samples == whole.samples for fit in found.fits.values())
     assert NOTHING in found.found
     assert set(found.promised) == set(KEYS)
 
@@ -217,7 +217,7 @@ def test_noise_with_a_memory_is_no_force_and_is_part_of_every_explanation(tmp_pa
     found = Course(KEYS, (), Budget(seconds=600.0), lambda _: None).find_explanations(nominal)
     assert found.terms == NOTHING
     for one in found.found.values():
-        assert {AR1_LEVEL, AR1_MEMORY} <= set(one.frame.problem.keys)
+        assert {AR1_LEVEL, AR1_MEMORY} <= set(one.frame.posterior.space.keys)
     assert np.exp(found.nominal.values[AR1_MEMORY]) == pytest.approx(0.1, rel=0.5)
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from lostmotion.case import Prior
-from lostmotion.inference.setup import make_problem
+from lostmotion.inference.setup import make_posterior
 from lostmotion.likelihood.model_steps import step_model
 from lostmotion.likelihood.stepped import SteppedSystem, make_system
 from lostmotion.likelihood.steps import Steps
@@ -24,7 +24,7 @@ def push(count=SAMPLES):
 
 
 def case_of(equations, channels, values, estimate, hold="step"):
-    """Return the case of noise about nothing in particular: both engines filter the same numbers."""
+    """Return the case of noise about nothing in particular: both filter the same numbers."""
     rng = np.random.default_rng(4)
     sensors = {name: scale * (push() + 0.1 * rng.standard_normal(SAMPLES)) for name, (scale, _) in channels.items()}
     units = {"force": "N"} | {name: unit for name, (_, unit) in channels.items()}
@@ -32,13 +32,13 @@ def case_of(equations, channels, values, estimate, hold="step"):
     return Case(recording, equations, values, estimate)
 
 
-def problems(case, terms=(), fine=1):
-    """Return the problem on the compiled kernel, and the one on steps of the same model, with the same coordinates."""
+def posteriors(case, terms=(), fine=1):
+    """Return the posterior on the compiled kernel, and that on steps of the same model, with the same coordinates."""
     prepared = case.prepare(default(), terms)
-    fast = make_problem(make_system(prepared.model, prepared.terms), prepared.case, prepared.observations, jobs=1)
+    fast = make_posterior(make_system(prepared.model, prepared.terms), prepared.case, prepared.observations, jobs=1)
     stepped = make_system(step_model(prepared.model, fine), prepared.terms)
     assert isinstance(stepped, SteppedSystem)
-    return replace(fast, nsub=1), replace(fast, nsub=1, system=stepped, engine=Steps())
+    return fast.stepped(1), replace(fast, dynamics=Steps(stepped, nsub=1))
 
 
 SHAKEN = {"acceleration": (1.0, "m/s^2"), "position": (0.1, "m")}
@@ -59,53 +59,57 @@ TWO = case_of(
 
 @pytest.mark.parametrize("case", [ONE, TWO], ids=["one body", "two bodies"])
 def test_steps_give_the_likelihood_of_the_kernel(case):
-    fast, slow = problems(case)
-    thetas = fast.clip(fast.start + 0.1 * np.random.default_rng(1).standard_normal((5, len(fast.start))))
-    wanted, found = fast.log_likelihoods(thetas), slow.log_likelihoods(thetas)
+    fast, slow = posteriors(case)
+    thetas = fast.space.clip(
+        fast.space.start + 0.1 * np.random.default_rng(1).standard_normal((5, len(fast.space.start)))
+    )
+    wanted, found = fast.log_likelihood(thetas), slow.log_likelihood(thetas)
     assert np.isfinite(wanted).all()
     assert found == pytest.approx(wanted, rel=1e-8)
 
 
 def test_many_points_at_once_are_each_alone():
-    _, slow = problems(ONE)
-    thetas = slow.clip(slow.start + 0.2 * np.random.default_rng(2).standard_normal((4, len(slow.start))))
-    assert slow.log_likelihoods(thetas) == pytest.approx([slow.log_likelihoods(t[None])[0] for t in thetas], rel=1e-12)
+    _, slow = posteriors(ONE)
+    thetas = slow.space.clip(
+        slow.space.start + 0.2 * np.random.default_rng(2).standard_normal((4, len(slow.space.start)))
+    )
+    assert slow.log_likelihood(thetas) == pytest.approx([slow.log_likelihood(t[None])[0] for t in thetas], rel=1e-12)
 
 
 def test_a_term_acts_at_its_place_as_in_the_kernel():
     """Damping between two bodies, in steps of Heun: the error falls with the square of the step."""
-    fast, slow = problems(TWO, ("viscous_damping@x1-x2", "cubic_stiffness@x2"))
+    fast, slow = posteriors(TWO, ("viscous_damping@x1-x2", "cubic_stiffness@x2"))
     values = {"viscous_damping@x1-x2.coefficient": 0.4, "cubic_stiffness@x2.coefficient": 3.0}
     keys = frozenset(key.rpartition(".")[0] for key in values)
-    fast, slow = (replace(one, active=keys).hold_values(values) for one in (fast, slow))
-    bare = replace(slow, active=frozenset())
-    wanted = fast.log_likelihoods(fast.start[None])[0]
-    gaps = [abs(replace(slow, nsub=n).log_likelihoods(slow.start[None])[0] - wanted) for n in (1, 4)]
+    fast, slow = (one.acting(keys).hold_values(values) for one in (fast, slow))
+    bare = slow.acting(())
+    wanted = fast.log_likelihood(fast.space.start[None])[0]
+    gaps = [abs(slow.stepped(n).log_likelihood(slow.space.start[None])[0] - wanted) for n in (1, 4)]
     assert gaps[1] < 0.1 * gaps[0]
-    assert gaps[1] < 1e-3 * abs(bare.log_likelihoods(bare.start[None])[0] - wanted)
+    assert gaps[1] < 1e-3 * abs(bare.log_likelihood(bare.space.start[None])[0] - wanted)
 
 
 def test_smoothed_states_and_the_linearised_filter_are_those_of_the_kernel():
-    fast, slow = problems(ONE)
-    wanted, found = (p.smooth(p.start) for p in (fast, slow))
+    fast, slow = posteriors(ONE)
+    wanted, found = (p.filters[0].smooth(p.space.start) for p in (fast, slow))
     assert found.states == pytest.approx(wanted.states, rel=1e-6, abs=1e-7)
-    ways = [linearise_filter(p, p.start[None])[0] for p in (fast, slow)]
+    ways = [linearise_filter(p, p.space.start[None])[0] for p in (fast, slow)]
     unit = np.ones((1, SAMPLES, 2)) * [0.0, 1.0]
     one, other = (way.respond_to_forces(unit, np.zeros((1, SAMPLES, 3))) for way in ways)
     assert other == pytest.approx(one, rel=1e-6, abs=1e-6 * np.abs(one).max())
 
 
 def test_a_free_run_is_that_of_the_kernel():
-    fast, slow = problems(TWO, fine=2)
-    full, y0 = fast.full(fast.start), np.array([0.1, 0.0, -0.1, 0.2])
+    fast, slow = posteriors(TWO, fine=2)
+    full, y0 = fast.recordings[0].full(fast.space.start), np.array([0.1, 0.0, -0.1, 0.2])
     drive = fast.observations[0].drive
     wanted = fast.system.simulate(full, (), y0, drive, 2).states
     assert slow.system.simulate(full, (), y0, drive).states == pytest.approx(wanted, abs=1e-12)
 
 
 def test_the_inertia_at_a_place_is_found_from_steps():
-    fast, slow = problems(TWO)
-    full = fast.full(fast.start)
+    fast, slow = posteriors(TWO)
+    full = fast.recordings[0].full(fast.space.start)
     for place in fast.system.model.places:
         own = next(one for one in slow.system.model.places if one.name == place.name)
         assert slow.system.inertia(full, own) == pytest.approx(fast.system.inertia(full, place), rel=1e-5)

@@ -49,7 +49,7 @@ def with_scores(explained, scores):
     bare = explained.found[NOTHING]
     made = {}
     for terms, score in scores.items():
-        frame = replace(bare.frame, problem=replace(bare.frame.problem, active=terms - {UNKNOWN}))
+        frame = replace(bare.frame, posterior=bare.frame.posterior.acting(terms - {UNKNOWN}))
         made[terms] = replace(
             bare, frame=frame, log_evidence=score, heldout=0.0, price=0.0, unknown=UNKNOWN in terms, smooth=0.0
         )
@@ -150,7 +150,7 @@ def test_the_probability_of_a_set_is_the_softmax_of_scores_over_the_scatter_of_t
 def test_draws_are_averaged_over_hypotheses_by_probability(rubbing):
     """A third of the draws is from a machine with twice the damping; 4,000 draws know that to 0.03. Seeded."""
     made = with_scores(rubbing, {NOTHING: math.log(2.0), FRICTION: 0.0})
-    free = [f.key for f in made.found[NOTHING].frame.problem.free]
+    free = [f.key for f in made.found[NOTHING].frame.posterior.space.free]
     other = made.found[FRICTION]
     at = other.expansion.at.copy()
     at[free.index("c")] += math.log(2.0)
@@ -158,7 +158,9 @@ def test_draws_are_averaged_over_hypotheses_by_probability(rubbing):
     for one in found.values():
         one.__dict__["scatter"] = 1.0
     mixed = Explanations(made.fits, found)
-    middle = next(f for f in other.frame.problem.free if f.key == "c").value(at[free.index("c")] - 0.5 * math.log(2.0))
+    middle = next(f for f in other.frame.posterior.space.free if f.key == "c").value(
+        at[free.index("c")] - 0.5 * math.log(2.0)
+    )
     drawn = mixed.draw(["c", "coulomb_friction.force"], 4000, np.random.default_rng(0))
     assert np.mean(drawn[:, 0] > middle) == pytest.approx(1.0 / 3.0, abs=0.03)
     assert np.isnan(drawn[:, 1]).all()

@@ -12,10 +12,13 @@ from field import elsewhere
 from lostmotion.contracts import Assembly
 from lostmotion.inference.fit import maximise
 from lostmotion.likelihood.drive import Drive
+from lostmotion.likelihood.lanes import Lanes
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import NOISE, RANDOM, FreeParameter, Problem, Scales
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.sensors import Sensor
+from lostmotion.likelihood.space import RANDOM, FreeParameter, ParameterSpace, Scales
 from lostmotion.likelihood.system import Clock, System
+from lostmotion.noises import NOISE
 from lostmotion_chaos.flows.flow import Harmonic, make_stepped_flow
 from lostmotion_plugins.models.gear_pair import GearPair
 from lostmotion_plugins.terms.elastic import CubicStiffness
@@ -172,7 +175,8 @@ def test_two_encoders_tell_ratio_backlash_stiffness_and_inertia():
     loud = FreeParameter(RANDOM, "1", math.log(0.2 * 0.005), -30.0, 2.0)
     system = System(GearPair("rotation"))
     scales = Scales(1.5, float(readings[:, 0].std()), 0.1)
-    found = maximise(Problem(system, (observation,), scales, system.vector(LOOSE), (*frees, loud), nsub=6))
+    space = ParameterSpace((*frees, loud))
+    found = maximise(Posterior(space, (observation,), Lanes(system, nsub=6), scales, system.vector(LOOSE)))
     assert found.status == "converged"
     for key in off:
         assert abs(math.log(found.values[key] / LOOSE[key])) < 3.0 * found.sd[key], key

@@ -10,7 +10,7 @@ from lostmotion.diagnosis.stages import list_fitted_keys
 from lostmotion.evidence.bare import Budget
 from lostmotion.evidence.forecast import _Rival, _solve_size
 from lostmotion.evidence.search import ExplanationSearch
-from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
+from lostmotion.inference.setup import make_posterior, search_maximum, split_heldout
 
 
 def rub(size):
@@ -23,7 +23,7 @@ def fit_nominal(folder, extra):
     folder.mkdir(exist_ok=True)
     prepared, system = made_of(folder, extra)
     train, held = split_heldout(prepared.observations)
-    nominal = search_maximum(make_problem(system, prepared.case, train, jobs=1), np.random.default_rng(0))
+    nominal = search_maximum(make_posterior(system, prepared.case, train, jobs=1), np.random.default_rng(0))
     return prepared, held, nominal
 
 
@@ -48,7 +48,7 @@ def test_the_size_has_the_chance_that_is_stated():
 def test_expected_intervals_are_those_of_the_weighed_model(still):
     """Both have wrong known values and errors of channels integrated: k follows a mass that is wrong by 1 %."""
     expected, nominal = still
-    search = ExplanationSearch(nominal, list_fitted_keys(nominal.problem.system), (), Budget())
+    search = ExplanationSearch(nominal, list_fitted_keys(nominal.posterior.system), (), Budget())
     search.weigh(search.bare.fits[frozenset()])
     found = search.best
     for name, sd in zip(("c", "k"), np.sqrt(np.diag(found.covariance)), strict=False):
@@ -74,6 +74,6 @@ def test_friction_of_the_stated_size_is_found_and_a_quarter_of_it_is_not(tmp_pat
     for share in (1.3, 0.25):
         prepared, held, nominal = fit_nominal(tmp_path / str(share), rub(share * row.smallest))
         pieces = [(piece.observation, piece.begin) for piece in cut_heldout(prepared.observations, held)]
-        found.append(explain(nominal, list_fitted_keys(nominal.problem.system), pieces).inclusion("coulomb_friction"))
+        found.append(explain(nominal, list_fitted_keys(nominal.posterior.system), pieces).inclusion("coulomb_friction"))
     assert found[0] > 0.95
     assert found[1] < 0.5

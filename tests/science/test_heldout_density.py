@@ -6,7 +6,7 @@ from scipy.stats import multivariate_normal
 
 from lostmotion.evidence.expansion import Expansion
 from lostmotion.evidence.heldout import NormalPosterior, average_over_posterior
-from lostmotion.likelihood.engine import Innovations
+from lostmotion.likelihood.innovations import Innovations
 
 READINGS, FORCES = 400, 6
 

@@ -23,9 +23,9 @@ from lostmotion.evidence.search import CLOSE, Budget, ExplanationSearch, compute
 from lostmotion.inference.candidates import ScoreTest, add_term
 from lostmotion.inference.curves import add_all_curves
 from lostmotion.inference.fit import ROUGHLY, begin_at, choose_first_steps, hold_free, maximise
-from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
+from lostmotion.inference.setup import make_posterior, search_maximum, split_heldout
 from lostmotion.kernels.linear_response import respond, respond_plainly
-from lostmotion.likelihood.engine import Innovations
+from lostmotion.likelihood.innovations import Innovations
 from lostmotion.likelihood.tangents import linearise_filter
 
 
@@ -48,7 +48,7 @@ def start_search(folder, extra, *, budget=600.0):
     """Return the search for explanations of a recording of an oscillator with a further force."""
     prepared, system = made_of(folder, extra)
     train, held = split_heldout(prepared.observations)
-    nominal = search_maximum(make_problem(system, prepared.case, train, jobs=1), np.random.default_rng(0))
+    nominal = search_maximum(make_posterior(system, prepared.case, train, jobs=1), np.random.default_rng(0))
     pieces = [(piece.observation, piece.begin) for piece in cut_heldout(prepared.observations, held)]
     return ExplanationSearch(nominal, list_fitted_keys(system), pieces, Budget(seconds=budget))
 
@@ -145,11 +145,11 @@ def rubbing(tmp_path_factory):
 @pytest.mark.parametrize("bent", [{}, {"cosine": 1e-3, "sine": -7e-4, "pitch": 0.03}])
 def test_derivatives_of_the_linearised_filter_equal_differences(rubbing, monkeypatch, bent):
     """With the values of `bent`, the sensor has a wave of error whose slope is up to 0.26."""
-    problem, key = rubbing.bare.nominal.problem, "position_ripple"
-    begun = begin_at(problem, rubbing.bare.nominal.theta)
+    posterior, key = rubbing.bare.nominal.posterior, "position_ripple"
+    begun = begin_at(posterior, rubbing.bare.nominal.theta)
     if bent:
         begun = add_term(begun, ScoreTest(key, 0.0, {f"{key}.{name}": v for name, v in bent.items()}, 1.0), {})
-    frame = make_frame(begun, begun.start, rubbing.errors)
+    frame = make_frame(begun, begun.space.start, rubbing.errors)
     steps = choose_first_steps(begun)
     fast = frame.expand(frame.start, steps, frame.none)
     monkeypatch.setattr(discrepancy, "linearise_filter", lambda *_: None)
@@ -164,8 +164,8 @@ def test_derivatives_of_the_linearised_filter_equal_differences(rubbing, monkeyp
 
 def test_a_recording_does_not_tell_the_scales_of_its_channels(rubbing):
     """A machine and its forces may be one per cent larger; its sensor, or the machine one per cent smaller."""
-    frame = make_frame(rubbing.nominal.problem, rubbing.nominal.theta, rubbing.errors)
-    found = frame.expand(frame.start, choose_first_steps(rubbing.nominal.problem), frame.none)
+    frame = make_frame(rubbing.nominal.posterior, rubbing.nominal.theta, rubbing.errors)
+    found = frame.expand(frame.start, choose_first_steps(rubbing.nominal.posterior), frame.none)
     rows = dict(zip(frame.names, found.errors, strict=True))
     sensor, drive = (f"channel error {i}" for i in (0, 3))
     sizes = {name: np.linalg.norm(row) for name, row in rows.items()}
@@ -176,18 +176,18 @@ def test_a_recording_does_not_tell_the_scales_of_its_channels(rubbing):
 
 def test_points_near_another_take_its_steps(rubbing):
     """Errors are smooth along a parameter: their second differences fall with the square of the step."""
-    problem, theta = rubbing.nominal.problem, rubbing.nominal.theta
+    posterior, theta = rubbing.nominal.posterior, rubbing.nominal.theta
 
     def bend(step):
         points = theta + step * np.array([0.0, 1.0, -1.0])[:, None] * (np.arange(len(theta)) == 0)
-        _, seen = linearise_filter(problem, points)
+        _, seen = linearise_filter(posterior, points)
         return np.linalg.norm(seen.errors[1] + seen.errors[2] - 2.0 * seen.errors[0]) / step**2
 
     assert bend(1e-3) == pytest.approx(bend(1e-2), rel=0.05)
 
 
 def test_a_correction_of_a_sensor_has_the_shape_of_its_predicted_readings(rubbing):
-    observation = rubbing.nominal.problem.observations[0]
+    observation = rubbing.nominal.posterior.observations[0]
     scale, *_ = (error for error in rubbing.errors if isinstance(error, SensorError))
     changed = scale.correct(observation, 0.01).readings - observation.readings
     assert changed == pytest.approx(0.01 * observation.readings, abs=3e-4 * np.abs(observation.readings).max())
@@ -196,7 +196,7 @@ def test_a_correction_of_a_sensor_has_the_shape_of_its_predicted_readings(rubbin
 
 
 def test_a_delay_of_the_drive_is_half_a_sample_at_a_size_of_minus_one_half(rubbing):
-    observation = rubbing.nominal.problem.observations[0]
+    observation = rubbing.nominal.posterior.observations[0]
     late = next(e for e in rubbing.errors if isinstance(e, DriveError) and e.late)
     moved = late.correct(observation, -0.5).inputs[:, 0]
     places = np.arange(observation.samples)
@@ -207,7 +207,7 @@ def test_a_delay_of_the_drive_is_half_a_sample_at_a_size_of_minus_one_half(rubbi
 
 
 def test_every_sensor_has_three_errors_and_every_drive_two(rubbing):
-    errors = list_channel_errors(rubbing.nominal, list(rubbing.nominal.problem.observations))
+    errors = list_channel_errors(rubbing.nominal, list(rubbing.nominal.posterior.observations))
     assert [type(error) for error in errors] == [SensorError] * 3 + [DriveError] * 2
 
 
@@ -218,8 +218,12 @@ def test_dry_friction_is_the_explanation_with_the_true_damping(rubbing):
     assert friction > 0.95
     best = found.best
     assert best.terms == {"coulomb_friction"}
-    sd = math.sqrt(best.covariance[list(best.frame.problem.keys).index("c")][list(best.frame.problem.keys).index("c")])
-    free = next(f for f in best.frame.problem.free if f.key == "c")
+    sd = math.sqrt(
+        best.covariance[list(best.frame.posterior.space.keys).index("c")][
+            list(best.frame.posterior.space.keys).index("c")
+        ]
+    )
+    free = next(f for f in best.frame.posterior.space.free if f.key == "c")
     c, spread = free.value(best.values["c"]), sd * (free.value(best.values["c"]) if free.log else 1.0)
     assert abs(c - 0.8) < 3.0 * spread
 
@@ -271,8 +275,8 @@ def test_a_hypothesis_from_its_own_maximum_stays_there(rubbing):
 def test_a_promise_in_other_parameters_is_fitted_anew(rubbing):
     """The known fit of the law may hold what the promise has as a free parameter."""
     search, key, nothing = copy.copy(rubbing), "coulomb_friction", rubbing.found[frozenset()]
-    problem = rubbing.bare.fits[frozenset({key})].problem
-    held = maximise(hold_free(problem, problem.keys.index(f"{key}.force"), 0.5), tolerance=ROUGHLY)
+    posterior = rubbing.bare.fits[frozenset({key})].posterior
+    held = maximise(hold_free(posterior, posterior.space.keys.index(f"{key}.force"), 0.5), tolerance=ROUGHLY)
     search.found, search.bare = {frozenset(): nothing}, replace(rubbing.bare, fits={frozenset(): rubbing.bare.nominal})
     search.bare.keep(held)
     promise = Promise(key, 10.0, {f"{key}.force": 0.8}, np.zeros(nothing.frame.count), nothing.frame.none)
@@ -300,7 +304,7 @@ def test_other_laws_are_weighed_where_a_smooth_force_explains_as_much(rubbing, m
     search = copy.copy(rubbing)
     nothing_found = replace(rubbing.found[frozenset()], log_evidence=best.log_evidence - behind * CLOSE)
     search.found = {best.terms: best, frozenset(): nothing_found}
-    monkeypatch.setattr(ExplanationSearch, "weigh", lambda self, bare: fits.append(bare.problem.active))
+    monkeypatch.setattr(ExplanationSearch, "weigh", lambda self, bare: fits.append(bare.posterior.active))
     search._weigh_alike()
     assert bool(fits) is weighed
     assert all(len(terms) == 1 and terms != best.terms for terms in fits)

@@ -10,9 +10,10 @@ import pytest
 from independent import Machine, lin_oscillator, recording
 
 from lostmotion.likelihood.drive import Drive
-from lostmotion.likelihood.engine import Points, RunningSystem, SensorNoises, Smoothed
+from lostmotion.likelihood.innovations import Smoothed
 from lostmotion.likelihood.lanes import Lanes
 from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.points import Points, SensorNoises
 from lostmotion.likelihood.reference import Reference
 from lostmotion.likelihood.sensors import Sensor
 from lostmotion.likelihood.system import Clock, System
@@ -51,7 +52,7 @@ def drive_of(model, columns, *, samples=SAMPLES):
 
 def seen_of(system, full, drive, sensors, random):
     """Return running, an observation with a lost reading, and points of which the first start is wrong on purpose."""
-    running = RunningSystem(system, system.everything, 4, random)
+    running = Lanes(system, system.everything, 4, random)
     truth = system.simulate(full, system.everything, np.array([0.6 * full[system.index["x0"]], 0.1]), drive, 4)
     packed = system.pack(full[None], drive.dt / 4)
     _, channels = system.compute_derivatives(system.everything, packed, truth.states, drive.inputs)
@@ -109,10 +110,11 @@ def test_filter_equals_its_slow_twin(name, sensors, random):
     system = System(model, (term,))
     full = system.vector(values)
     asked = seen_of(system, full, drive_of(model, columns), SENSORS[sensors], random)
-    fast, slow = (Lanes(compiled).smooth(*asked) for compiled in (True, False))
-    for one, other in ((getattr(s, f.name) for s in (fast, slow)) for f in fields(Smoothed) if f.name != "innovations"):
+    fast, slow = asked[0], replace(asked[0], compiled=False)
+    smoothed = [one.smooth(*asked[1:]) for one in (fast, slow)]
+    for one, other in ((getattr(s, f.name) for s in smoothed) for f in fields(Smoothed) if f.name != "innovations"):
         np.testing.assert_allclose(one, other, rtol=1e-12, atol=1e-12 * np.abs(other).max())
-    both = [Lanes(compiled).filter(*asked) for compiled in (True, False)]
+    both = [one.filter(*asked[1:]) for one in (fast, slow)]
     assert both[0].finite.all()
     np.testing.assert_allclose(both[0].errors, both[1].errors, rtol=1e-12, atol=1e-12 * np.abs(both[1].errors).max())
     np.testing.assert_allclose(both[0].variances, both[1].variances, rtol=1e-12)
@@ -120,17 +122,19 @@ def test_filter_equals_its_slow_twin(name, sensors, random):
 
 @pytest.mark.parametrize(("name", "sensors", "random"), WAYS)
 def test_filter_equals_that_of_matrices(name, sensors, random):
-    """The engine `reference` shares nothing with `lanes` but the rule by which a step is halved."""
+    """`Reference` shares nothing with `Lanes` but the rule by which a step is halved."""
     model, term, values, columns = TWINS[name]
     system = System(model, (term,))
     asked = seen_of(system, system.vector(values), drive_of(model, columns), SENSORS[sensors], random)
     slack = 1e-3 if name == "dahl" else 1e-7  # a bristle that turns round amplifies the last digit
-    fast, slow = (engine.smooth(*asked) for engine in (Lanes(), Reference()))
+    lanes, *given = asked
+    both = (lanes, Reference(lanes.system, lanes.active, lanes.nsub, lanes.random))
+    fast, slow = (one.smooth(*given) for one in both)
     one, other = (np.diagonal(s.covariance, axis1=1, axis2=2) for s in (fast, slow))
     most = other.max(axis=0)
     assert np.all(np.abs(fast.states - slow.states) < slack * np.sqrt(most))
     assert np.all(np.abs(one - other) < slack * most)
-    fast, slow = (engine.filter(*asked) for engine in (Lanes(), Reference()))
+    fast, slow = (one.filter(*given) for one in both)
     assert np.all(np.abs(fast.errors - slow.errors) < slack * (np.sqrt(slow.variances) + np.abs(slow.errors)))
     assert np.allclose(fast.variances, slow.variances, rtol=slack)
 
@@ -148,12 +152,12 @@ def test_sliding_friction_with_an_elastic_part_is_smoothed():
     noise = 1e-2 * truth.std()
     z = truth + noise * np.random.default_rng(0).standard_normal(truth.shape)
     points = replace(
-        points_of(RunningSystem(system, system.everything), full, drive, z, count=1),
+        points_of(Lanes(system, system.everything), full, drive, z, count=1),
         pace=np.array([77.0]), process=np.array([1e-8]), noise=SensorNoises.of([[NoiseBlock(white=noise**2)]]),
     )  # fmt: skip
     observation = Observation("seen", z, drive.inputs, drive.dt, (Sensor("position"),))
-    for engine in (Lanes(), Reference()):
-        seen = engine.smooth(RunningSystem(system, system.everything, 7, "latent"), observation, points)
+    for run in (Lanes, Reference):
+        seen = run(system, system.everything, 7, "latent").smooth(observation, points)
         assert seen.states[:, 3].std() < 6e-4
 
 
@@ -162,9 +166,10 @@ def test_free_run_equals_its_slow_twin_and_that_of_matrices(name):
     model, term, values, columns = TWINS[name]
     system = System(model, (term,))
     full, drive, n = system.vector(values), drive_of(model, columns), system.states(system.everything)
-    running = RunningSystem(system, system.everything, 3)
-    asked = running, points_of(running, full, drive, np.zeros((1, 1))), np.full((3, n), 1e-3), SAMPLES
-    fast, slow, plain = (engine.simulate(*asked) for engine in (Lanes(), Lanes(compiled=False), Reference()))
+    lanes = Lanes(system, system.everything)
+    asked = points_of(lanes, full, drive, np.zeros((1, 1))), np.full((3, n), 1e-3), SAMPLES
+    ways = (lanes, replace(lanes, compiled=False), Reference(system, system.everything))
+    fast, slow, plain = (one.simulate(*asked) for one in ways)
     assert np.ptp(fast[0, :, 0]) > 0.0
     np.testing.assert_allclose(fast, slow, rtol=1e-12, atol=1e-15)
     np.testing.assert_allclose(fast, plain, rtol=1e-9, atol=1e-12)

@@ -25,11 +25,11 @@ from lostmotion.inference.late import (
 from lostmotion.inference.likeness import find_likeness
 from lostmotion.inference.natural import list_star_points, list_tried_values, sort_slots
 from lostmotion.inference.random_force import has_usual_random_force
-from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
+from lostmotion.inference.setup import make_posterior, search_maximum, split_heldout
 from lostmotion.inference.shape_scan import scan_shapes
 from lostmotion.likelihood.bends import correct_bends, rescale_innovations
-from lostmotion.likelihood.engine import Innovations
-from lostmotion.likelihood.problem import FreeParameter
+from lostmotion.likelihood.innovations import Innovations
+from lostmotion.likelihood.space import FreeParameter
 from lostmotion.likelihood.system import ALWAYS, System
 from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import Registry, default
@@ -75,7 +75,7 @@ def nominal_of(folder, terms, *, extra=lambda x, v, t: 0.0, spring=lambda x: x, 
     prepared = prepare(case_of(folder, columns, recording, model), Registry.discover())
     train, _ = split_heldout(prepared.observations)
     system = System(prepared.model, tuple(terms))
-    return search_maximum(make_problem(system, prepared.case, train, jobs=1), np.random.default_rng(seed))
+    return search_maximum(make_posterior(system, prepared.case, train, jobs=1), np.random.default_rng(seed))
 
 
 def late_rub(x, v, t):
@@ -132,16 +132,16 @@ def test_an_onset_is_found_over_several_cycles(tmp_path):
     found = begin_late(
         nominal_of(tmp_path, [LinearStiffness()], extra=broken), "linear_stiffness", "coefficient", -10.0, LATE + 1.2
     )
-    assert find_onset(found.problem, "linear_stiffness") == pytest.approx(LATE, abs=0.02)
+    assert find_onset(found.posterior, "linear_stiffness") == pytest.approx(LATE, abs=0.02)
     assert found.values["linear_stiffness.coefficient"] == pytest.approx(-60.0, rel=0.03)
     told = estimate_onset(found, "linear_stiffness")
-    assert told.low <= find_onset(found.problem, "linear_stiffness") <= told.high
+    assert told.low <= find_onset(found.posterior, "linear_stiffness") <= told.high
 
 
 def test_a_term_that_promised_more_from_an_onset_acts_from_the_beginning_if_that_explains_as_much(tmp_path):
     fit = nominal_of(tmp_path, [CoulombFriction()], extra=lambda x, v, t: -RUBBED * math.tanh(v / 1e-3))
     found = begin_late(fit, "coulomb_friction", "force", 1.0, 0.5)
-    assert find_onset(found.problem, "coulomb_friction") == ALWAYS
+    assert find_onset(found.posterior, "coulomb_friction") == ALWAYS
     assert found.values["coulomb_friction.force"] == pytest.approx(RUBBED, rel=0.05)
 
 
@@ -149,7 +149,7 @@ def test_friction_from_the_beginning_has_no_onset(tmp_path):
     fit = nominal_of(tmp_path, [CoulombFriction()], extra=lambda x, v, t: -RUBBED * math.tanh(v / 1e-3))
     explained = explain(fit, ("coulomb_friction",))
     assert explained.terms == {"coulomb_friction"}
-    assert find_onset(explained.chosen.problem, "coulomb_friction") == ALWAYS
+    assert find_onset(explained.chosen.posterior, "coulomb_friction") == ALWAYS
     assert estimate_onset(explained.chosen, "coulomb_friction") is None
     assert refine_onset(explained.chosen, "coulomb_friction") is explained.chosen
 
@@ -178,13 +178,13 @@ def test_the_likelihood_of_a_sensor_that_changes_is_that_of_corrected_readings(t
     The prior of the first state is as wide as the readings are, which makes a difference of 0.02.
     """
     fit = nominal_of(tmp_path, [SensorGain()], shown=lambda x: x * np.where(T > LATE, 1.08, 1.0))
-    problem = fit.problem.hold_values({"sensor_gain.error": 0.08, onset_key("sensor_gain"): LATE + 0.01})
-    changed = replace(problem, active=frozenset({"sensor_gain"}))
-    (observation,) = fit.problem.observations
+    posterior = fit.posterior.hold_values({"sensor_gain.error": 0.08, onset_key("sensor_gain"): LATE + 0.01})
+    changed = posterior.acting({"sensor_gain"})
+    (observation,) = fit.posterior.observations
     late = observation.time > LATE
     right = replace(observation, readings=np.where(late, observation.response / 1.08, observation.response)[:, None])
-    by_hand = fit.problem.on((right,)).log_likelihoods(fit.theta[None]) - np.sum(late) * math.log(1.08)
-    assert changed.log_likelihoods(fit.theta[None]) == pytest.approx(by_hand, abs=0.05)
+    by_hand = fit.posterior.on((right,)).log_likelihood(fit.theta[None]) - np.sum(late) * math.log(1.08)
+    assert changed.log_likelihood(fit.theta[None]) == pytest.approx(by_hand, abs=0.05)
 
 
 def test_cut_sensitivities_are_those_of_a_term_that_sets_in(tmp_path):
@@ -193,13 +193,13 @@ def test_cut_sensitivities_are_those_of_a_term_that_sets_in(tmp_path):
     A term acts on readings before its onset as little as on any that the filter has forgotten.
     """
     fit = nominal_of(tmp_path, [LinearStiffness()], extra=lambda x, v, t: -5.0 * x * (t > LATE))
-    assert can_have_onset(fit.problem, "linear_stiffness")
+    assert can_have_onset(fit.posterior, "linear_stiffness")
     key, small = "linear_stiffness.coefficient", 1e-3
     held = FreeParameter(key, "", 0.0, -math.inf, math.inf)
-    wider = fit.problem.extend((held,), {"linear_stiffness"})
+    wider = fit.posterior.extend((held,), {"linear_stiffness"})
     zero, one = np.append(fit.theta, 0.0), np.append(fit.theta, small)
     slopes = compute_slopes(fit)
-    seen = wider.filter_many(np.array([zero, one]))
+    seen = wider.innovations(np.array([zero, one]))
     joint = type(slopes)(
         zero,
         seen[0],
@@ -207,12 +207,12 @@ def test_cut_sensitivities_are_those_of_a_term_that_sets_in(tmp_path):
         np.vstack([slopes.variances, (seen.variances[1] - seen.variances[0])[None] / small]),
         np.append(slopes.steps, small),
     )
-    scores, times = joint.scores()[-1], fit.problem.observations[0].time
-    found = np.array([scores[times[: len(scores)] >= onset].sum() for onset in list_onsets(fit.problem)])
+    scores, times = joint.scores()[-1], fit.posterior.observations[0].time
+    found = np.array([scores[times[: len(scores)] >= onset].sum() for onset in list_onsets(fit.posterior)])
     twin = []
-    for time in list_onsets(fit.problem):
+    for time in list_onsets(fit.posterior):
         late = wider.hold_values({onset_key("linear_stiffness"): float(time)})
-        low, high = late.log_likelihoods(np.array([zero, one]))
+        low, high = late.log_likelihood(np.array([zero, one]))
         twin.append((high - low) / small)
     assert len(twin) == TIMES
     assert np.abs(found - twin).max() < 0.1 * np.abs(twin).max()
@@ -232,7 +232,7 @@ def test_ripple_of_a_sensor_is_scouted_and_found(tmp_path):
 
 def test_readings_that_are_put_right_are_bent_to_what_was_read(tmp_path):
     fit = nominal_of(tmp_path, [PositionRipple()])
-    seen, p = fit.problem.observations[0], (3e-4, -2e-4, 0.02)
+    seen, p = fit.posterior.observations[0], (3e-4, -2e-4, 0.02)
     right, slopes = correct_bends(seen, [(0, PositionRipple(), p)])
     assert np.allclose(PositionRipple.bent(right.readings[:, 0], p), seen.readings[:, 0], atol=1e-9)
     step = 1e-7
@@ -286,17 +286,17 @@ def test_a_learned_force_is_said_to_look_like_the_law_it_came_from(tmp_path):
     """A force along the motion by formula: one law at a shape of its own, the sum of two, and one of no law."""
     terms = [EndStop(), QuadraticDamping(), CoulombFriction(), CubicStiffness()]
     fit = nominal_of(tmp_path, terms)
-    states = np.ascontiguousarray(fit.problem.smooth(fit.theta).states[:, :2])
+    states = np.ascontiguousarray(fit.posterior.filters[0].smooth(fit.theta).states[:, :2])
     x, v = states.T
     stop = -np.sign(x) * np.maximum(np.abs(x) - 0.031, 0.0)
-    found = find_likeness(fit.problem, fit.theta, states, 40.0 * stop)
+    found = find_likeness(fit.posterior, fit.theta, states, 40.0 * stop)
     assert found.keys == ("end_stop",)
     assert found.share > 0.98
     both = stop / np.std(stop) - v * np.abs(v) / np.std(v * np.abs(v))
-    found = find_likeness(fit.problem, fit.theta, states, both)
+    found = find_likeness(fit.posterior, fit.theta, states, both)
     assert set(found.keys) == {"end_stop", "quadratic_damping"}
     noise = np.random.default_rng(0).standard_normal(len(x))
-    assert find_likeness(fit.problem, fit.theta, states, noise) is None
+    assert find_likeness(fit.posterior, fit.theta, states, noise) is None
 
 
 @pytest.fixture
@@ -356,8 +356,8 @@ def test_a_clean_machine_with_play_begins_where_no_random_force_is_needed(librar
     library.write_case(("clean", "velocity", "sweep", 126, 0.0, 1500), draft, 1.0, tmp_path)
     prepared = prepare(tmp_path / "case.toml", default())
     train, _ = split_heldout(prepared.observations)
-    problem = make_problem(System(prepared.model, prepared.terms), prepared.case, train, jobs=1)
-    fit = search_maximum(problem, np.random.default_rng(0))
+    posterior = make_posterior(System(prepared.model, prepared.terms), prepared.case, train, jobs=1)
+    fit = search_maximum(posterior, np.random.default_rng(0))
     assert has_usual_random_force(fit)
     assert draft.rig.model == "robot_joint"
     assert fit.values["x0"] == pytest.approx(draft.rig.values["x0"], rel=0.01)
@@ -373,14 +373,14 @@ def test_shapes_have_no_effect_at_amplitude_zero(tmp_path):
     kinds = [registry.load("term", name) for name in ("cogging", "end_stop", "position_ripple", "stribeck_friction")]
     terms = [kind(at=kind.at) if hasattr(kind, "at") else kind() for kind in kinds]
     fit = nominal_of(tmp_path, terms)
-    for key in fit.problem.system.keys:
-        amplitudes, shapes = sort_slots(fit.problem, key)
-        frees = [*make_term_parameters(fit.problem, key, amplitudes, {}), *map(hold_shape, shapes)]
-        wider = fit.problem.extend(frees, {key})
-        tried = list_star_points([list_tried_values(s.param, fit.problem.scales) for s in shapes])
+    for key in fit.posterior.system.keys:
+        amplitudes, shapes = sort_slots(fit.posterior, key)
+        frees = [*make_term_parameters(fit.posterior, key, amplitudes, {}), *map(hold_shape, shapes)]
+        wider = fit.posterior.extend(frees, {key})
+        tried = list_star_points([list_tried_values(s.param, fit.posterior.scales) for s in shapes])
         points = [np.concatenate([fit.theta, np.zeros(len(amplitudes)), values]) for values in tried]
-        found = wider.filter_many(np.array(points))
-        plain = fit.problem.innovations(fit.theta)
+        found = wider.innovations(np.array(points))
+        plain = fit.posterior.innovations(fit.theta)
         assert len(points) > 2
         assert np.allclose(found.errors, plain.errors, rtol=0.0, atol=1e-9 * np.std(plain.errors)), key
         assert np.allclose(found.variances, plain.variances, rtol=1e-9)

@@ -1,7 +1,6 @@
 """Measurement noise with a memory: the filter against the exact one of a larger linear system; who gets the blame."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,9 +8,10 @@ import pytest
 from lostmotion.inference.fit import maximise
 from lostmotion.inference.memory import fit_noise_memory, is_memory_supported
 from lostmotion.inference.setup import make_noise_levels
+from lostmotion.likelihood.lanes import Lanes
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import Problem, Scales
-from lostmotion.likelihood.space import RANDOM, FreeParameter
+from lostmotion.likelihood.posterior import Posterior
+from lostmotion.likelihood.space import RANDOM, FreeParameter, ParameterSpace, Scales
 from lostmotion.likelihood.system import System
 from lostmotion.noises import AR1_LEVEL, AR1_MEMORY, NOISE
 from lostmotion_plugins.models.basic import LinearOscillator
@@ -37,26 +37,27 @@ def recorded(samples, memory, seed):
     return Observation.of("run", z + noise, recorded_force[:, None], DT, "position")
 
 
-def problem_of(observation):
+def posterior_of(observation):
     system = System(LinearOscillator())
     scales = Scales(20.0, 1.2, 1.0 / OMEGA, usual=math.log((1e-3 * 20.0) ** 2 * DT), span=observation.samples * DT)
     known = system.vector({"m": M, "c": C, "k": K})
     free = FreeParameter("c", "N s/m", math.log(C), math.log(0.05), math.log(4.0), log=True)
-    return Problem(system, (observation,), scales, known, (free, *make_noise_levels((observation,), scales)), nsub=2)
+    space = ParameterSpace((free, *make_noise_levels((observation,), scales)))
+    return Posterior(space, (observation,), Lanes(system, nsub=2), scales, known)
 
 
 FINE = 40
 
 
-def slow_twin(problem, theta):
+def slow_twin(posterior, theta):
     """Return the innovations of a Kalman filter whose state holds the slow noise as well, in fine steps."""
-    observation, p = problem.observations[0], dict(zip(problem.keys, theta, strict=True))
+    observation, p = posterior.observations[0], dict(zip(posterior.space.keys, theta, strict=True))
     ar1, ar1_share = math.exp(2.0 * p[AR1_LEVEL]), math.exp(-DT / math.exp(p[AR1_MEMORY]))
     mean, cov = np.zeros(3), np.zeros((3, 3))
-    begun = problem.points(theta[None])
+    begun = posterior.recordings[0].points(theta[None])
     mean[:2], cov[:2, :2] = begun.mean[0], begun.covariance[0]
     cov[2, 2] = ar1
-    h, push = np.array([1.0, 0.0, 1.0]), pushes(observation.drive.cubics[:, :, 0], problem.nsub)
+    h, push = np.array([1.0, 0.0, 1.0]), pushes(observation.drive.cubics[:, :, 0], posterior.dynamics.nsub)
     errors, variances = np.zeros(observation.samples), np.zeros(observation.samples)
     for k in range(observation.samples):
         errors[k], variances[k] = observation.response[k] - h @ mean, h @ cov @ h + math.exp(2.0 * p[NOISE])
@@ -93,14 +94,14 @@ def across(mean, cov, push, p):
 def test_filter_is_that_of_the_larger_state():
     """A slow noise as a third state of an exact filter gives the same innovations; no chance."""
     observation = recorded(300, 0.1, seed=0)
-    plain = problem_of(observation)
+    plain = posterior_of(observation)
     frees = (
         FreeParameter(AR1_LEVEL, "1", math.log(0.014), -9.0, 0.0),
         FreeParameter(AR1_MEMORY, "1", math.log(0.1), -9.0, 0.0),
     )
-    problem = replace(plain, free=(*plain.free, *frees))
+    posterior = plain.over((*plain.space.free, *frees))
     theta = np.array([math.log(C), plain.scales.usual, math.log(0.014), math.log(0.014), math.log(0.1)])
-    ours, (errors, variances) = problem.innovations(theta), slow_twin(problem, theta)
+    ours, (errors, variances) = posterior.innovations(theta), slow_twin(posterior, theta)
     np.testing.assert_allclose(ours.variances, variances, rtol=2e-3)
     np.testing.assert_allclose(ours.errors, errors, atol=2e-3 * SPREAD)
 
@@ -112,7 +113,7 @@ def test_noise_with_a_memory_is_told_from_white_noise(seed):
     Over forty more recordings with white noise none was called slow; with slow noise the gain was 127 or more in ten.
     """
     for memory, wanted in ((0.1, True), (0.0, False)):
-        fit = maximise(problem_of(recorded(3000, memory, seed)))
+        fit = maximise(posterior_of(recorded(3000, memory, seed)))
         coloured = fit_noise_memory(fit)
         assert is_memory_supported(fit, coloured) == wanted
         if wanted:

@@ -9,12 +9,13 @@ import pytest
 import lostmotion as lm
 from lostmotion.errors import LostMotionError
 from lostmotion.inference.fit import maximise
-from lostmotion.inference.setup import make_problem
+from lostmotion.inference.setup import make_posterior
+from lostmotion.likelihood.lanes import Lanes
 from lostmotion.likelihood.noise_levels import make_noise_levels
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import Problem, Scales
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.sensors import Sensor
-from lostmotion.likelihood.space import FreeParameter
+from lostmotion.likelihood.space import FreeParameter, ParameterSpace, Scales
 from lostmotion.likelihood.system import System
 from lostmotion.noises import AR1, NoiseBlock, White
 from lostmotion.preparation.prepare import prepare
@@ -46,14 +47,17 @@ def add_noise(kind, size, rng):
     return size * ((1.0 + 1j + np.cumsum(steps)) * np.exp(2j * np.pi * 50.0 * T)).real
 
 
-def problem_of(z, noises):
+def posterior_of(z, noises):
     observation = Observation.of("run", z, 20.0 * np.cos(OMEGA * T)[:, None], DT, "position")
     observation = replace(observation, sensors=(Sensor("position", noises=noises),))
     scales = Scales(20.0, 0.17, 1.0 / OMEGA, usual=math.log((1e-3 * 20.0) ** 2 * DT), span=COUNT * DT)
     system = System(LinearOscillator())
     free = FreeParameter("c", "N s/m", math.log(C), math.log(0.05), math.log(4.0), log=True)
     levels = make_noise_levels((observation,), scales)
-    return Problem(system, (observation,), scales, system.vector({"m": M, "c": C, "k": K}), (free, *levels), nsub=2)
+    return Posterior(
+        ParameterSpace((free, *levels)), (observation,), Lanes(system, nsub=2), scales,
+        system.vector({"m": M, "c": C, "k": K}),
+    )  # fmt: skip
 
 
 @pytest.mark.parametrize("kind", NOISES)
@@ -62,11 +66,13 @@ def test_a_noise_is_found_with_its_size(kind):
     noise, size = NOISES[kind]
     rng = np.random.default_rng(5)
     z = X + SPREAD * rng.standard_normal(COUNT) + add_noise(kind, size, rng)
-    plain, fitted = (maximise(p, p.start) for p in (problem_of(z, (White(),)), problem_of(z, (White(), noise))))
-    (values,) = fitted.problem.noise_values(fitted.theta[None])[1]
+    plain, fitted = (
+        maximise(p, p.space.start) for p in (posterior_of(z, (White(),)), posterior_of(z, (White(), noise)))
+    )
+    (values,) = fitted.posterior.recordings[0].noise_values(fitted.theta[None])[1]
     assert math.log(values[0] / size) == pytest.approx(0.0, abs=0.8 if kind == "hum" else 0.2)
     assert fitted.log_likelihood > plain.log_likelihood + 50.0
-    white = math.sqrt(fitted.problem.noise(fitted.theta).white)
+    white = math.sqrt(fitted.posterior.recordings[0].noise(fitted.theta).white)
     assert white == pytest.approx(SPREAD, rel=0.15)
 
 
@@ -75,22 +81,25 @@ def test_white_noise_is_not_taken_for_another(kind):
     """One more parameter gains 0.5 on average in a log-likelihood, and 8 with one below 1e-4; of 30 the most was 1."""
     noise, _ = NOISES[kind]
     z = X + SPREAD * np.random.default_rng(6).standard_normal(COUNT)
-    plain, fitted = (maximise(p, p.start) for p in (problem_of(z, (White(),)), problem_of(z, (White(), noise))))
+    plain, fitted = (
+        maximise(p, p.space.start) for p in (posterior_of(z, (White(),)), posterior_of(z, (White(), noise)))
+    )
     assert -1.0 < fitted.log_likelihood - plain.log_likelihood < 8.0
 
 
 def test_noises_of_a_sensor_add_up():
     """The filter with two noises is that with one whose block holds both."""
     z = X + SPREAD * np.random.default_rng(7).standard_normal(COUNT)
-    problem = problem_of(z, (White(), AR1(), Hum(), Jitter()))
-    block = problem.noise(problem.start)
-    parts = [n.covariance(tuple(v[0]), DT) for n, v in zip(
-        problem.observations[0].sensors[0].noises, problem.noise_values(problem.start[None]), strict=True)]  # fmt: skip
+    posterior = posterior_of(z, (White(), AR1(), Hum(), Jitter()))
+    block = posterior.recordings[0].noise(posterior.space.start)
+    values = posterior.recordings[0].noise_values(posterior.space.start[None])
+    noises = posterior.observations[0].sensors[0].noises
+    parts = [n.covariance(tuple(v[0]), DT) for n, v in zip(noises, values, strict=True)]
     assert block.shown.tolist() == [1.0, 1.0, 0.0]
     assert block.white == parts[0].white
     assert block.clock == parts[3].clock > 0.0
     assert block.variance_after(700) == pytest.approx(sum(p.variance_after(700) for p in parts), rel=1e-12)
-    assert np.isfinite(problem.log_posterior(problem.start))
+    assert np.isfinite(posterior.log_density(posterior.space.start))
 
 
 OWN = '''
@@ -141,9 +150,9 @@ def test_a_noise_of_a_third_party_file_is_fitted(tmp_path):
     (tmp_path / "echo.py").write_text(OWN)
     (tmp_path / "case.toml").write_text(OWN_CASE.replace("NAME", "echo"))
     prepared = prepare(tmp_path / "case.toml", Registry.discover())
-    problem = make_problem(System(prepared.model), prepared.case, prepared.observations)
-    fit = maximise(problem, problem.start)
-    block = fit.problem.noise(fit.theta)
+    posterior = make_posterior(System(prepared.model), prepared.case, prepared.observations)
+    fit = maximise(posterior, posterior.space.start)
+    block = fit.posterior.recordings[0].noise(fit.theta)
     assert math.sqrt(block.first[0, 0]) == pytest.approx(math.sqrt(0.75) * SPREAD, rel=0.1)
     assert math.sqrt(block.white) == pytest.approx(0.5 * SPREAD, rel=0.2)
 

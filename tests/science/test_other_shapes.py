@@ -41,8 +41,8 @@ def driven(force, term, noise=0.01, lost=lambda u: 0.0):
 
 def with_term(fit, key, start):
     """Return the fit with one more term that starts at some values."""
-    problem = join_term(restart(fit), key, {f"{key}.{name}": value for name, value in start.items()})
-    return maximise(problem)
+    posterior = join_term(restart(fit), key, {f"{key}.{name}": value for name, value in start.items()})
+    return maximise(posterior)
 
 
 @pytest.fixture(scope="module")
@@ -60,7 +60,7 @@ def waved():
 def test_a_stop_at_the_wrong_end_is_found_at_the_right_one(stopped):
     wrong = with_term(stopped, "end_stop", {"stiffness": 300.0, "travel": 0.008, "side": 0.0})
     best = refit_shapes(wrong)
-    side = best.problem.full(best.theta)[best.problem.system.index["end_stop.side"]]
+    side = best.posterior.recordings[0].full(best.theta)[best.posterior.system.index["end_stop.side"]]
     assert side == 1.0
     assert best.log_evidence > wrong.log_evidence + 10.0
     assert best.values["end_stop.travel"] == pytest.approx(0.008, rel=0.05)
@@ -90,8 +90,8 @@ def test_maxima_far_below_the_best_are_left_out(waved):
 
 
 def test_a_fit_without_shapes_is_returned_alone(waved):
-    assert not has_other_shapes(waved.problem)
-    assert list_scanned_shapes(waved.problem) == []
+    assert not has_other_shapes(waved.posterior)
+    assert list_scanned_shapes(waved.posterior) == []
     assert find_modes(waved) == [waved]
 
 

@@ -53,7 +53,7 @@ def test_a_spring_without_play_has_no_far_value():
 
 def widened(fit, key, factor):
     """Return a fit whose curvature claims an interval of one parameter narrower by a factor than it is."""
-    at = fit.problem.keys.index(key)
+    at = fit.posterior.space.keys.index(key)
     scale = np.eye(len(fit.theta))
     scale[at, at] = factor
     information = scale @ fit.local.information @ scale
@@ -63,7 +63,7 @@ def widened(fit, key, factor):
 def test_an_interval_is_as_wide_as_the_profile():
     """The ends found for a curvature that is sixteen times too large are those of the true profile."""
     fit = nominal(0.0)
-    true = math.sqrt(fit.local.covariance[fit.problem.keys.index("k")][fit.problem.keys.index("k")])
+    true = math.sqrt(fit.local.covariance[fit.posterior.space.keys.index("k")][fit.posterior.space.keys.index("k")])
     narrow, at = widened(fit, "k", 4.0)
     stretches = measure_stretches(narrow)
     for side, sign in ((0, -1.0), (1, 1.0)):
@@ -80,7 +80,7 @@ def test_a_normal_posterior_is_not_widened():
 
 def test_draws_are_stretched_to_either_side():
     fit = nominal(0.0)
-    at = fit.problem.keys.index("c")
+    at = fit.posterior.space.keys.index("c")
     stretches = np.ones((len(fit.theta), 2))
     stretches[at] = 2.0, 3.0
     draws = np.tile(fit.theta, (2, 1))

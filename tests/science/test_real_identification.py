@@ -59,7 +59,7 @@ def test_published_values_lie_within_what_a_memory_allows(carriage):
     for seen in carriage.values():
         for key, (value, sd) in PUBLISHED.items():
             at = seen.result.intervals[key].median
-            ours = seen.deviations(key)[1] * (at if seen.fit.problem.free[seen.index(key)].log else 1.0)
+            ours = seen.deviations(key)[1] * (at if seen.fit.posterior.space.free[seen.index(key)].log else 1.0)
             assert abs(at - value) < 3.0 * np.hypot(ours, sd), key
 
 

@@ -13,7 +13,7 @@ import lostmotion as lm
 from lostmotion.diagnosis.diagnosis_run import run_diagnosis
 from lostmotion.diagnosis.scales import describe_wrong_scale, describe_wrong_sign
 from lostmotion.diagnosis.write_result import explains_scale
-from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
+from lostmotion.inference.setup import make_posterior, search_maximum, split_heldout
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.prepare import Prepared, prepare
 from lostmotion.registry import Registry, default
@@ -23,9 +23,9 @@ from lostmotion.results.diagnosis import Mechanism
 def describe(prepared: Prepared) -> tuple[str, ...]:
     """Return what is said of the scales of a case."""
     train, _ = split_heldout(prepared.observations)
-    problem = make_problem(System(prepared.model, prepared.terms), prepared.case, train)
+    posterior = make_posterior(System(prepared.model, prepared.terms), prepared.case, train)
     return describe_wrong_scale(
-        search_maximum(problem, np.random.default_rng(0)), prepared.case, np.random.default_rng(1)
+        search_maximum(posterior, np.random.default_rng(0)), prepared.case, np.random.default_rng(1)
     )
 
 

@@ -10,7 +10,7 @@ from scipy.stats import binom
 
 from lostmotion.evidence.channel_errors import list_channel_errors
 from lostmotion.evidence.sensor_hum import FALSE_HUM, SensorHum, find_lines, renew_hums
-from lostmotion.inference.setup import make_problem, search_maximum
+from lostmotion.inference.setup import make_posterior, search_maximum
 
 SAMPLES, RATE = 1000, 100.0
 TIME = np.arange(SAMPLES) / RATE
@@ -52,7 +52,7 @@ def test_a_hum_of_one_sensor_is_two_waves_of_its_noise(tmp_path):
     noise = 2e-4
     readings = observation.readings + noise * np.cos(2.0 * math.pi * 18.7 * observation.time)[:, None]
     humming = type(observation)(**{**vars(observation), "readings": readings})
-    nominal = search_maximum(make_problem(system, prepared.case, (humming,), jobs=1), np.random.default_rng(0))
+    nominal = search_maximum(make_posterior(system, prepared.case, (humming,), jobs=1), np.random.default_rng(0))
     hums = [one for one in list_channel_errors(nominal, [humming]) if isinstance(one, SensorHum)]
     assert [one.pace for one in hums] == pytest.approx([2.0 * math.pi * 18.7] * 2, rel=1e-3)
     sizes = np.linalg.lstsq(
@@ -68,7 +68,7 @@ def test_a_better_fit_has_its_own_hums_and_the_other_errors_of_the_channels(tmp_
     (observation,) = prepared.observations
     wave = 2e-4 * np.cos(2.0 * math.pi * 18.7 * observation.time)
     humming = replace(observation, readings=observation.readings + wave[:, None])
-    nominal = search_maximum(make_problem(system, prepared.case, (humming,), jobs=1), np.random.default_rng(0))
+    nominal = search_maximum(make_posterior(system, prepared.case, (humming,), jobs=1), np.random.default_rng(0))
     others = [one for one in list_channel_errors(nominal, [humming]) if not isinstance(one, SensorHum)]
     wrong = SensorHum(0, observation.name, 2.0 * math.pi * 21.0, 0.0, 1e-4)
     renewed = renew_hums((*others, wrong), nominal, [humming])

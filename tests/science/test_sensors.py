@@ -9,9 +9,11 @@ import numpy as np
 import pytest
 from sensed import CHAIN, case_of, chain, model_of, moved, multisine, noisy, said_of
 
+from lostmotion.likelihood.lanes import Lanes
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import FreeParameter, Problem, Scales
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.sensors import Sensor
+from lostmotion.likelihood.space import FreeParameter, ParameterSpace, Scales
 from lostmotion.likelihood.system import System
 from lostmotion_plugins.models.basic import LinearOscillator
 from lostmotion_plugins.terms.sensor import SensorDelay
@@ -50,16 +52,18 @@ def test_the_likelihood_of_a_late_sensor_is_smooth_and_highest_at_its_delay():
     levels = [FreeParameter(f"log_noise:{s.label}", "1", np.log(0.01 * x.std()), -20.0, 0.0) for s in sensors]
     delay = FreeParameter("sensor_delay@far.delay", "s", 0.0, 0.0, 0.05)
     frees = (delay, *levels, FreeParameter("log_random_force", "1", np.log(1e-8), -40.0, 0.0))
-    problem = Problem(system, (seen,), Scales(1.0, 0.02, 0.1), known, frees, frozenset({"sensor_delay@far"}))
+    posterior = Posterior(
+        ParameterSpace(frees), (seen,), Lanes(system, frozenset({"sensor_delay@far"})), Scales(1.0, 0.02, 0.1), known
+    )
     grid = np.linspace(0.0, 0.045, 181)
-    theta = np.tile(problem.start, (len(grid), 1))
+    theta = np.tile(posterior.space.start, (len(grid), 1))
     theta[:, 0] = grid
-    heights = problem.log_likelihoods(theta)
+    heights = posterior.log_likelihood(theta)
     assert grid[np.argmax(heights)] == pytest.approx(late, abs=2e-4)
     near = np.abs(grid - late) < 0.006  # half samples lie at 0.025 and, beyond, at 0.015
     steps = np.diff(heights[near])
     assert np.abs(np.diff(steps)).max() < 0.05 * np.abs(steps).max() + 0.3
-    errors = problem.filter_many(theta[[np.argmax(heights)]])[0].errors.reshape(-1, 2)
+    errors = posterior.innovations(theta[[np.argmax(heights)]])[0].errors.reshape(-1, 2)
     assert np.count_nonzero(errors[:5]) == 0  # where a sensor may be late, the first readings are left out
 
 

@@ -48,10 +48,11 @@ class Ratchet(Term):
 
 def with_ratchet(fit, *more):
     """Return a fit of the nominal model in a system that has cogging too."""
-    model, registry = fit.problem.system.model, default()
+    model, registry = fit.posterior.system.model, default()
     system = System(model, candidates_of(model, [Ratchet, *(registry.load("term", name) for name in more)]))
-    known = system.vector({q.name: fit.problem.known[i] for i, q in enumerate(model.params)})
-    return replace(fit, problem=replace(fit.problem, system=system, known=known))
+    known = system.vector({q.name: fit.posterior.known[i] for i, q in enumerate(model.params)})
+    dynamics = replace(fit.posterior.dynamics, system=system)
+    return replace(fit, posterior=replace(fit.posterior, dynamics=dynamics, known=known))
 
 
 def test_a_pitch_far_shorter_than_the_travel_is_scouted():
@@ -67,14 +68,14 @@ def test_where_nothing_is_missing_nothing_is_scouted():
 def test_many_shapes_together_give_what_each_gives_alone():
     """The laws of many pitches in one call, and their correlation with the gradient part by part, in plain loops."""
     fit = with_ratchet(fitted(RIPPLE))
-    states, gradient = smooth_expected_force(fit.problem, fit.theta)
-    motion = SmoothedMotion(fit.problem, fit.theta, np.ascontiguousarray(states[:, :2]), gradient)
+    states, gradient = smooth_expected_force(fit.posterior, fit.theta)
+    motion = SmoothedMotion(fit.posterior, fit.theta, np.ascontiguousarray(states[:, :2]), gradient)
     shapes = [{"ratchet.pitch": pitch} for pitch in np.geomspace(1e-3, 1e-2, TOGETHER + 3)]
     steady = measure_steadiness(motion, "ratchet", shapes)
     for shape, found in list(zip(shapes, steady, strict=True))[::17]:
-        size = compute_size(Ratchet.params[0], fit.problem.scales)
-        full = fit.problem.full(fit.theta)
-        mass = full[fit.problem.system.index["m"]]
+        size = compute_size(Ratchet.params[0], fit.posterior.scales)
+        full = fit.posterior.recordings[0].full(fit.theta)
+        mass = full[fit.posterior.system.index["m"]]
         law = np.array([Ratchet.force(0.0, x, 0.0, None, (size, *shape.values()), ()) for x in states[:, 0]]) / mass
         parts = np.array_split((law - law.mean()) * gradient, np.linspace(0, len(law), BLOCKS + 1).astype(int)[1:-1])
         sums = [part.sum() for part in parts]
@@ -85,7 +86,9 @@ def test_many_shapes_together_give_what_each_gives_alone():
 def test_a_short_pitch_is_named_with_its_size():
     """1 N with thirteen periods over the travel, hidden by an integrator of its own; it was learned as a curve."""
     fit = with_ratchet(fitted(RIPPLE), "coulomb_friction", "cubic_stiffness", "linear_stiffness", "quadratic_damping")
-    found = diagnose(case_of(("c", "x0")), fit.problem.observations, fit.problem.system, rng=np.random.default_rng(0))
+    found = diagnose(
+        case_of(("c", "x0")), fit.posterior.observations, fit.posterior.system, rng=np.random.default_rng(0)
+    )
     assert found.named == ("ratchet",)
     assert found.learned is None
     values = found.after.values

@@ -12,9 +12,9 @@ from truths import TRUE, case_of, system_of
 
 from lostmotion.identification.sampling import SamplingPlan, identify, make_task
 from lostmotion.inference.fit import maximise
-from lostmotion.inference.setup import choose_steps, make_problem
+from lostmotion.inference.setup import choose_steps, make_posterior
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import RANDOM
+from lostmotion.likelihood.space import RANDOM
 from lostmotion.likelihood.system import System
 
 PERIODIC = {"2.6": 200.0 / 2.6, "4.1": 200.0 / 4.1}
@@ -67,10 +67,10 @@ def posed(amplitude, excitation, *, periods=100, seed=1):
     observation = Observation.of(
         "recording", seen.position, (seen.force + noise)[:, None], float(seen.time[1]), "position"
     )
-    problem = make_problem(System(system_of().model, ()), case_of(("c", "x0")), (observation,))
+    posterior = make_posterior(System(system_of().model, ()), case_of(("c", "x0")), (observation,))
     true = {key: math.log(TRUE[key]) for key in ("c", "x0")}
-    problem = replace(problem, free=tuple(replace(f, start=true.get(f.key, f.start)) for f in problem.free))
-    fit = maximise(choose_steps(problem, maximise(problem).theta, accuracy=FINEST))
+    posterior = posterior.over(replace(f, start=true.get(f.key, f.start)) for f in posterior.space.free)
+    fit = maximise(choose_steps(posterior, maximise(posterior).theta, accuracy=FINEST))
     return machine, seen, 0.01 * seen.states[:, 0].std(), (excitation * amplitude) ** 2 * observation.dt, fit
 
 
@@ -97,7 +97,7 @@ def test_periodic_motion_is_read_as_sharply_as_it_can_be(level):
 def test_least_random_force_is_what_a_clean_recording_costs():
     """Without noise in the force the deviation of x0 exceeds the bound, and by what the least random force explains."""
     machine, seen, sigma, _, fit = posed(PERIODIC["2.6"], 0.0)
-    least = math.exp(fit.problem.free[fit.problem.keys.index(RANDOM)].low)
+    least = math.exp(fit.posterior.space.free[fit.posterior.space.keys.index(RANDOM)].low)
     ratio = relative(fit) / bounds(machine, seen, sigma, least)
     assert np.all((ratio > 0.9) & (ratio < 1.1)), ratio
     assert 1.2 < relative(fit)[1] / bounds(machine, seen, sigma, 0.0)[1] < 1.6
@@ -134,8 +134,8 @@ def test_differences_of_the_likelihood_do_not_depend_on_the_steps(amplitude):
     """Over the posterior, between the steps asked for and four times as many: to 0.1 at most, 0.05 rms. No chance."""
     fit = posed(amplitude, 1e-3, periods=30)[-1]
     root = np.linalg.cholesky(fit.local.covariance)
-    points = fit.problem.clip(fit.theta + np.random.default_rng(0).standard_normal((12, 4)) @ root.T)
-    finer = replace(fit.problem, nsub=4 * fit.problem.nsub)
-    gap = finer.log_likelihoods(points) - fit.problem.log_likelihoods(points)
+    points = fit.posterior.space.clip(fit.theta + np.random.default_rng(0).standard_normal((12, 4)) @ root.T)
+    finer = fit.posterior.stepped(4 * fit.posterior.dynamics.nsub)
+    gap = finer.log_likelihood(points) - fit.posterior.log_likelihood(points)
     assert np.std(gap) < 0.05
     assert np.abs(gap - gap.mean()).max() < 0.1

@@ -15,7 +15,7 @@ from swung_arm import NOISE, TRUE, swing
 import lostmotion as lm
 from lostmotion.inference.candidates import compute_slopes, run_score_test
 from lostmotion.inference.fit import maximise
-from lostmotion.inference.setup import make_problem
+from lostmotion.inference.setup import make_posterior
 from lostmotion.likelihood.predict import filter_recording, predict_freely
 from lostmotion.likelihood.stepped import make_system
 from lostmotion.registry import default
@@ -39,9 +39,9 @@ def arm():
 
 
 def make(recording, terms=TERMS):
-    """Return the problem of a recording with the terms, none of them active."""
+    """Return the posterior of a recording with the terms, none of them active."""
     prepared = lm.Case(recording, arm(), estimate=PRIORS).prepare(default(), terms)
-    return make_problem(make_system(prepared.model, prepared.terms), prepared.case, prepared.observations, jobs=1)
+    return make_posterior(make_system(prepared.model, prepared.terms), prepared.case, prepared.observations, jobs=1)
 
 
 @pytest.fixture(scope="module")
@@ -55,14 +55,14 @@ def rubbing():
 
 
 def test_one_step_of_a_held_torque_is_one_sample(clean):
-    assert clean.problem.nsub == 1
+    assert clean.posterior.dynamics.nsub == 1
     assert clean.status in ("converged", "rough")
 
 
 def test_parameters_are_found_within_their_deviations(clean):
     """Three deviations and a half: a true value is farther in 1 of 700 recordings, for three parameters."""
     for name, true in TRUE.items():
-        assert abs(np.log(true) - clean.theta[clean.problem.keys.index(name)]) < 3.5 * clean.sd[name]
+        assert abs(np.log(true) - clean.theta[clean.posterior.space.keys.index(name)]) < 3.5 * clean.sd[name]
         assert clean.sd[name] < 0.01
 
 
@@ -72,9 +72,9 @@ def test_noise_of_the_encoders_is_found(clean):
 
 
 def test_a_free_run_stays_beside_the_recording(clean):
-    problem = clean.problem
-    states = filter_recording(problem, clean.theta).states
-    both = predict_freely(problem, clean.theta, states, np.array([20]), 200)
+    posterior = clean.posterior
+    states = filter_recording(posterior, clean.theta).states
+    both = predict_freely(posterior, clean.theta, states, np.array([20]), 200)
     for run in both:
         assert np.abs(run.error).max() < 0.01  # rad after two seconds; the motion is 1 rad
 
@@ -82,7 +82,7 @@ def test_a_free_run_stays_beside_the_recording(clean):
 def test_dry_friction_of_the_elbow_is_what_raises_the_likelihood(rubbing):
     """Each of six terms at a joint alone: the true one has the largest score, and its fit finds 0.6 N m."""
     slopes = compute_slopes(rubbing)
-    keys = [key for key in rubbing.problem.system.keys if key.partition("@")[0] in TERMS]
+    keys = [key for key in rubbing.posterior.system.keys if key.partition("@")[0] in TERMS]
     gains = {key: run_score_test(rubbing, slopes, key).gain for key in keys}
     assert len(gains) == 6
     assert max(gains, key=gains.get) == "coulomb_friction@elbow"
@@ -90,9 +90,9 @@ def test_dry_friction_of_the_elbow_is_what_raises_the_likelihood(rubbing):
 
 @pytest.mark.slow
 def test_a_term_at_a_joint_is_estimated(rubbing):
-    problem = rubbing.problem
+    posterior = rubbing.posterior
     key = "coulomb_friction@elbow"
-    free = replace(problem.free[0], key=f"{key}.force", log=False, start=0.3, low=0.0, high=3.0)
-    fit = maximise(replace(problem.extend((free,), (key,)), nsub=4), np.append(rubbing.theta, 0.3))
+    free = replace(posterior.space.free[0], key=f"{key}.force", log=False, start=0.3, low=0.0, high=3.0)
+    fit = maximise(posterior.extend((free,), (key,)).stepped(4), np.append(rubbing.theta, 0.3))
     assert fit.values[f"{key}.force"] == pytest.approx(0.6, abs=0.03)
     assert fit.local.log_posterior > rubbing.local.log_posterior + 100.0

@@ -9,7 +9,7 @@ from sensed import case_of, model_of, moved, multisine, noisy
 
 from lostmotion.diagnosis.diagnosis_run import run_diagnosis
 from lostmotion.inference.curves import compute_band
-from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
+from lostmotion.inference.setup import make_posterior, search_maximum, split_heldout
 from lostmotion.inference.unexplained import CurveSearch
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.prepare import prepare
@@ -57,7 +57,7 @@ def learned(folder, law, seed=0):
     prepared = prepare(hidden_case(folder, law, seed), Registry.discover())
     train, _ = split_heldout(prepared.observations)
     system = System(prepared.model)
-    nominal = search_maximum(make_problem(system, prepared.case, train, jobs=1), np.random.default_rng(seed))
+    nominal = search_maximum(make_posterior(system, prepared.case, train, jobs=1), np.random.default_rng(seed))
     return CurveSearch(1).unknown(nominal, nominal)
 
 
@@ -82,7 +82,7 @@ def test_a_force_over_position_and_velocity_is_learned_as_a_map(tmp_path):
 def test_a_spring_behind_a_dashpot_is_a_force_that_depends_on_the_history(tmp_path):
     found = learned(tmp_path, yielding)
     assert depends(found) == ["history"]
-    time = found.fit.problem.known[found.fit.problem.system.index[f"{found.keys[0]}.time"]]
+    time = found.fit.posterior.known[found.fit.posterior.system.index[f"{found.keys[0]}.time"]]
     assert TIME / 3.0 < time < 3.0 * TIME
 
 

@@ -56,19 +56,19 @@ def test_a_hysteresis_begins_at_any_force_up_to_its_yield_force(monkeypatch):
 
 
 def test_its_variance_at_the_first_sample_is_the_square_of_the_yield_force():
-    problem = hysteretic().problem
+    posterior = hysteretic().posterior
     start = {"bouc_wen_hysteresis.force": YIELD, "bouc_wen_hysteresis.travel": TRAVEL}
-    joined = join_term(problem, "bouc_wen_hysteresis", start)
-    twice = joined.start.copy()
-    twice[joined.keys.index("bouc_wen_hysteresis.force")] = 2.0 * YIELD
-    points = joined.points(np.stack([joined.start, twice]), 0)
+    joined = join_term(posterior, "bouc_wen_hysteresis", start)
+    twice = joined.space.start.copy()
+    twice[joined.space.keys.index("bouc_wen_hysteresis.force")] = 2.0 * YIELD
+    points = joined.recordings[0].points(np.stack([joined.space.start, twice]))
     assert np.allclose(points.covariance[:, 2, 2], [YIELD**2, 4.0 * YIELD**2])
     assert math.isclose(points.mean[0, 2], 0.0)
 
 
 @pytest.mark.parametrize(("since", "price"), [(None, 0.0), (3.0, math.log(24.0) + math.log(100.0))])
 def test_an_onset_costs_its_time_and_the_odds_of_a_change(since, price):
-    problem = hysteretic().problem
+    posterior = hysteretic().posterior
     start = {"bouc_wen_hysteresis.force": YIELD, "bouc_wen_hysteresis.travel": TRAVEL}
     late = {"bouc_wen_hysteresis.since": since} if since else {}
-    assert compute_onset_price(join_term(problem, "bouc_wen_hysteresis", {**start, **late})) == pytest.approx(price)
+    assert compute_onset_price(join_term(posterior, "bouc_wen_hysteresis", {**start, **late})) == pytest.approx(price)

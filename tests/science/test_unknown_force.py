@@ -13,7 +13,7 @@ from truths import case_of
 from lostmotion.inference.curves import compute_band
 from lostmotion.inference.fit import maximise
 from lostmotion.inference.proposal import Axis, propose_formula
-from lostmotion.inference.setup import make_problem, search_maximum
+from lostmotion.inference.setup import make_posterior, search_maximum
 from lostmotion.inference.unexplained import CurveSearch
 from lostmotion.likelihood.drive import DriveHarmonic
 from lostmotion.likelihood.observation import Observation
@@ -57,8 +57,8 @@ def fitted(kind, *, seed=0):
     force = 100.0 * np.cos(OMEGA * dt * np.arange(SAMPLES)) + 0.1 * rng.standard_normal(SAMPLES)
     z = seen[:, 0] + 0.01 * np.std(seen[:, 0]) * rng.standard_normal(SAMPLES)
     observation = Observation.of("seen", z, force[:, None], dt, "position", harmonic=DriveHarmonic(OMEGA, 100.0))
-    problem = make_problem(System(default().make("model", "lin_backlash")), case_of(("c", "x0")), (observation,))
-    return search_maximum(problem, rng, points=24, finalists=2)
+    posterior = make_posterior(System(default().make("model", "lin_backlash")), case_of(("c", "x0")), (observation,))
+    return search_maximum(posterior, rng, points=24, finalists=2)
 
 
 @pytest.mark.slow
@@ -98,7 +98,7 @@ def test_nothing_is_learned_where_nothing_is_missing(seed):
 def test_the_gain_of_a_curve_is_that_over_the_better_of_two_nominal_fits():
     """A selection may improve the nominal fit after the search for curves has stored it; the odds count the better."""
     fit = fitted(ROUGH)
-    worse = maximise(fit.problem, fit.theta + 1.0, rounds=1)
+    worse = maximise(fit.posterior, fit.theta + 1.0, rounds=1)
     assert worse.log_evidence < fit.log_evidence - 100.0
     ahead, behind = (CurveSearch(LIBRARY).unknown(nominal, fit) for nominal in (fit, worse))
     assert behind.keys == ahead.keys

@@ -1,4 +1,4 @@
-"""Problems with known truth for the tests of the inference, from recordings that the framework had no part in."""
+"""Posteriors with known truth for the tests of the inference, from recordings that the framework had no part in."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 from independent import Machine, recording
 
 from lostmotion.case import CaseFile, Prior
-from lostmotion.inference.setup import make_noise_levels, make_problem, search_maximum
+from lostmotion.inference.setup import make_noise_levels, make_posterior, search_maximum
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.candidate_terms import candidates_of
@@ -39,7 +39,7 @@ def fit_oscillator(observation, rng, *, m=1.0, c=(0.2, 20.0), k=(40.0, 4e3), ter
     priors = {key: Prior(low=low, high=high, scale="log") for key, (low, high) in (("c", c), ("k", k))}
     case = CaseFile("study", Path(), (), model.name, {"m": m}, priors, {}, (), "")
     system = System(model, candidates_of(model, [registry.load("term", name) for name in terms]))
-    return search_maximum(make_problem(system, case, (observation,)), rng, points=24, finalists=2)
+    return search_maximum(make_posterior(system, case, (observation,)), rng, points=24, finalists=2)
 
 
 def system_of(name="lin_backlash"):
@@ -49,10 +49,10 @@ def system_of(name="lin_backlash"):
     return System(model, candidates_of(model, [registry.load("term", n) for n in registry.names("term")]))
 
 
-def problem_for(observation, unknown, *, noise=0.01):
-    """Return the problem of a recording with its unknown parameters and noise levels started near the truth."""
-    problem = make_problem(system_of(), case_of(unknown), (observation,))
-    levels = make_noise_levels((observation,), problem.scales)
+def posterior_for(observation, unknown, *, noise=0.01):
+    """Return the posterior of a recording with its unknown parameters and noise levels started near the truth."""
+    posterior = make_posterior(system_of(), case_of(unknown), (observation,))
+    levels = make_noise_levels((observation,), posterior.scales)
     start = {k: np.log(TRUE[k]) for k in unknown}
     start |= {levels[0].key: levels[0].mean, levels[1].key: np.log(noise * np.std(observation.response))}
-    return problem, np.array([start[k] for k in problem.keys])
+    return posterior, np.array([start[k] for k in posterior.space.keys])

@@ -166,9 +166,9 @@ def test_a_case_gives_the_prior_of_a_term(folder, tmp_path):
         terms = choose_terms(prepared, (), default())
         assert [t.name for t in terms] == ["coulomb_friction"]
         fit = find_best_fits(prepared, terms, np.random.default_rng(0), 2)[0]
-        assert (FRICTION in fit.problem.keys) == (name == "estimate")
-        assert fit.problem.active == {"coulomb_friction"}
+        assert (FRICTION in fit.posterior.space.keys) == (name == "estimate")
+        assert fit.posterior.active == {"coulomb_friction"}
         if name == "estimate":
             assert fit.sd[FRICTION] == pytest.approx(1e-4, rel=0.01)
         else:
-            assert fit.problem.full(fit.theta)[fit.problem.system.index[FRICTION]] == 1.0
+            assert fit.posterior.recordings[0].full(fit.theta)[fit.posterior.system.index[FRICTION]] == 1.0

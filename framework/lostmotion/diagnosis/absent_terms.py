@@ -20,7 +20,7 @@ from lostmotion.diagnosis.stages import SearchResult, list_fitted_keys
 from lostmotion.evidence.bounds import ALIKE, NONLINEAR, SizeBound, bound_absent
 from lostmotion.inference.learned import LearnedTerm
 from lostmotion.inference.natural import find_term
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.system import key_of
 from lostmotion.report.words import angles_in, sentence
 from lostmotion.results.absent import AbsentTerm, UnlimitedTerm
@@ -38,40 +38,40 @@ def list_absent(d: SearchResult, found: Iterable[Mechanism], rest: Iterable[Open
     probability are left out: they are not absent. A law that acts where a curve was learned has no bound.
     """
     present = {(one.mechanism, one.at) for one in found} | {(one.mechanism, one.at) for one in rest}
-    same = {name for key in d.named for name in find_term(d.after.problem, key)[0].equals}
-    problem = d.explained.best.frame.problem
+    same = {name for key in d.named for name in find_term(d.after.posterior, key)[0].equals}
+    posterior = d.explained.best.frame.posterior
     keys = [
         key_of(term)
-        for term in problem.system.terms
-        if key_of(term) in set(list_fitted_keys(d.before.problem.system))
+        for term in posterior.system.terms
+        if key_of(term) in set(list_fitted_keys(d.before.posterior.system))
         and (term.name, term.at) not in present
         and term.name not in same
         and key_of(term) not in d.explained.terms
         and d.explained.inclusion(key_of(term)) <= d.settings.name.worth
     ]
-    after = d.after.problem
+    after = d.after.posterior
     curved = {one.at for one in after.system.terms if isinstance(one, LearnedTerm) and key_of(one) in after.active}
     bounds = [
-        replace(bound, why=LEARNED) if _is_within(d.before.problem, bound.key, curved) else bound
+        replace(bound, why=LEARNED) if _is_within(d.before.posterior, bound.key, curved) else bound
         for bound in bound_absent(d.explained.best, keys)
     ]
     with angles_in(angle):
         told = [_make_absent(d, bound) for bound in bounds if not bound.why]
     limited = {(one.mechanism, one.at) for one in told}
-    others = {one.key: one for one in bounds if one.why and name_term(d.before.problem, one.key) not in limited}
+    others = {one.key: one for one in bounds if one.why and name_term(d.before.posterior, one.key) not in limited}
     told.sort(key=lambda one: (one.share_of_drive is None, one.share_of_drive or 0.0))
     return tuple(told), tuple(_make_unlimited(d, one) for one in others.values())
 
 
-def _is_within(problem: Problem, key: str, curved: Collection[str]) -> bool:
+def _is_within(posterior: Posterior, key: str, curved: Collection[str]) -> bool:
     """Return whether a term is a law of the motion at a place where a curve was learned, which may contain it."""
-    term, _ = find_term(problem, key)
+    term, _ = find_term(posterior, key)
     return term.acts == "motion" and term.at in curved
 
 
 def _make_absent(d: SearchResult, bound: SizeBound) -> AbsentTerm:
-    problem = d.before.problem
-    term, slots = find_term(problem, bound.key)
+    posterior = d.before.posterior
+    term, slots = find_term(posterior, bound.key)
     shape, unit = list_shape(slots, bound.shape), bound.slots[0].unit
     share = bound.force if math.isfinite(bound.force) else None
     return AbsentTerm(
@@ -82,18 +82,18 @@ def _make_absent(d: SearchResult, bound: SizeBound) -> AbsentTerm:
         unit=unit,
         share_of_drive=share,
         given={slot.param.name: bound.shape[slot.key] for slot in shape},
-        says=f"no {describe_term(problem, bound.key, bound.slots)}"
-        f" above {describe_size(problem, bound.key, bound.slots, bound.upper)}"
+        says=f"no {describe_term(posterior, bound.key, bound.slots)}"
+        f" above {describe_size(posterior, bound.key, bound.slots, bound.upper)}"
         f"{describe_share(share, d.yardstick)}{describe_shape(shape, bound.shape)}",
     )
 
 
 def _make_unlimited(d: SearchResult, bound: SizeBound) -> UnlimitedTerm:
-    problem = d.before.problem
-    term, _ = find_term(problem, bound.key)
+    posterior = d.before.posterior
+    term, _ = find_term(posterior, bound.key)
     why = {
         ALIKE: "what is in the model has the same effect on this recording",
         LEARNED: "the learned force may contain it",
         NONLINEAR: "its effect is not proportional to its size where it is small",
     }.get(bound.why, "it would hardly show in this recording")
-    return UnlimitedTerm(term.name, term.at, f"{sentence(describe_place(problem, bound.key))} has no bound: {why}.")
+    return UnlimitedTerm(term.name, term.at, f"{sentence(describe_place(posterior, bound.key))} has no bound: {why}.")

@@ -14,6 +14,7 @@ from lostmotion.diagnosis.predictive import HeldOutStretch, compute_block_scores
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.locate import compute_autocorrelation, compute_whiteness
 from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.predict import (
     Filtered,
     FreeRuns,
@@ -24,7 +25,6 @@ from lostmotion.likelihood.predict import (
     forecast_pieces,
     predict_freely,
 )
-from lostmotion.likelihood.problem import Problem
 from lostmotion.settings import DEFAULT, HeldOutSettings
 
 STARTS = 150
@@ -75,8 +75,8 @@ def cut_heldout(observations: Sequence[Observation], held: Sequence[Observation]
 
 def compute_rates(fit: Fit, observations: Sequence[Observation]) -> Array:
     """Return the rates (1/s) at which neighbouring runs diverge under the recorded drive, (pieces,)."""
-    problem = fit.problem.on((observations[0],))
-    return compute_growth_rates(problem, fit.theta, problem.begun(fit.theta))
+    posterior = fit.posterior.on((observations[0],))
+    return compute_growth_rates(posterior, fit.theta, posterior.recordings[0].points(fit.theta[None]).mean[0])
 
 
 def average_exponent(rates: Array) -> float:
@@ -91,20 +91,20 @@ def average_exponent_blocks(rates: Array, blocks: int = 10) -> Array:
 
 def predict(fit: Fit, pieces: Sequence[HeldOutStretch], horizon: Horizon, rates: Array) -> Prediction:
     """Return the predictions of one model on held-out data, over a horizon; `rates` are those of `compute_rates`."""
-    problems = [fit.problem.on((piece.observation,)) for piece in pieces]
-    tracked = [filter_recording(problem, fit.theta) for problem in problems]
+    posteriors = [fit.posterior.on((piece.observation,)) for piece in pieces]
+    tracked = [filter_recording(posterior, fit.theta) for posterior in posteriors]
     runs, expected, lengths = [], [], [p.observation.samples - p.begin for p in pieces]
     scores = [compute_block_scores(fit, piece) for piece in pieces]
-    for piece, problem, seen in zip(pieces, problems, tracked, strict=True):
+    for piece, posterior, seen in zip(pieces, posteriors, tracked, strict=True):
         held = slice(piece.begin, None)
         expected.append(seen.expected_score(held))
-        runs.append(_run_freely(problem, fit, seen.states, piece, horizon))
+        runs.append(_run_freely(posterior, fit, seen.states, piece, horizon))
     joint = [_join_runs([r[sensor] for r in runs]) for sensor in range(len(runs[0]))]
     scales = [compute_deviation(pieces, sensor) for sensor in range(len(joint))]
     nrmse = [_compute_nrmse(one, horizon, scale) for one, scale in zip(joint, scales, strict=True)]
     first, main = tracked[0], joint[0]
     length = max(int(SEGMENT * horizon.unit_time / pieces[0].observation.dt), horizon.steps, 2)
-    forecasts, restarts = forecast_pieces(problems[0], fit.theta, first.states, pieces[0].begin, length)
+    forecasts, restarts = forecast_pieces(posteriors[0], fit.theta, first.states, pieces[0].begin, length)
     tail = slice(pieces[0].begin, None)
     return Prediction(
         log_score=float(np.average([np.mean(own) for own in scores], weights=lengths)),
@@ -210,13 +210,13 @@ def is_better(errors: Array, without: Array, chance: float = DEFAULT.heldout.cha
 def compute_motion_deviation(fit: Fit, pieces: Sequence[HeldOutStretch]) -> float:
     """Return the standard deviation of the motion of the machine, relative to its base if the base moves."""
     first = pieces[0].observation
-    relative = fit.problem.system.model.inputs[first.lead] == "base_position" and first.channel == "position"
+    relative = fit.posterior.system.model.inputs[first.lead] == "base_position" and first.channel == "position"
     parts = [p.observation.response[p.begin :] - (p.observation.excitation[p.begin :] * relative) for p in pieces]
     return float(np.nanstd(np.concatenate(parts)))
 
 
 def _run_freely(
-    problem: Problem, fit: Fit, states: Array, piece: HeldOutStretch, horizon: Horizon
+    posterior: Posterior, fit: Fit, states: Array, piece: HeldOutStretch, horizon: Horizon
 ) -> tuple[FreeRuns, ...]:
     """Return free runs of each sensor from starts that are spread over a held-out part."""
     observation = piece.observation
@@ -224,9 +224,9 @@ def _run_freely(
     steps = int(min(max(REACH * horizon.unit_time / observation.dt, horizon.steps + 1), left // 2))
     last = observation.samples - steps
     starts = np.unique(np.linspace(piece.begin, last, min(STARTS, max(last - piece.begin, 1))).astype(int))
-    return predict_freely(problem, fit.theta, states, starts, steps)
+    return predict_freely(posterior, fit.theta, states, starts, steps)
 
 
 def choose_heldout_horizon(fit: Fit, pieces: Sequence[HeldOutStretch], exponent: float) -> Horizon:
     """Return the horizon of predictions, from the exponent of the better model."""
-    return choose_horizon(pieces[0].observation, exponent, fit.problem.scales.time)
+    return choose_horizon(pieces[0].observation, exponent, fit.posterior.scales.time)

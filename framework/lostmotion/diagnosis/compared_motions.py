@@ -21,10 +21,10 @@ def list_motions(d: SearchResult) -> dict[str, Array]:
 
 def _run_freely(fit: Fit, observation: Observation) -> Array:
     """Return the states (samples, n) of a free run over a whole recording, from its first filtered state."""
-    problem = fit.problem.on((observation,))
+    posterior = fit.posterior.on((observation,))
     first = min(20, observation.samples - 1)
-    states = filter_recording(problem, fit.theta).states
-    run = simulate_run(problem, fit.theta, states[first], first, observation.samples - first)
+    states = filter_recording(posterior, fit.theta).states
+    run = simulate_run(posterior, fit.theta, states[first], first, observation.samples - first)
     return np.vstack([states[:first], run])
 
 

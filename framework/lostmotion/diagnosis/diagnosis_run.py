@@ -143,7 +143,7 @@ def compare_heldout(diagnosis: SearchResult) -> Outcome:
     pieces = cut_heldout(recordings, diagnosis.held)
     same = diagnosis.after is diagnosis.before
     fits = [diagnosis.before] if same else [diagnosis.before, diagnosis.after]
-    jobs = diagnosis.before.problem.jobs
+    jobs = diagnosis.before.posterior.jobs
     rates = each(lambda fit: compute_rates(fit, recordings), fits, jobs)
     horizon = choose_heldout_horizon(diagnosis.after, pieces, average_exponent(rates[-1]))
     both = each(lambda pair: predict(pair[0], pieces, horizon, pair[1]), list(zip(fits, rates, strict=True)), jobs)

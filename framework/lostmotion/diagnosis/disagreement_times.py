@@ -57,9 +57,9 @@ def describe_disagreement(
     over = compare_over_time(d.shown, shown, rng, level)
     if d.shown.samples != d.held[0].samples:
         return over, None
-    begun = (*d.after.problem.observations, *d.held)
+    begun = (*d.after.posterior.observations, *d.held)
     all_of = {name: [compute_squares(fit, one) for one in begun] for name, fit in fits.items()}
-    motion = d.after.problem.system.model.motion
+    motion = d.after.posterior.system.model.motion
     return over, compare_by_recording(begun, all_of, len(d.train), motion, rng, level)
 
 

@@ -20,7 +20,8 @@ from lostmotion.inference.curves import add_all_curves
 from lostmotion.inference.fit import Fit, solve_scaled
 from lostmotion.inference.natural import find_term
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import RANDOM, Problem
+from lostmotion.likelihood.posterior import Posterior
+from lostmotion.likelihood.space import RANDOM
 from lostmotion.likelihood.system import Slot
 from lostmotion.report.words import angles_in, format_size, sentence, to_words
 from lostmotion.results import Interval, percent
@@ -41,46 +42,46 @@ def forecast_recordings(nominal: Fit, recordings: Sequence[Observation], rng: np
     What a larger random force hides is measured in a simulated recording.
     """
     samples = sum(o.samples for o in recordings)
-    keys = list_fitted_keys(nominal.problem.system)
-    repeated = max(samples / nominal.problem.samples, 1.0)
+    keys = list_fitted_keys(nominal.posterior.system)
+    repeated = max(samples / nominal.posterior.samples, 1.0)
     forecast = make_forecast(add_all_curves(nominal), keys, recordings, repeated=repeated)
     if not forecast.valid or (simulated := _simulate(nominal, rng)) is None:
         return forecast
-    static = [key for key in keys if is_static(nominal.problem, key)]
+    static = [key for key in keys if is_static(nominal.posterior, key)]
     return replace(forecast, levels=measure_levels(simulated, static, samples))
 
 
 def _simulate(nominal: Fit, rng: np.random.Generator) -> Fit | None:
     """Return the nominal fit on a simulated recording with the usual random force; None where it diverges."""
     theta = nominal.theta.copy()
-    for i, f in enumerate(nominal.problem.free):
+    for i, f in enumerate(nominal.posterior.space.free):
         if f.parameter == RANDOM:
             theta[i] = min(theta[i], f.mean)
     usual = replace(nominal, local=replace(nominal.local, theta=theta))
-    observation, model = nominal.problem.observations[0], RehearsedModel.of(usual)
+    observation, model = nominal.posterior.observations[0], RehearsedModel.of(usual)
     excitation = repeat_drive(observation, min(SIMULATED, observation.samples), compute_natural_frequency(nominal))
     seen = simulate_recording(model, excitation, rng)
     if seen is None:
         return None
     moved = replace(usual.local, theta=model.get_coordinates(excitation))
-    return replace(usual, problem=model.pose(excitation, seen), local=moved)
+    return replace(usual, posterior=model.pose(excitation, seen), local=moved)
 
 
-def is_static(problem: Problem, key: str) -> bool:
+def is_static(posterior: Posterior, key: str) -> bool:
     """Return whether the effect of a term costs no run of the filter."""
-    term, _ = find_term(problem, key)
+    term, _ = find_term(posterior, key)
     return term.acts in ("motion", "drive") and not term.states
 
 
 def describe_expectation(forecast: Forecast, yardstick: str, angle: str = "rad") -> Expectation:
     """Return what a recording can tell, with angles in sentences in the unit `angle`."""
-    problem = forecast.found.frame.problem
+    posterior = forecast.found.frame.posterior
     with angles_in(angle):
         rows = forecast.list_detectable()
-        effects = [_make_detection(problem, row, yardstick) for row in rows if math.isfinite(row.size)]
+        effects = [_make_detection(posterior, row, yardstick) for row in rows if math.isfinite(row.size)]
         seen = {(one.mechanism, one.at) for one in effects}
-        lost = {row.key: row for row in rows if name_term(problem, row.key) not in seen}
-        unseen = tuple(_make_unseen(problem, row) for row in lost.values())
+        lost = {row.key: row for row in rows if name_term(posterior, row.key) not in seen}
+        unseen = tuple(_make_unseen(posterior, row) for row in lost.values())
     effects.sort(key=lambda one: (one.share_of_drive is None, one.share_of_drive or 0.0))
     return Expectation(
         parameters=_list_intervals(forecast), pairs=_list_pairs(forecast), effects=tuple(effects), unseen=unseen
@@ -92,7 +93,7 @@ def _list_intervals(forecast: Forecast) -> Mapping[str, Interval]:
     found = forecast.found
     sds = np.sqrt(np.maximum(np.diag(found.covariance), 0.0))
     rows = {}
-    for f, at, sd in zip(found.frame.problem.free, found.theta, sds, strict=False):
+    for f, at, sd in zip(found.frame.posterior.space.free, found.theta, sds, strict=False):
         if f.physical:
             ends = [f.value(min(max(float(at) + side * NORMAL * float(sd), f.low), f.high)) for side in (-1.0, 1.0)]
             rows[f.key] = Interval(float(f.value(float(at))), float(ends[0]), float(ends[1]), f.unit)
@@ -108,7 +109,7 @@ def _list_pairs(forecast: Forecast) -> tuple[ParameterPair, ...]:
     covariance = solve_scaled(found.precision[:own_count, :own_count], np.eye(own_count))
     sds = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
     correlation = covariance / np.outer(sds, sds)
-    own = [(i, f.key) for i, f in enumerate(found.frame.problem.free[:own_count]) if f.physical]
+    own = [(i, f.key) for i, f in enumerate(found.frame.posterior.space.free[:own_count]) if f.physical]
     rows = [
         ParameterPair(one, other, float(np.clip(correlation[i, j], -1.0, 1.0)))
         for (i, one), (j, other) in itertools.combinations(own, 2)
@@ -116,17 +117,17 @@ def _list_pairs(forecast: Forecast) -> tuple[ParameterPair, ...]:
     return tuple(sorted((r for r in rows if abs(r.correlation) > CORRELATED), key=lambda r: -abs(r.correlation)))
 
 
-def name_term(problem: Problem, key: str) -> tuple[str, str]:
+def name_term(posterior: Posterior, key: str) -> tuple[str, str]:
     """Return name and place of a term."""
-    term, _ = find_term(problem, key)
+    term, _ = find_term(posterior, key)
     return term.name, term.at
 
 
-def _make_detection(problem: Problem, row: Detectable, yardstick: str) -> Detection:
-    term, slots = find_term(problem, row.key)
+def _make_detection(posterior: Posterior, row: Detectable, yardstick: str) -> Detection:
+    term, slots = find_term(posterior, row.key)
     shape = list_shape(slots, row.shape)
     share = row.share if math.isfinite(row.share) else None
-    rivals = tuple(dict.fromkeys(find_term(problem, key)[0].name for key in row.rivals))
+    rivals = tuple(dict.fromkeys(find_term(posterior, key)[0].name for key in row.rivals))
     beside = f", not told from {' or '.join(map(to_words, rivals))}" if rivals else ""
     return Detection(
         mechanism=term.name,
@@ -137,19 +138,20 @@ def _make_detection(problem: Problem, row: Detectable, yardstick: str) -> Detect
         share_of_drive=share,
         given={slot.param.name: row.shape[slot.key] for slot in shape},
         confused_with=rivals,
-        says=f"{describe_term(problem, row.key, row.slots)} from {describe_size(problem, row.key, row.slots, row.size)}"
+        says=f"{describe_term(posterior, row.key, row.slots)}"
+        f" from {describe_size(posterior, row.key, row.slots, row.size)}"
         f"{describe_share(share, yardstick)}{beside}{describe_shape(shape, row.shape)}",
     )
 
 
-def _make_unseen(problem: Problem, row: Detectable) -> UnlimitedTerm:
-    term, _ = find_term(problem, row.key)
+def _make_unseen(posterior: Posterior, row: Detectable) -> UnlimitedTerm:
+    term, _ = find_term(posterior, row.key)
     why = "it would hardly show, or as something else"
     if row.alike:
         why = f"the parameter {row.alike} has the same effect"
     elif not row.linear:
         why = "its effect is not proportional to its size where it is small, so no size can be predicted"
-    name = sentence(describe_place(problem, row.key))
+    name = sentence(describe_place(posterior, row.key))
     return UnlimitedTerm(term.name, term.at, f"{name} has no size from which it is named: {why}.")
 
 
@@ -175,21 +177,21 @@ def describe_shape(shape: Sequence[Slot], values: Mapping[str, float]) -> str:
     return f", for {shown}" if shown else ""
 
 
-def describe_term(problem: Problem, key: str, bounded: Sequence[Slot]) -> str:
+def describe_term(posterior: Posterior, key: str, bounded: Sequence[Slot]) -> str:
     """Return a term in words, with its place and its amplitude where there are several."""
-    return describe_place(problem, key) + ("" if is_alone(problem, key, bounded) else f" with {name_one(bounded)}")
+    return describe_place(posterior, key) + ("" if is_alone(posterior, key, bounded) else f" with {name_one(bounded)}")
 
 
-def describe_size(problem: Problem, key: str, bounded: Sequence[Slot], size: float) -> str:
+def describe_size(posterior: Posterior, key: str, bounded: Sequence[Slot], size: float) -> str:
     """Return a size with its unit; a number without one is told with its name, unless `describe_term` tells it."""
     text = format_size(size, bounded[0].unit)
-    named = bounded[0].unit == "1" and is_alone(problem, key, bounded)
+    named = bounded[0].unit == "1" and is_alone(posterior, key, bounded)
     return f"{name_one(bounded)} of {text}" if named else text
 
 
-def is_alone(problem: Problem, key: str, bounded: Sequence[Slot]) -> bool:
+def is_alone(posterior: Posterior, key: str, bounded: Sequence[Slot]) -> bool:
     """Return whether a term has no other amplitude than the bounded ones."""
-    _, slots = find_term(problem, key)
+    _, slots = find_term(posterior, key)
     return sum(slot.param.null is not None for slot in slots) == len(bounded)
 
 
@@ -199,10 +201,10 @@ def name_one(bounded: Sequence[Slot]) -> str:
     return f"{'an' if name[0] in 'aeiou' else 'a'} {name}"
 
 
-def describe_place(problem: Problem, key: str) -> str:
+def describe_place(posterior: Posterior, key: str) -> str:
     """Return the name of a term in words, with its place where the machine has several of its kind."""
-    term, _ = find_term(problem, key)
-    model, first = problem.system.model, problem.observations[0]
+    term, _ = find_term(posterior, key)
+    model, first = posterior.system.model, posterior.observations[0]
     counts = {"sensor": len(first.sensors), "drive": len(first.driven or ("",))}
     several = counts.get(term.acts, len(model.places)) > 1
     place = place_of(model, term).name if term.acts == "motion" else term.at

@@ -71,11 +71,11 @@ def propose(
     say: Callable[[str], None] = lambda _: None,
 ) -> Proposal | None:
     """Return the excitation within `limits` that distinguishes two fits best; None if every simulation diverges."""
-    observation = chosen.problem.observations[0]
+    observation = chosen.posterior.observations[0]
     natural = compute_natural_frequency(chosen)
     samples = min(SAMPLES, observation.samples)
     share = observation.samples / samples
-    moved = replace(observation, inputs=observation.inputs[:, : len(chosen.problem.system.model.driven)])
+    moved = replace(observation, inputs=observation.inputs[:, : len(chosen.posterior.system.model.driven)])
     offered = list_candidates(moved, samples, limits or choose_limits(observation, natural), rng)
     weighed = _ExperimentComparison((RehearsedModel.of(chosen), RehearsedModel.of(rival)), share, rng)
     say(f"expected gains of {len(offered)} excitations")
@@ -94,7 +94,7 @@ def propose(
 
 def compute_natural_frequency(fit: Fit) -> float:
     """Return the rms frequency (Hz) of the recorded motion."""
-    return 1.0 / (2.0 * math.pi * fit.problem.scales.time)
+    return 1.0 / (2.0 * math.pi * fit.posterior.scales.time)
 
 
 def compute_bayes_factor(chosen: Fit, rival: Fit, observation: Observation) -> float:
@@ -128,7 +128,7 @@ class _ExperimentComparison:
     def compute_ways(self, excitations: Sequence[Excitation], rounds: int) -> list[_Tried]:
         """Return the gains of each excitation with each model true, or None if a simulation diverges."""
         drawn = [(e, [simulate_recording(truth, e, self.rng) for truth in self.models]) for e in excitations]
-        jobs = self.models[0].fit.problem.jobs
+        jobs = self.models[0].fit.posterior.jobs
         found = each(lambda one: self._compute_ways(*one, EvidenceBudget(self.share, rounds)), drawn, jobs)
         return list(zip(excitations, found, strict=True))
 

@@ -82,7 +82,7 @@ def describe_decays(d: SearchResult) -> Decays | None:
     models = {"before": _measure_model(d.before, d.shown, measured)}
     if d.found:
         models["after"] = _measure_model(d.after, d.shown, measured)
-    unit = unit_of(d.shown.channel, d.after.problem.system.model.motion)
+    unit = unit_of(d.shown.channel, d.after.posterior.system.model.motion)
     rows = {
         name: tuple(_list_cycles(stretch, made, d.shown) for stretch, made in pairs if made)
         for name, pairs in models.items()
@@ -135,16 +135,16 @@ Measured = Sequence[tuple[DecayStretch, Decay]]
 
 def _measure_model(fit: Fit, observation: Observation, measured: Measured) -> list[tuple[DecayStretch, Decay | None]]:
     """Return the decay of a free run of a model from the start of each measured decay; None if it has none."""
-    problem = fit.problem.on((observation,))
-    states = problem.smooth(fit.theta).states
+    posterior = fit.posterior.on((observation,))
+    states = posterior.filters[0].smooth(fit.theta).states
     bound = BOUND * float(np.nanmax(np.abs(observation.response)))
     most, found = MOST_CYCLES // len(measured), []
     for stretch, seen in measured:
         start, stop = stretch
-        run = simulate_run(problem, fit.theta, states[start], start, stop - start)
+        run = simulate_run(posterior, fit.theta, states[start], start, stop - start)
         decay = None
         if np.all(np.abs(run) < 1e100):
-            shown = observe_states(problem, fit.theta, run, (start, 0))
+            shown = observe_states(posterior, fit.theta, run, (start, 0))
             decay = _measure_same_mode(shown, observation.dt, seen, most) if np.all(np.abs(shown) < bound) else None
         found.append((stretch, decay))
     return found
@@ -191,7 +191,7 @@ def _name_model(d: SearchResult, version: str) -> str:
         return "the model"
     if version == "before":
         return "the nominal model"
-    terms = [to_words(find_term(d.after.problem, key)[0].name) for key in d.named]
+    terms = [to_words(find_term(d.after.posterior, key)[0].name) for key in d.named]
     terms += ["the learned curve"] if d.learned else []
     return f"the model with {' and '.join([', '.join(terms[:-1]), terms[-1]] if len(terms) > 1 else terms)}"
 

@@ -22,7 +22,7 @@ _SLIDING = 1.0
 def list_levels(outcome: Outcome, unit: str) -> tuple[dict[str, StoredArray], dict[str, StoredArray]]:
     """Return median and bounds of the level of the first changing friction that was found, and their times (s)."""
     d = outcome.diagnosis
-    key = next((key for key in d.found if is_changing_friction(*find_term(d.after.problem, key))), None)
+    key = next((key for key in d.found if is_changing_friction(*find_term(d.after.posterior, key))), None)
     if key is None or not len(outcome.draws_after):
         return {}, {}
     time, levels = compute_levels(d, key, outcome.draws_after[:DRAWN])
@@ -41,12 +41,12 @@ def is_changing_friction(term: Term, slots: list[Slot]) -> bool:
 
 def compute_levels(d: SearchResult, key: str, draws: Array) -> tuple[Array, Array]:
     """Return times (points,) of the shown recording and the level (draws, points) of a changing friction."""
-    term, slots = find_term(d.after.problem, key)
+    term, slots = find_term(d.after.posterior, key)
     shown, velocity = d.shown, d.located.missing.velocity
     chosen = np.unique(np.linspace(0, shown.samples - 1, min(POINTS, shown.samples)).astype(int))
     travelled = np.cumsum(np.abs(velocity)) * shown.dt
     values = _list_values(d.after.values, list_physical_keys(d.after), slots, draws)
-    unused = np.zeros(len(d.after.problem.system.model.inputs))
+    unused = np.zeros(len(d.after.posterior.system.model.inputs))
     time = np.asarray(shown.time, dtype=float)[chosen]
     levels = [
         [-term.force(t, 0.0, _SLIDING, unused, (*row, 0.0), (s,)) for t, s in zip(time, travelled[chosen], strict=True)]

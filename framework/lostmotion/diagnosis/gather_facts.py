@@ -48,7 +48,7 @@ EDGE = 1e-3
 def gather_facts(outcome: Outcome, case: CaseFile, said: Sequence[str] = ()) -> Facts:
     """Return the facts of a diagnosis; `said` are the notes on the case and its recordings."""
     d = outcome.diagnosis
-    model, first = d.after.problem.system.model, d.explained.chosen.problem.observations[0]
+    model, first = d.after.posterior.system.model, d.explained.chosen.posterior.observations[0]
     intervals = compute_intervals(d.after, outcome.draws_after)
     unknown, gain = weigh_unknown(d)
     return Facts(
@@ -103,7 +103,7 @@ def find_angle_unit(recordings: Sequence[RecordingSpec]) -> str:
 
 def list_units(d: SearchResult) -> Units:
     """Return the units of the arrays."""
-    if d.after.problem.system.model.motion == "rotation":
+    if d.after.posterior.system.model.motion == "rotation":
         return Units("rad", "rad/s", "N m", "s")
     return Units("m", "m/s", "N", "s")
 
@@ -112,7 +112,7 @@ def describe_drive(d: SearchResult) -> DriveFacts:
     """Return amplitude, unit and frequency of the drive."""
     period = d.shown.period
     return DriveFacts(
-        amplitude=d.after.problem.scales.force,
+        amplitude=d.after.posterior.scales.force,
         unit=list_units(d).force,
         of=d.yardstick,
         frequency=1.0 / (period * d.shown.dt) if period else None,
@@ -125,7 +125,7 @@ def measure_unexplained(d: SearchResult, *, after: bool) -> UnexplainedForce:
     located = d.left if after and d.left else d.located
     rms = float(np.std(located.missing.force))
     significant = d.unexplained if after else bool(d.found or d.unexplained)
-    return UnexplainedForce(significant, rms, list_units(d).force, rms / d.after.problem.scales.force)
+    return UnexplainedForce(significant, rms, list_units(d).force, rms / d.after.posterior.scales.force)
 
 
 def find_position(fit: Fit, observation: Observation) -> BodyPosition | None:
@@ -143,17 +143,17 @@ def _measure_remains(d: SearchResult) -> float:
 def _list_sensors(outcome: Outcome) -> tuple[SensorNoise, ...]:
     """Return the noise of each sensor in the augmented model, with the sentences of its parts."""
     d = outcome.diagnosis
-    problem, theta, motion = d.after.problem, d.after.theta, d.after.problem.system.model.motion
-    first, marked = problem.observations[0], {find_term(d.before.problem, key)[0].at for key in d.quantised}
+    posterior, theta, motion = d.after.posterior, d.after.theta, d.after.posterior.system.model.motion
+    first, marked = posterior.observations[0], {find_term(d.before.posterior, key)[0].at for key in d.quantised}
     rows = []
     for i, (sensor, scale) in enumerate(zip(d.shown.sensors, outcome.after.scales, strict=True)):
-        whole, fitted = problem.measurement(theta, 0, i), problem.find_sensor(0, i).noises
-        slow = problem.noise(theta, 0, i).variance_after(first.samples // 2)
+        whole, fitted = posterior.recordings[0].measurement(theta, i), posterior.recordings[0].sensors[i].noises
+        slow = posterior.recordings[0].noise(theta, i).variance_after(first.samples // 2)
         kind = " + ".join(noise.name for noise in fitted[1:]) or fitted[0].name
         if kind == "white" and sensor.place in marked:
             kind = "quantised"
         words = []
-        for noise, values in zip(fitted, problem.noise_values(theta[None], 0, i), strict=True):
+        for noise, values in zip(fitted, posterior.recordings[0].noise_values(theta[None], i), strict=True):
             p = tuple(values[0].tolist())
             words.append(noise.words(p, compute_variance(noise.covariance(p, first.dt), first, i) / whole))
         rows.append(
@@ -173,14 +173,14 @@ def _list_sensors(outcome: Outcome) -> tuple[SensorNoise, ...]:
 
 def _list_bounds(fit: Fit) -> Iterator[PriorBound]:
     """Yield the parameters of the model that are at a bound of their prior."""
-    for f, at in zip(fit.problem.free, fit.theta, strict=True):
+    for f, at in zip(fit.posterior.space.free, fit.theta, strict=True):
         reach = EDGE * (f.high - f.low)
         if f.physical and "." not in f.parameter and not f.low + reach < at < f.high - reach:
             yield PriorBound(f.key, f.value(f.low if at <= f.low + reach else f.high), f.unit)
 
 
 def _list_candidates(d: SearchResult) -> tuple[CandidateTerm, ...]:
-    explained, system = d.explained, d.explained.nominal.problem.system
+    explained, system = d.explained, d.explained.nominal.posterior.system
     many, nothing = len(list_fitted_keys(system)), explained.nominal.log_evidence
     alone = {next(iter(terms)): fit.log_evidence for terms, fit in explained.fits.items() if len(terms) == 1}
     return tuple(
@@ -205,19 +205,19 @@ def _make_unnamed(d: SearchResult) -> Mechanism | None:
 
 def _make_found(outcome: Outcome, key: str, intervals: Mapping[str, Interval]) -> FoundTerm:
     d = outcome.diagnosis
-    term, slots = find_term(d.after.problem, key)
-    system, known = d.after.problem.system, d.after.problem.known
+    term, slots = find_term(d.after.posterior, key)
+    system, known = d.after.posterior.system, d.after.posterior.known
     held = {s.key: float(known[system.index[s.key]]) for s in slots}
     own = {s.param.name: intervals.get(s.key) or _make_interval(np.full(1, held[s.key]), s.unit) for s in slots}
     parameters, unlocated = own | _compute_derived(outcome, term, held), None
     if key in list_unlocated(d.after):
         medians = {name: i.median for name, i in parameters.items()}
-        unlocated = tuple(list_shifted(term, medians, d.after.problem.scales.length))
+        unlocated = tuple(list_shifted(term, medians, d.after.posterior.scales.length))
     return FoundTerm(
         key=key,
         term=term,
         parameters=parameters,
-        share=float(np.max(np.abs(d.laws[key]))) / d.after.problem.scales.force,
+        share=float(np.max(np.abs(d.laws[key]))) / d.after.posterior.scales.force,
         support=_make_support(d, key, intervals),
         since=estimate_onset(d.after, key),
         place=term.at if term.at in list_other_places(system.model) else "",
@@ -238,9 +238,9 @@ def _make_support(d: SearchResult, key: str, intervals: Mapping[str, Interval]) 
 
 def _list_reaching(d: SearchResult, key: str, intervals: Mapping[str, Interval]) -> Iterator[str]:
     """Yield the amplitudes whose interval, averaged over all explanations, contains the value that does nothing."""
-    problem = d.after.problem
-    slots = sort_slots(problem, key)[0]
-    for group in group_amplitudes(problem, key, slots):
+    posterior = d.after.posterior
+    slots = sort_slots(posterior, key)[0]
+    for group in group_amplitudes(posterior, key, slots):
         own, told = slots[group[0]].param, intervals.get(slots[group[0]].key)
         if len(group) == 1 and told and told.low <= (own.null or 0.0) <= told.high:
             yield own.name
@@ -253,7 +253,7 @@ def _list_moved(d: SearchResult, key: str) -> Iterator[AmplitudeChange]:
     if less is None or key not in whole.terms:
         return
     sds = np.sqrt(np.maximum(np.diag(less.covariance), 0.0))
-    for f, at, sd in zip(less.frame.problem.free[: less.frame.own], less.theta, sds, strict=True):
+    for f, at, sd in zip(less.frame.posterior.space.free[: less.frame.own], less.theta, sds, strict=True):
         owner, _, name = f.key.rpartition(".")
         if owner and not f.log and f.key in whole.values:
             law = to_words(owner.partition("@")[0])
@@ -262,19 +262,19 @@ def _list_moved(d: SearchResult, key: str) -> Iterator[AmplitudeChange]:
 
 def _count_delay(fit: Fit, key: str) -> float | None:
     """Return the delay or the time constant of a channel in samples; None for other terms."""
-    term, slots = find_term(fit.problem, key)
+    term, slots = find_term(fit.posterior, key)
     late = [s for s in slots if s.param.dimension == TIME and s.key in fit.values]
     if term.acts == "motion" or not late:
         return None
-    return abs(fit.values[late[0].key]) / fit.problem.observations[0].dt
+    return abs(fit.values[late[0].key]) / fit.posterior.observations[0].dt
 
 
 def _list_complete(d: SearchResult, key: str) -> Iterator[float]:
     """Yield the share of the recording after which each change is complete."""
-    problem = d.after.problem
-    for slot in find_term(problem, key)[1]:
+    posterior = d.after.posterior
+    for slot in find_term(posterior, key)[1]:
         if slot.param.lasting and slot.param.dimension == TIME and slot.key in d.after.values:
-            first = problem.observations[0]
+            first = posterior.observations[0]
             yield (d.after.values[slot.key] - float(first.time[0])) / (first.samples * first.dt)
 
 
@@ -284,8 +284,8 @@ def list_other_places(model: Machine) -> set[str]:
 
 
 def _acts_on_other_body(d: SearchResult) -> bool:
-    at = {find_term(d.after.problem, key)[0].at for key in d.named}
-    return bool(at & list_other_places(d.after.problem.system.model))
+    at = {find_term(d.after.posterior, key)[0].at for key in d.named}
+    return bool(at & list_other_places(d.after.posterior.system.model))
 
 
 def _name_sensor(d: SearchResult, term: Term) -> str:
@@ -297,10 +297,10 @@ def _name_sensor(d: SearchResult, term: Term) -> str:
 
 def _make_quantised_entry(d: SearchResult, key: str) -> Mechanism:
     """Return the entry of a term that is visible in the stored values: their quantisation."""
-    term, slots = find_term(d.before.problem, key)
+    term, slots = find_term(d.before.posterior, key)
     rows = zip(slots, *d.quantised[key], strict=True)
     channel = next((s.channel for s in d.shown.sensors if s.place == term.at), d.shown.channel)
-    unit = unit_of(channel, d.after.problem.system.model.motion)
+    unit = unit_of(channel, d.after.posterior.system.model.motion)
     own = {s.param.name: Interval(v, v - 1.96 * sd, v + 1.96 * sd, unit) for s, v, sd in rows}
     numbers = {name: attach_unit(rounded(i.median, 3), i.unit) for name, i in own.items()}
     sensor = _name_sensor(d, term)
@@ -321,7 +321,7 @@ def _compute_derived(outcome: Outcome, term: Term, held: Mapping[str, float]) ->
     columns = {key: i for i, key in enumerate(list_physical_keys(after))}
     rows = [[row[columns[k]] if k in columns else value for k, value in held.items()] for row in outcome.draws_after]
     made = np.array([term.derived(tuple(row)) for row in rows])
-    motion = after.problem.system.model.motion
+    motion = after.posterior.system.model.motion
     return {q.name: _make_interval(column, q.unit(motion)) for q, column in zip(term.further, made.T, strict=True)}
 
 

@@ -29,8 +29,9 @@ from lostmotion.evidence.forecast import Forecast, make_forecast
 from lostmotion.inference.fit import Fit
 from lostmotion.likelihood.noise_levels import make_noise_levels
 from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.predict import observe_states
-from lostmotion.likelihood.problem import NOISE, Problem
+from lostmotion.noises import NOISE
 from lostmotion.quantities import quantity_of, unit_of
 from lostmotion.report.words import to_words
 from lostmotion.results import rounded
@@ -65,27 +66,27 @@ def list_improvements(
     nominal: Fit, keys: Sequence[str], allowed: Experiment | None, rng: np.random.Generator
 ) -> tuple[Improvement, ...]:
     """Return the changes that help most, within the limits that a case has for experiments; none without a drive."""
-    observation = nominal.problem.observations[0]
+    observation = nominal.posterior.observations[0]
     if allowed is None or observation.free or not observation.travel:
         return ()
     natural = compute_natural_frequency(nominal)
     usual = choose_limits(observation, natural)
     limits = Limits(allowed.max_level or usual.level, allowed.max_frequency or usual.frequency)
-    samples, static = min(SAMPLES, observation.samples), [key for key in keys if is_static(nominal.problem, key)]
+    samples, static = min(SAMPLES, observation.samples), [key for key in keys if is_static(nominal.posterior, key)]
     model = RehearsedModel.of(nominal)
     first = repeat_drive(observation, samples, natural)
     base = _measure(model, first, static, rng)
     if base is None:
         return ()
     tried = [
-        (_describe_excitation(one, observation, nominal.problem), one, _measure(model, one, static, rng))
+        (_describe_excitation(one, observation, nominal.posterior), one, _measure(model, one, static, rng))
         for one in _choose_excitations(observation, samples, limits, rng)
     ]
     tried += [
         (f"Add a sensor of the {to_words(channel)}", first, _measure(model, first, static, rng, channel))
-        for channel in _list_further_channels(nominal.problem)
+        for channel in _list_further_channels(nominal.posterior)
     ]
-    rows = [_make_improvement(nominal.problem, words, one, seen.compare(base)) for words, one, seen in tried if seen]
+    rows = [_make_improvement(nominal.posterior, words, one, seen.compare(base)) for words, one, seen in tried if seen]
     useful = [row for row in rows if min(row.intervals, row.effects) < WORTH and max(row.intervals, row.effects) < 1.0]
     return tuple(sorted(useful, key=lambda row: row.intervals * row.effects)[:MOST])
 
@@ -108,9 +109,9 @@ def _choose_excitations(
             yield one
 
 
-def _list_further_channels(problem: Problem) -> list[str]:
+def _list_further_channels(posterior: Posterior) -> list[str]:
     """Return the channels of motion that no sensor of a recording shows."""
-    first, model = problem.observations[0], problem.system.model
+    first, model = posterior.observations[0], posterior.system.model
     shown = {sensor.channel for sensor in first.sensors}
     return [c for c in model.channels if c not in shown and quantity_of(c) in ("position", "velocity", "acceleration")]
 
@@ -122,46 +123,46 @@ def _measure(
     z = simulate_recording(model, excitation, rng)
     if z is None:
         return None
-    problem, theta = model.pose(excitation, z), model.get_coordinates(excitation)
+    posterior, theta = model.pose(excitation, z), model.get_coordinates(excitation)
     if channel:
-        problem, theta = _add_sensor(problem, theta, channel, rng)
-    fit = replace(model.fit, problem=problem, local=replace(model.fit.local, theta=theta))
-    return _read_precision(make_forecast(fit, keys, problem.observations))
+        posterior, theta = _add_sensor(posterior, theta, channel, rng)
+    fit = replace(model.fit, posterior=posterior, local=replace(model.fit.local, theta=theta))
+    return _read_precision(make_forecast(fit, keys, posterior.observations))
 
 
 def _read_precision(forecast: Forecast) -> _Precision:
     """Return the expected standard deviations of the physical parameters and of the first amplitudes of terms."""
     found = forecast.found
     sds = np.sqrt(np.maximum(np.diag(found.covariance), 0.0))
-    own = {f.key: float(sd) for f, sd in zip(found.frame.problem.free, sds, strict=False) if f.physical}
+    own = {f.key: float(sd) for f, sd in zip(found.frame.posterior.space.free, sds, strict=False) if f.physical}
     places = {key: forecast.joined.blocks[key].start for key in forecast.effects}
     told = {key: float(forecast.information[place, place]) for key, place in places.items()}
     return _Precision(own, {key: value**-0.5 for key, value in told.items() if value > 0.0})
 
 
-def _add_sensor(problem: Problem, theta: Array, channel: str, rng: np.random.Generator) -> tuple[Problem, Array]:
-    """Return a problem with a second sensor, whose noise is as large a share of its readings as that of the first."""
-    old = problem.observations[0]
-    share = math.sqrt(problem.measurement(theta, 0, 0)) / max(float(np.nanstd(old.readings[:, 0])), 1e-300)
-    states = problem.smooth(theta).filtered
+def _add_sensor(posterior: Posterior, theta: Array, channel: str, rng: np.random.Generator) -> tuple[Posterior, Array]:
+    """Return a posterior with a second sensor, whose noise is as large a share of its readings as that of the first."""
+    old = posterior.observations[0]
+    share = math.sqrt(posterior.recordings[0].measurement(theta, 0)) / max(float(np.nanstd(old.readings[:, 0])), 1e-300)
+    states = posterior.filters[0].smooth(theta).filtered
     sensor = replace(old.sensors[0], channel=channel, name="second", loose=False, noises=old.sensors[0].noises[:1])
     first = replace(old.sensors[0], name=old.sensors[0].label)
-    bare = replace(problem, observations=(replace(old, sensors=(sensor,), readings=old.readings[:, :1]),))
+    bare = replace(posterior, observations=(replace(old, sensors=(sensor,), readings=old.readings[:, :1]),))
     seen = observe_states(bare, theta, states, sensor=0)
     seen = seen + share * float(np.std(seen)) * rng.standard_normal(len(seen))
     both = replace(old, sensors=(first, sensor), readings=np.column_stack([old.readings[:, 0], seen]))
-    levels = make_noise_levels((both,), problem.scales)
-    kept = [i for i, f in enumerate(problem.free) if f.level != NOISE]
+    levels = make_noise_levels((both,), posterior.scales)
+    kept = [i for i, f in enumerate(posterior.space.free) if f.level != NOISE]
     added = [f for f in levels if f.level == NOISE]
     sizes = [share * float(np.nanstd(z)) for z in both.readings.T]
     values = [math.log(size) for f, size in zip(added, sizes, strict=True)]
-    wide = replace(problem, observations=(both,), free=(*(problem.free[i] for i in kept), *added))
+    wide = replace(posterior, observations=(both,)).over((*(posterior.space.free[i] for i in kept), *added))
     return wide, np.concatenate([theta[kept], values])
 
 
-def _describe_excitation(one: Excitation, old: Observation, problem: Problem) -> str:
+def _describe_excitation(one: Excitation, old: Observation, posterior: Posterior) -> str:
     """Return a change of the drive in the imperative."""
-    model = problem.system.model
+    model = posterior.system.model
     unit, low, high = unit_of(model.inputs[old.lead], model.motion), *(rounded(f, 3) for f in one.band)
     if abs(one.level / old.travel - 1.0) > 0.05:
         return f"{'Raise' if one.level > old.travel else 'Lower'} the drive to {rounded(one.level, 3)} {unit}"
@@ -172,8 +173,8 @@ def _describe_excitation(one: Excitation, old: Observation, problem: Problem) ->
     return f"Drive with a {one.waveform} from {low} to {high} Hz"
 
 
-def _make_improvement(problem: Problem, words: str, one: Excitation, ratios: tuple[float, float]) -> Improvement:
-    model, old = problem.system.model, problem.observations[0]
+def _make_improvement(posterior: Posterior, words: str, one: Excitation, ratios: tuple[float, float]) -> Improvement:
+    model, old = posterior.system.model, posterior.observations[0]
     return Improvement(
         change=words,
         waveform=one.waveform,

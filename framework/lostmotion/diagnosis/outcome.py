@@ -38,7 +38,7 @@ def draw_parameters(fit: Fit, rng: np.random.Generator, stretches: Array | None 
 
     Their deviations are multiplied by `stretches`, as `measure_stretches` returns them.
     """
-    free = fit.problem.free
+    free = fit.posterior.space.free
     theta = draw_posterior(fit, rng, DRAWS)
     if stretches is not None:
         theta = stretch_draws(fit, theta, stretches)
@@ -49,7 +49,7 @@ def draw_parameters(fit: Fit, rng: np.random.Generator, stretches: Array | None 
 
 def compute_intervals(fit: Fit, draws: Array) -> dict[str, Interval]:
     """Return median and central 95 % interval of each physical parameter."""
-    units = {f.key: f.unit for f in fit.problem.free}
+    units = {f.key: f.unit for f in fit.posterior.space.free}
     low, median, high = np.quantile(draws, [0.025, 0.5, 0.975], axis=0)
     keys = list_physical_keys(fit)
     return {k: Interval(float(median[i]), float(low[i]), float(high[i]), units[k]) for i, k in enumerate(keys)}

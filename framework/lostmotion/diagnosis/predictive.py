@@ -60,12 +60,12 @@ def _draw_near(fit: Fit) -> Array:
     if not np.all(np.isfinite(fit.local.covariance)):
         return fit.theta[None]
     noise = np.random.default_rng(0).standard_normal((DRAWS, len(fit.theta)))
-    return np.vstack([fit.theta, fit.problem.clip(fit.theta + noise @ compute_root(fit.local.covariance).T)])
+    return np.vstack([fit.theta, fit.posterior.space.clip(fit.theta + noise @ compute_root(fit.local.covariance).T)])
 
 
 def _compute_log_densities(fit: Fit, piece: HeldOutStretch, thetas: Array) -> Array:
     """Return the log densities of one-step predictions (points, held-out samples), of all sensors together."""
-    seen = fit.problem.on((piece.observation,)).filter_many(thetas)
+    seen = fit.posterior.on((piece.observation,)).innovations(thetas)
     with np.errstate(invalid="ignore", divide="ignore"):
         each = -0.5 * (seen.errors**2 / seen.variances + np.log(2.0 * np.pi * seen.variances))
     samples = np.sum(each.reshape(len(thetas), piece.observation.samples, -1), axis=2)

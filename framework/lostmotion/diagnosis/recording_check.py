@@ -18,7 +18,7 @@ from lostmotion.diagnosis.write_result import label_model
 from lostmotion.errors import DataError
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.random_force import compute_random_force_gain
-from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
+from lostmotion.inference.setup import make_posterior, search_maximum, split_heldout
 from lostmotion.inference.stretches import cut_stretches
 from lostmotion.kernels.threads import hold_linear_algebra
 from lostmotion.likelihood.stepped import make_system
@@ -71,8 +71,8 @@ def check_prepared(
     recordings = cut_rest(prepared.observations, settings.heldout)
     train, _ = split_heldout(recordings, settings.heldout)
     say("fit of the nominal model")
-    problem = make_problem(system, case, train, jobs=jobs, settings=settings)
-    nominal = search_maximum(cut_stretches(problem) if problem.samples > MOST else problem, rng)
+    posterior = make_posterior(system, case, train, jobs=jobs, settings=settings)
+    nominal = search_maximum(cut_stretches(posterior) if posterior.samples > MOST else posterior, rng)
     say("what the recording can tell")
     forecast = forecast_recordings(nominal, recordings, rng)
     if not forecast.valid:
@@ -103,7 +103,7 @@ def _write_notes(nominal: Fit, improvements: tuple[Improvement, ...], *, free: b
         "Intervals and sizes suppose that the nominal model is right, and that the drive has its usual noise of a"
         " thousandth. Sizes are those of one missing term, present from the beginning."
     ]
-    if compute_random_force_gain(nominal) > nominal.problem.settings.locate.significant:
+    if compute_random_force_gain(nominal) > nominal.posterior.settings.locate.significant:
         notes.insert(
             0,
             "The nominal model leaves a force that the usual noise of the drive does not explain: something is missing,"

@@ -53,9 +53,9 @@ def propose_experiments(
     if not heaviest:
         return {}
     chosen = fits[frozenset(one.key for one in facts.found)]
-    if allowed is None or chosen.problem.observations[0].free:
+    if allowed is None or chosen.posterior.observations[0].free:
         return {key: None for key, _ in heaviest}
-    usual = choose_limits(chosen.problem.observations[0], compute_natural_frequency(chosen))
+    usual = choose_limits(chosen.posterior.observations[0], compute_natural_frequency(chosen))
     limits = Limits(allowed.max_level or usual.level, allowed.max_frequency or usual.frequency)
     return {
         key: propose(chosen, fits[terms], limits=limits, rng=rng, say=lambda step, key=key: say(f"{key}: {step}"))  # type: ignore[misc]

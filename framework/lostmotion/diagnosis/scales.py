@@ -20,7 +20,7 @@ from lostmotion.case import CaseFile
 from lostmotion.contracts import Array
 from lostmotion.errors import DataError
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.setup import make_problem, search_maximum
+from lostmotion.inference.setup import make_posterior, search_maximum
 from lostmotion.likelihood.latent import smooth_latent_force
 from lostmotion.likelihood.observation import Observation, find_harmonic
 from lostmotion.quantities import quantity_of
@@ -91,7 +91,7 @@ def describe_wrong_scale(nominal: Fit, case: CaseFile, rng: np.random.Generator)
 
     `nominal` is the fit of the model alone. Free motions have no drive to compare with, and are not examined.
     """
-    observations = nominal.problem.observations
+    observations = nominal.posterior.observations
     if observations[0].free or not (before := _measure_missing(nominal)) > LARGE:
         return ()
     tried = [_try_scale(nominal, case, scaled, rng.spawn(1)[0]) for scaled in _list_scales(nominal)]
@@ -122,9 +122,9 @@ def describe_wrong_sign(recordings: Iterable[Recording]) -> tuple[str, ...]:
 
 def _try_scale(nominal: Fit, case: CaseFile, scaled: _Scaled, rng: np.random.Generator) -> _Trial:
     """Return the fit of the model with a channel multiplied by a factor."""
-    problem, observations = nominal.problem, nominal.problem.observations
-    changed = make_problem(
-        problem.system, case, tuple(map(scaled.apply, observations)), jobs=problem.jobs, settings=problem.settings
+    posterior, observations = nominal.posterior, nominal.posterior.observations
+    changed = make_posterior(
+        posterior.system, case, tuple(map(scaled.apply, observations)), jobs=posterior.jobs, settings=posterior.settings
     )
     try:
         fit = search_maximum(changed, rng)
@@ -150,14 +150,14 @@ def _refine_ratio(nominal: Fit, case: CaseFile, scaled: _Scaled, seed: int) -> _
 def _measure_missing(fit: Fit) -> float:
     """Return the rms of the missing force of a fit, as a share of the drive; infinite where the fit diverged."""
     with np.errstate(invalid="ignore", over="ignore"):  # a model with a wrong scale may diverge
-        missing = smooth_latent_force(fit.problem.on(fit.problem.observations[:1]), fit.theta).force
-    size = float(np.std(missing)) / fit.problem.scales.force
+        missing = smooth_latent_force(fit.posterior.on(fit.posterior.observations[:1]), fit.theta).force
+    size = float(np.std(missing)) / fit.posterior.scales.force
     return size if math.isfinite(size) else math.inf
 
 
 def _list_scales(nominal: Fit) -> Iterator[_Scaled]:
     """Yield the channels with each factor that is usual for their quantity."""
-    first, model = nominal.problem.observations[0], nominal.problem.system.model
+    first, model = nominal.posterior.observations[0], nominal.posterior.system.model
     rotates = model.motion == "rotation"
     inputs = [name for name in model.inputs if name in (first.driven or ())]
     for name in inputs:
@@ -170,7 +170,7 @@ def _list_scales(nominal: Fit) -> Iterator[_Scaled]:
 
 def _list_ratios(nominal: Fit) -> Iterator[_Scaled]:
     """Yield the ratio of the measured position to the position of a base that drives the machine."""
-    first, inputs = nominal.problem.observations[0], nominal.problem.system.model.inputs
+    first, inputs = nominal.posterior.observations[0], nominal.posterior.system.model.inputs
     if "base_position" in inputs and "base_position" in (first.driven or ()):
         number = inputs.index("base_position")
         if ratio := _find_ratio(first, number):

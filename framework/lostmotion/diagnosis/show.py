@@ -63,7 +63,7 @@ def measure_behaviour(
         for name, (prediction, _) in both.items()
     }
     prediction, fit = both.get("after", both["before"])
-    noises = [math.sqrt(fit.problem.measurement(fit.theta, 0, i)) for i in range(len(prediction.scales))]
+    noises = [math.sqrt(fit.posterior.recordings[0].measurement(fit.theta, i)) for i in range(len(prediction.scales))]
     floor = NoiseFloor(
         heldout_log_score=prediction.expected_score,
         free_run_error=float(np.mean(np.divide(noises, prediction.scales))),
@@ -109,7 +109,7 @@ def measure_attractors(
         return refused
     models = {"before": (outcome.before, d.before)} | ({"after": (outcome.after, d.after)} if d.found else {})
     runs = {
-        name: observe_states(fit.problem.on((d.shown,)), fit.theta, states[name]) for name, (_, fit) in models.items()
+        name: observe_states(fit.posterior.on((d.shown,)), fit.theta, states[name]) for name, (_, fit) in models.items()
     }
     motions = Motions(
         states=states,
@@ -117,7 +117,7 @@ def measure_attractors(
         exponents={name: prediction.exponent for name, (prediction, _) in models.items()},
         dt=d.shown.dt,
         period=d.shown.period,
-        noise=math.sqrt(d.after.problem.measurement(d.after.theta)),
+        noise=math.sqrt(d.after.posterior.recordings[0].measurement(d.after.theta)),
     )
     measured: Attractors = registry.function(MEASURE, ATTRACTORS)(motions, registry, rng)
     return measured

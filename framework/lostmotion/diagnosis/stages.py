@@ -30,13 +30,13 @@ from lostmotion.inference.locate import (
 )
 from lostmotion.inference.odds import LikelihoodRatio, compute_log_ratios, list_likely
 from lostmotion.inference.random_force import compute_random_force_gain
-from lostmotion.inference.setup import choose_steps, make_problem, polish_fit, search_maximum, split_heldout
+from lostmotion.inference.setup import choose_steps, make_posterior, polish_fit, search_maximum, split_heldout
 from lostmotion.inference.shares import Covariate, Share, compute_shares, list_significant
 from lostmotion.inference.unexplained import CurveSearch, UnknownForce
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.latent import LatentForce, smooth_latent_force
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.system import System
 from lostmotion.settings import DEFAULT, LocateSettings, Settings
 
@@ -118,12 +118,12 @@ class SearchResult:
     @property
     def settings(self) -> Settings:
         """The thresholds that were used."""
-        return self.before.problem.settings
+        return self.before.posterior.settings
 
     @property
     def found(self) -> tuple[str, ...]:
         """The keys of the missing terms that were found, most probable first; learned curves come last."""
-        return tuple(sorted(self.after.problem.active, key=lambda k: -self.explained.inclusion(k)))
+        return tuple(sorted(self.after.posterior.active, key=lambda k: -self.explained.inclusion(k)))
 
     @property
     def named(self) -> tuple[str, ...]:
@@ -175,10 +175,10 @@ def diagnose(
     train, held = split_heldout(observations, settings.heldout)
     _check_moving(held)
     say("fit of the nominal model")
-    nominal = search_maximum(make_problem(system, case, train, jobs=jobs, settings=settings), rng)
+    nominal = search_maximum(make_posterior(system, case, train, jobs=jobs, settings=settings), rng)
     scale = describe_wrong_scale(nominal, case, rng.spawn(1)[0])
     pieces = [(piece.observation, piece.begin) for piece in cut_heldout(observations, held)]
-    course = Course(list_fitted_keys(system), pieces, choose_budget(nominal.problem), say)
+    course = Course(list_fitted_keys(system), pieces, choose_budget(nominal.posterior), say)
     explained = course.find_explanations(nominal)
     first = SearchResult(
         nominal, nominal, explained, held[0], _NOT_LOCATED, None, _EMPTY, {}, {}, 0.0, train, held, tuple(observations)
@@ -186,12 +186,12 @@ def diagnose(
     return explain_by(explained, replace(first, scale=scale), rng.spawn(1)[0], say)
 
 
-def choose_budget(problem: Problem) -> Budget:
+def choose_budget(posterior: Posterior) -> Budget:
     """Return the budget of a search: `select.budget`, or work in proportion to the readings and the states."""
-    if problem.settings.select.budget:
-        return Budget(seconds=problem.settings.select.budget)
-    readings = problem.samples * len(problem.observations[0].sensors)
-    return Budget(steps=STEPS * (1.0 + readings * problem.running.states / PER))
+    if posterior.settings.select.budget:
+        return Budget(seconds=posterior.settings.select.budget)
+    readings = posterior.samples * len(posterior.observations[0].sensors)
+    return Budget(steps=STEPS * (1.0 + readings * posterior.dynamics.states / PER))
 
 
 def explain_by(
@@ -205,11 +205,11 @@ def explain_by(
     before = polish_fit(corrections.refit(explained.nominal))
     shown = held[0]
     if len(recordings) == 1:
-        shown = replace(recordings[0], begun=before.problem.observations[0].begun)
+        shown = replace(recordings[0], begun=before.posterior.observations[0].begun)
     chosen = corrections.refit(explained.chosen)
     after, learned = polish_fit(chosen) if explained.terms else before, None
     if UNKNOWN in explained.best.terms or _leaves_force(explained, before):
-        curves = CurveSearch(len(list_fitted_keys(after.problem.system)), say)
+        curves = CurveSearch(len(list_fitted_keys(after.posterior.system)), say)
         learned = curves.unknown(corrections.refit(explained.nominal), chosen)
     if learned is not None:
         after = polish_fit(learned.fit)
@@ -244,7 +244,7 @@ def _leaves_force(explained: Explanations, before: Fit) -> bool:
     """
     if explained.terms or frozenset({UNKNOWN}) in explained.refuted:
         return False
-    return compute_random_force_gain(before) > before.problem.settings.locate.significant
+    return compute_random_force_gain(before) > before.posterior.settings.locate.significant
 
 
 def _check_moving(held: Sequence[Observation]) -> None:
@@ -264,14 +264,14 @@ def find_quantised(fit: Fit, observations: Sequence[Observation]) -> dict[str, t
     `observations` are the recordings of the fit as they were stored: corrected values are no multiples of a step.
     """
     found: dict[str, tuple[Values, Values]] = {}
-    for key, term in fit.problem.system.channel_terms.items():
+    for key, term in fit.posterior.system.channel_terms.items():
         if not isinstance(term, SensorTerm) or not term.marked:
             continue
         for i, sensor in enumerate(observations[0].sensors):
             if sensor.place == term.at and not sensor.quantised:
-                noise = max(fit.problem.measurement(fit.theta, k, i) for k in range(len(observations)))
+                noise = max(fit.posterior.recordings[k].measurement(fit.theta, i) for k in range(len(observations)))
                 seen = [term.quantisation(observation.readings[:, i]) for observation in observations]
-                least = fit.problem.settings.locate.quantisation * noise
+                least = fit.posterior.settings.locate.quantisation * noise
                 if all(p for p, _ in seen) and term.scatter(seen[0][0]) ** 2 > least:
                     found[key] = seen[0]
     return found
@@ -284,12 +284,12 @@ _NOT_LOCATED = ForceLocation(LatentForce(_EMPTY, _EMPTY, np.zeros((0, 2)), 0.0, 
 def _locate_forces(bare: SearchResult, rng: np.random.Generator) -> SearchResult:
     """Return the diagnosis with the missing force located, without the found terms and with them."""
     after, shown = bare.after, bare.shown
-    refined = choose_steps(after.problem, after.theta).on((shown,))
-    model, plays, limits = after.problem.system.model, list_half_gaps(refined, after.theta), bare.settings.locate
+    refined = choose_steps(after.posterior, after.theta).on((shown,))
+    model, plays, limits = after.posterior.system.model, list_half_gaps(refined, after.theta), bare.settings.locate
     of_left, of_all = rng, rng.spawn(1)[0]
 
-    def locate_one(problem: Problem, theta: Array, chance: np.random.Generator, fit: Fit) -> ForceLocation:
-        missing = smooth_latent_force(problem, theta)
+    def locate_one(posterior: Posterior, theta: Array, chance: np.random.Generator, fit: Fit) -> ForceLocation:
+        missing = smooth_latent_force(posterior, theta)
         return locate(
             model, shown, missing, plays=plays, rng=chance, odds=lambda: compute_log_ratios(fit), limits=limits
         )
@@ -306,15 +306,15 @@ def _locate_forces(bare: SearchResult, rng: np.random.Generator) -> SearchResult
     return replace(bare, located=located, left=left, law=law, laws=laws, law_curves=curves)
 
 
-def remove_terms(problem: Problem, theta: Array) -> tuple[Problem, Array]:
-    """Return a problem without its terms and otherwise unchanged, and its coordinates."""
-    kept = [i for i, f in enumerate(problem.free) if "." not in f.parameter]
-    return replace(problem, free=tuple(problem.free[i] for i in kept), active=frozenset()), theta[kept]
+def remove_terms(posterior: Posterior, theta: Array) -> tuple[Posterior, Array]:
+    """Return a posterior without its terms and otherwise unchanged, and its coordinates."""
+    kept = [i for i, f in enumerate(posterior.space.free) if "." not in f.parameter]
+    return posterior.over(posterior.space.free[i] for i in kept).acting(()), theta[kept]
 
 
-def list_half_gaps(problem: Problem, theta: Array) -> dict[str, float]:
+def list_half_gaps(posterior: Posterior, theta: Array) -> dict[str, float]:
     """Return the half gap (m or rad) at each place of the model that has one."""
-    full, system = problem.full(theta), problem.system
+    full, system = posterior.recordings[0].full(theta), posterior.system
     return {i.name: float(full[system.index[i.play]]) for i in system.model.places if i.play}
 
 
@@ -351,22 +351,24 @@ def locate(
 
 def compute_force(fit: Fit, observation: Observation, states: Array, key: str) -> Array:
     """Return the force (samples,) of one term of a fit along the smoothed `states` of a recording."""
-    problem = fit.problem.on((observation,))
-    system, drive, full = problem.system, problem.drive(0, fit.theta), problem.full(fit.theta)
-    packed = system.pack(full[None], drive.dt / problem.nsub, drive.harmonic)
+    posterior = fit.posterior.on((observation,))
+    system, recording = posterior.system, posterior.recordings[0]
+    full = recording.full(fit.theta)
+    drive = recording.drive(full)
+    packed = posterior.dynamics.pack(full[None], drive)
     times: Array = np.asarray(drive.begin + np.arange(len(states)) * drive.dt, dtype=float)
-    seen, inputs = states[:, : problem.running.states], drive.inputs[: len(states)]
+    seen, inputs = states[:, : posterior.dynamics.states], drive.inputs[: len(states)]
     if key not in system.channel_terms:
-        return system.compute_force(key, problem.active, packed, (seen, inputs, times))
-    other = replace(problem, active=problem.active - {key}).drive(0, fit.theta).inputs[: len(states)]
-    both = (system.compute_derivatives(problem.active, packed, seen, u, times)[0] for u in (inputs, other))
+        return system.compute_force(key, posterior.active, packed, (seen, inputs, times))
+    other = posterior.acting(posterior.active - {key}).recordings[0].drive(full).inputs[: len(states)]
+    both = (system.compute_derivatives(posterior.active, packed, seen, u, times)[0] for u in (inputs, other))
     with_term, without = (system.accelerate(rates, system.model.first_place) for rates in both)
     return np.asarray((with_term - without) * system.own_inertia(full, system.model.first_place))
 
 
 def list_physical_keys(fit: Fit) -> list[str]:
     """Return the keys of the physical parameters of a fit, without noise levels and coefficients of curves."""
-    system = fit.problem.system
+    system = fit.posterior.system
     curves = tuple(f"{k}." for k, t in zip(system.keys, system.terms, strict=True) if isinstance(t, LearnedTerm))
-    physical = [f.key for f in fit.problem.free if f.physical]
+    physical = [f.key for f in fit.posterior.space.free if f.physical]
     return [k for k in physical if not (curves and k.startswith(curves))]

@@ -9,7 +9,7 @@ from dataclasses import replace
 from lostmotion.contracts import Term
 from lostmotion.diagnosis.facts import Doubt, Facts, FoundTerm, doubt, write_doubts
 from lostmotion.evidence.hypothesis import UNKNOWN
-from lostmotion.inference.penalties import is_simpler
+from lostmotion.inference.penalties import is_simpler, weigh_rarity
 from lostmotion.report.words import sentence, to_words
 from lostmotion.results import attach_unit, percent, rounded
 from lostmotion.results.diagnosis import Mechanism, OpenTerm
@@ -159,7 +159,7 @@ def list_doubts(facts: Facts, found: FoundTerm) -> tuple[str, ...]:
 
     Only terms that are rare, or act on a channel, are doubted because they change the amplitudes of others.
     """
-    imitates = found.term.unlikely > 0.0 or found.term.acts != "motion"
+    imitates = weigh_rarity(found.term) > 0.0 or found.term.acts != "motion"
     rules = (*WEAK, *((doubt_moved_amplitudes,) if imitates else ()), doubt_early_change)
     return write_doubts(rules, facts, found)
 

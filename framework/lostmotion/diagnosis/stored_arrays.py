@@ -55,13 +55,13 @@ def list_arrays(
 
 def _list_units(fit: Fit) -> list[str]:
     """Return the SI unit of each physical parameter of a fit."""
-    units = {free.key: free.unit for free in fit.problem.free}
+    units = {free.key: free.unit for free in fit.posterior.space.free}
     return [units[key] for key in list_physical_keys(fit)]
 
 
 def name_units(d: SearchResult) -> dict[str, str]:
     """Return the SI units of position, velocity, acceleration and force in the model of a diagnosis."""
-    if d.after.problem.system.model.motion == "rotation":
+    if d.after.posterior.system.model.motion == "rotation":
         return {"position": "rad", "velocity": "rad/s", "acceleration": "rad/s^2", "force": "N m"}
     return {"position": "m", "velocity": "m/s", "acceleration": "m/s^2", "force": "N"}
 
@@ -69,7 +69,7 @@ def name_units(d: SearchResult) -> dict[str, str]:
 def _list_series(outcome: Outcome) -> dict[str, StoredArray]:
     d, units = outcome.diagnosis, name_units(outcome.diagnosis)
     shown, missing = d.shown, d.located.missing
-    model = d.after.problem.system.model
+    model = d.after.posterior.system.model
     seen = unit_of(shown.channel, model.motion)
     heldout = np.ones(shown.samples)
     if shown.samples > d.held[0].samples:
@@ -101,7 +101,7 @@ def _list_series(outcome: Outcome) -> dict[str, StoredArray]:
 def _list_further_sensors(outcome: Outcome) -> dict[str, StoredArray]:
     """Return readings and predictions of the second and further sensors: `response_2`, `forecast_before_2`, ..."""
     d, time, table = outcome.diagnosis, ("time",), {}
-    motion = d.after.problem.system.model.motion
+    motion = d.after.posterior.system.model.motion
     for i, sensor in enumerate(d.shown.sensors[1:], start=1):
         unit = unit_of(sensor.channel, motion)
         table[f"response_{i + 1}"] = StoredArray(time, d.shown.readings[:, i], unit, f"recorded {sensor.label}")

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.diagnosis.compare import SEGMENT
 from lostmotion.errors import CaseError, ContractError, nearest
-from lostmotion.inference.setup import choose_steps, make_problem
+from lostmotion.inference.setup import choose_steps, make_posterior
 from lostmotion.likelihood.noise_levels import LEVELS_TRIED, compute_random_level
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.predict import choose_horizon, forecast_pieces
-from lostmotion.likelihood.problem import RANDOM, Problem
 from lostmotion.likelihood.sensors import Sensor
+from lostmotion.likelihood.space import RANDOM
 from lostmotion.likelihood.stepped import make_system
 from lostmotion.preparation.prepare import Prepared
 from lostmotion.settings import DEFAULT, Settings
@@ -43,7 +44,7 @@ class TriedPrediction:
 class TriedModel:
     """The model of a case with all terms that can act in it, on one of its recordings."""
 
-    problem: Problem
+    posterior: Posterior
 
     @classmethod
     def of(cls, prepared: Prepared, *, number: int = 0, end: bool = False, settings: Settings = DEFAULT) -> TriedModel:
@@ -55,14 +56,14 @@ class TriedModel:
         first = max(observation.samples - MOST, 0) if end else 0
         part = observation.part(first, min(first + MOST, observation.samples))
         system = make_system(prepared.model, prepared.terms)
-        problem = make_problem(system, prepared.case, (part,), jobs=1, settings=settings)
-        levels = tuple(free for free in problem.free if not free.physical)
-        return cls(replace(problem, free=levels))
+        posterior = make_posterior(system, prepared.case, (part,), jobs=1, settings=settings)
+        levels = tuple(free for free in posterior.space.free if not free.physical)
+        return cls(posterior.over(levels))
 
     @property
     def values(self) -> dict[str, float]:
         """The values (SI) of the parameters of the model, those to be estimated at the middle of their priors."""
-        system, known = self.problem.system, self.problem.known
+        system, known = self.posterior.system, self.posterior.known
         return {slot.key: float(known[system.index[slot.key]]) for slot in system.slots if slot.term is None}
 
     def predict(
@@ -78,14 +79,14 @@ class TriedModel:
         It begins `begin` s after the first sample, and restarts after `every` s, or by default after some cycles of
         the motion. Raises `CaseError` for a name that the model does not have.
         """
-        problem = self._set_values(values, terms)
-        observation = problem.observations[0]
+        posterior = self._set_values(values, terms)
+        observation = posterior.observations[0]
         first = min(max(round(begin / observation.dt), 0), observation.samples - 2)
-        cycle = choose_horizon(observation, float("nan"), problem.scales.time).unit_time
+        cycle = choose_horizon(observation, float("nan"), posterior.scales.time).unit_time
         length = max(round((SEGMENT * cycle if every is None else every) / observation.dt), 2)
-        theta = self._choose_level(problem)
-        states = problem.smooth(theta).filtered[:, : problem.running.states]
-        predicted, restarts = forecast_pieces(problem, theta, states, first, length)
+        theta = self._choose_level(posterior)
+        states = posterior.filters[0].smooth(theta).filtered[:, : posterior.dynamics.states]
+        predicted, restarts = forecast_pieces(posterior, theta, states, first, length)
         off = predicted - observation.readings
         scale = np.nanstd(observation.readings[first:], axis=0)
         with np.errstate(over="ignore"):  # a free run may diverge: its error is infinite then
@@ -93,8 +94,8 @@ class TriedModel:
         at = observation.time[restarts > 0.0]
         return TriedPrediction(observation.time, observation.readings, predicted, at, errors, observation.sensors)
 
-    def _set_values(self, values: Mapping[str, float], terms: Collection[str]) -> Problem:
-        system = self.problem.system
+    def _set_values(self, values: Mapping[str, float], terms: Collection[str]) -> Posterior:
+        system = self.posterior.system
         for key in terms:
             if key not in system.keys:
                 raise CaseError(f"no term {key!r} can act in this case{nearest(key, system.keys)}")
@@ -102,15 +103,15 @@ class TriedModel:
             held = {system.slot(name).key: value for name, value in values.items()}
         except ContractError as err:
             raise CaseError(str(err)) from err
-        problem = replace(self.problem.hold_values(held), active=frozenset(terms))
-        return choose_steps(problem, problem.start)
+        posterior = self.posterior.hold_values(held).acting(terms)
+        return choose_steps(posterior, posterior.space.start)
 
-    def _choose_level(self, problem: Problem) -> Array:
+    def _choose_level(self, posterior: Posterior) -> Array:
         """Return the coordinates with the most likely of some levels of the random force: the filter follows then."""
-        tried = np.repeat(problem.start[None], len(LEVELS_TRIED), axis=0)
-        random = [free.parameter == RANDOM for free in problem.free]
+        tried = np.repeat(posterior.space.start[None], len(LEVELS_TRIED), axis=0)
+        random = [free.parameter == RANDOM for free in posterior.space.free]
         for row, share in zip(tried, LEVELS_TRIED, strict=True):
-            row[random] = compute_random_level(problem.observations, problem.scales, share)
-        tried = problem.clip(tried)
-        chosen: Array = tried[int(np.argmax(problem.log_likelihoods(tried)))]
+            row[random] = compute_random_level(posterior.observations, posterior.scales, share)
+        tried = posterior.space.clip(tried)
+        chosen: Array = tried[int(np.argmax(posterior.log_likelihood(tried)))]
         return chosen

@@ -24,7 +24,7 @@ from lostmotion.inference.proposal import Axis, propose_formula
 from lostmotion.inference.shares import SURROGATES
 from lostmotion.inference.surfaces import OverHistory, Surface
 from lostmotion.inference.unexplained import UnknownForce
-from lostmotion.likelihood.problem import RANDOM
+from lostmotion.likelihood.space import RANDOM
 from lostmotion.quantities import LENGTH, NUMBER, SPEED, TIME, Dimension
 from lostmotion.report.words import to_words
 from lostmotion.results import Interval, join_names, percent, rounded
@@ -58,7 +58,7 @@ def make_learned_entry(d: SearchResult) -> Mechanism:
     unit = _find_unit(d, Dimension(1, 0, 0))
     size = Interval(rms, max(rms - BAND * sd, 0.0), rms + BAND * sd, unit)
     depends = list_covariates(unknown.terms)
-    share = rms / d.after.problem.scales.force
+    share = rms / d.after.posterior.scales.force
     size_of = f"{rounded(rms, 3)} {unit} rms, {percent(share)} of {d.yardstick}"
     alike, share_of_likeness, looks = _compare_with_library(d)
     probability, log_odds = weigh_unknown(d)
@@ -89,12 +89,12 @@ def _compare_with_library(d: SearchResult) -> tuple[tuple[LookAlike, ...], float
     if d.learned is None or d.left is None:
         return (), None, ""
     force = np.sum([d.laws[key] for key in d.learned.keys], axis=0)
-    problem = d.after.problem.on((d.shown,))
-    found = find_likeness(problem, d.after.theta, d.left.missing.states, force)
+    posterior = d.after.posterior.on((d.shown,))
+    found = find_likeness(posterior, d.after.theta, d.left.missing.states, force)
     if found is None:
         return (), None, ""
-    terms = [find_term(problem, key)[0] for key in found.keys]
-    several = len(problem.system.model.places) > 1
+    terms = [find_term(posterior, key)[0] for key in found.keys]
+    several = len(posterior.system.model.places) > 1
     names = [to_words(term.name) + (f" at {term.at}" if several else "") for term in terms]
     alike = tuple(LookAlike(term.name, term.at) for term in terms)
     return alike, found.share, f", looks like {' and '.join(names)} ({percent(found.share)} of its variance)"
@@ -105,7 +105,7 @@ def make_unnamed_entry(d: SearchResult) -> Mechanism:
     located = d.left or d.located
     depends = [] if d.found else located.structure
     visible, unit = float(np.std(located.missing.force)), _find_unit(d, Dimension(1, 0, 0))
-    share = f"{percent(visible / d.after.problem.scales.force)} of {d.yardstick}"
+    share = f"{percent(visible / d.after.posterior.scales.force)} of {d.yardstick}"
     if depends:
         size = Interval(visible, math.nan, math.nan, unit, withheld=NO_INTERVAL)
         says = f"A force of {rounded(visible, 3)} {unit} rms, {share}, is missing; no term explains it; it depends on"
@@ -132,7 +132,9 @@ def _compute_random_size(fit: Fit, dt: float, unit: str) -> Interval:
     White noise of intensity I has a variance of I / dt in this band. Where each recording has a random force of its
     own, it is the largest.
     """
-    at = max((i for i, f in enumerate(fit.problem.free) if f.parameter == RANDOM), key=lambda i: float(fit.theta[i]))
+    at = max(
+        (i for i, f in enumerate(fit.posterior.space.free) if f.parameter == RANDOM), key=lambda i: float(fit.theta[i])
+    )
     half = BAND * math.sqrt(max(float(fit.local.covariance[at, at]), 0.0))
     middle, low, high = (math.exp(0.5 * (float(fit.theta[at]) + shift)) for shift in (0.0, -half, half))
     root = math.sqrt(dt)
@@ -140,7 +142,7 @@ def _compute_random_size(fit: Fit, dt: float, unit: str) -> Interval:
 
 
 def _find_unit(d: SearchResult, dimension: Dimension) -> str:
-    return dimension.unit(d.after.problem.system.model.motion)
+    return dimension.unit(d.after.posterior.system.model.motion)
 
 
 def _compute_size(d: SearchResult, keys: Sequence[str], bands: Sequence[Band]) -> tuple[float, float]:
@@ -176,8 +178,8 @@ def _make_curve(d: SearchResult, key: str, band: Band) -> LearnedCurve:
         seen = tuple(map(tuple, _mark_visited(d, band, term).tolist()))
         curve = replace(curve, over_too=term.beside, unit_too=unit, at_too=at_too, visited=seen)
     if isinstance(term, OverHistory):
-        problem = d.after.problem
-        curve = replace(curve, forgets_in=float(problem.known[problem.system.index[f"{key}.time"]]))
+        posterior = d.after.posterior
+        curve = replace(curve, forgets_in=float(posterior.known[posterior.system.index[f"{key}.time"]]))
     return curve
 
 
@@ -190,10 +192,10 @@ def _make_cells(band: Band, values: Array) -> tuple[Cells, ...]:
 
 def _mark_visited(d: SearchResult, band: Band, term: Surface) -> Array:
     """Return which cells (points, points) of the grid of a surface the motion visited, with their neighbours."""
-    problem, beside = d.after.problem, np.asarray(band.beside)
-    place = place_of(problem.system.model, term)
+    posterior, beside = d.after.posterior, np.asarray(band.beside)
+    place = place_of(posterior.system.model, term)
     seen = np.zeros((len(band.at), len(beside)), dtype=bool)
-    for motion, observation in zip(smooth_motions(d.after, [place])[place.name], problem.observations, strict=True):
+    for motion, observation in zip(smooth_motions(d.after, [place])[place.name], posterior.observations, strict=True):
         second = (
             motion[1] if term.beside == "velocity" else observation.time * observation.harmonic.omega / math.tau % 1.0
         )
@@ -220,7 +222,7 @@ def _make_proposal(d: SearchResult, bands: list[Band]) -> ProposedFormula:
 def _find_formula(d: SearchResult, band: Band) -> tuple[str, float] | None:
     if band.beside is not None or band.term.over == "history":
         return None
-    axis = Axis(*OVER[band.term.over], band.term.params[0].dimension, d.after.problem.system.model.motion)
+    axis = Axis(*OVER[band.term.over], band.term.params[0].dimension, d.after.posterior.system.model.motion)
     found = propose_formula(band.at, band.mean, band.covariance, axis, d.settings.unknown)
     if found is None:
         return None

@@ -9,7 +9,7 @@ from dataclasses import replace
 from lostmotion.diagnosis.stages import SearchResult
 from lostmotion.inference.natural import find_term
 from lostmotion.inference.sharing import ComparedParameter, SharedValues, compare_recordings
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.quantities import unit_of
 from lostmotion.report.words import chance, figures, sentence, to_words
 from lostmotion.results import Interval
@@ -38,15 +38,15 @@ def add_sharing(d: SearchResult, found: Sequence[Mechanism]) -> tuple[tuple[Mech
     sharing = compare_recordings(d.after)
     if sharing is None:
         return tuple(found), _describe_single(len(d.train) + len(d.held))
-    problem = d.after.problem
+    posterior = d.after.posterior
     terms = dict(enumerate(d.named))
     entries = [
-        _extend_entry(entry, terms[i], problem, sharing) if i in terms else entry for i, entry in enumerate(found)
+        _extend_entry(entry, terms[i], posterior, sharing) if i in terms else entry for i, entry in enumerate(found)
     ]
     if sharing.released:
-        doubt = _describe_released(sharing, problem)
+        doubt = _describe_released(sharing, posterior)
         entries = [replace(e, doubts=(*e.doubts, doubt)) if e.mechanism in UNNAMED else e for e in entries]
-    return tuple(entries), make_sharing_entry(sharing, problem)
+    return tuple(entries), make_sharing_entry(sharing, posterior)
 
 
 def _describe_single(many: int) -> Sharing:
@@ -54,16 +54,16 @@ def _describe_single(many: int) -> Sharing:
     return Sharing(parameters={}, says=(says,))
 
 
-def make_sharing_entry(sharing: SharedValues, problem: Problem) -> Sharing:
+def make_sharing_entry(sharing: SharedValues, posterior: Posterior) -> Sharing:
     """Return the content of `sharing`: recordings with their levels, each parameter in each of them, and sentences."""
-    motion, levels = problem.system.model.motion, sharing.levels
-    names = {key: name_parameter(key, problem) for key in sharing.parameters}
+    motion, levels = posterior.system.model.motion, sharing.levels
+    names = {key: name_parameter(key, posterior) for key in sharing.parameters}
     sentences = {key: describe_parameter(one, names, sharing) for key, one in sharing.parameters.items()}
     kept = [names[key] for key, one in sharing.parameters.items() if one.holds]
     opening = [f"Equal in all {len(sharing.recordings)} fitted recordings: {', '.join(kept)}."]
     differ = [sentences[key] for key, one in sharing.parameters.items() if not one.holds]
-    released = [_describe_released(sharing, problem)] if sharing.released else []
-    failed = [f"The fit with a {name_parameter(key, problem)} per recording failed." for key in sharing.failed]
+    released = [_describe_released(sharing, posterior)] if sharing.released else []
+    failed = [f"The fit with a {name_parameter(key, posterior)} per recording failed." for key in sharing.failed]
     compared = {
         key: SharedParameter(_list_own_values(one, sharing), _make_comparison(one, sentences[key], sharing))
         for key, one in sharing.parameters.items()
@@ -83,9 +83,9 @@ def _list_own_values(one: ComparedParameter, sharing: SharedValues) -> tuple[Own
     return tuple(OwnValue(name, level, v.median, v.low, v.high, v.unit) for name, level, v in rows)
 
 
-def _describe_released(sharing: SharedValues, problem: Problem) -> str:
+def _describe_released(sharing: SharedValues, posterior: Posterior) -> str:
     """Return the gain in log evidence of one value per recording, and whether a learned curve is still needed."""
-    others = " and ".join(name_parameter(key, problem) for key in sharing.released)
+    others = " and ".join(name_parameter(key, posterior) for key in sharing.released)
     curve = ", and no learned curve is needed in addition" if sharing.dropped else ""
     return f"One value of {others} per recording raises the log evidence by {figures(sharing.gain)}{curve}."
 
@@ -95,13 +95,13 @@ def _make_comparison(one: ComparedParameter, said: str, sharing: SharedValues) -
     return FullComparison(one.holds, one.p, said, one.power, odd)
 
 
-def _extend_entry(entry: Mechanism, key: str, problem: Problem, sharing: SharedValues) -> Mechanism:
+def _extend_entry(entry: Mechanism, key: str, posterior: Posterior, sharing: SharedValues) -> Mechanism:
     """Return the entry of a term with the comparison between recordings; unchanged if no value was compared."""
-    slots = {s.key: s.param.name for s in find_term(problem, key)[1] if s.key in sharing.parameters}
+    slots = {s.key: s.param.name for s in find_term(posterior, key)[1] if s.key in sharing.parameters}
     if not slots:
         return entry
     own = {slot: sharing.parameters[slot] for slot in slots}
-    names = {slot: name_parameter(slot, problem) for slot in sharing.parameters}
+    names = {slot: name_parameter(slot, posterior) for slot in sharing.parameters}
     by_recording = tuple(
         OwnParameters(name, sharing.levels.values[i], {slots[slot]: one.values[i] for slot, one in own.items()})
         for i, name in enumerate(sharing.recordings)
@@ -133,12 +133,12 @@ def _warn_of_moved_value(
     )
 
 
-def name_parameter(key: str, problem: Problem) -> str:
+def name_parameter(key: str, posterior: Posterior) -> str:
     """Return a parameter in words: `c`, or `force of Coulomb friction` for a parameter of a term."""
     term, _, own = key.rpartition(".")
     if not term:
         return key
-    law = find_term(problem, term)[0]
+    law = find_term(posterior, term)[0]
     place = f" at the place {law.at!r}" if "@" in term else ""
     return f"{to_words(own)} of {to_words(law.name)}{place}"
 

@@ -110,14 +110,14 @@ def make_result(
 
 def label_model(fit: Fit) -> str:
     """Return the name of a model, or its equations, followed by its terms."""
-    model = fit.problem.system.model
+    model = fit.posterior.system.model
     name = f"({'; '.join(model.equations)})" if isinstance(model, Written) else model.name
-    return " + ".join([name, *sorted(fit.problem.active)])
+    return " + ".join([name, *sorted(fit.posterior.active)])
 
 
 def count_bodies(d: SearchResult) -> int:
     """Return the number of bodies of the model on which a force may act."""
-    return len({place.bodies[0] for place in d.after.problem.system.model.places})
+    return len({place.bodies[0] for place in d.after.posterior.system.model.places})
 
 
 def explains_scale(found: Sequence[Mechanism], left: float) -> bool:
@@ -147,8 +147,8 @@ def _make_origin(prepared: Prepared, facts: Facts, seed: int) -> Origin:
 
 def _describe_machine(d: SearchResult, case: CaseFile) -> FittedMachine:
     """Return what is needed to simulate the fitted model again: model, terms, and all values in SI units."""
-    problem = d.after.problem
-    system, full = problem.system, problem.full(d.after.theta)
+    posterior = d.after.posterior
+    system, full = posterior.system, posterior.recordings[0].full(d.after.theta)
     own = {q.name for q in system.model.params}
     values = {key: float(full[i]) for key, i in system.index.items()}
     terms = zip(system.keys, system.terms, strict=True)
@@ -157,8 +157,8 @@ def _describe_machine(d: SearchResult, case: CaseFile) -> FittedMachine:
         equations=case.equations,
         units=case.units,
         motion=system.model.motion,
-        terms=tuple(TermFacts(key, term.name, term.at) for key, term in terms if key in problem.active),
+        terms=tuple(TermFacts(key, term.name, term.at) for key, term in terms if key in posterior.active),
         learned=d.learned.keys if d.learned else (),
         sensors=tuple(SensorChannel(s.name, s.channel) for s in d.shown.sensors),
-        values={k: v for k, v in values.items() if k in own or any(k.startswith(f"{a}.") for a in problem.active)},
+        values={k: v for k, v in values.items() if k in own or any(k.startswith(f"{a}.") for a in posterior.active)},
     )

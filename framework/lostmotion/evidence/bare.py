@@ -106,11 +106,11 @@ class BareFits:
 
     def weigh(self, fit: Fit) -> float:
         """Return the weight of a fit."""
-        return fit.log_evidence / self.temper - compute_price(fit.problem, len(self.keys))
+        return fit.log_evidence / self.temper - compute_price(fit.posterior, len(self.keys))
 
     def keep(self, fit: Fit) -> None:
         """Keep a fit if it is the best of its terms and did not diverge."""
-        terms = fit.problem.active
+        terms = fit.posterior.active
         if fit.status != "diverged" and (terms not in self.fits or self.weigh(fit) > self.weigh(self.fits[terms])):
             self.fits[terms] = fit
 
@@ -133,13 +133,13 @@ class BareFits:
             for key, shapes in found.items():
                 self.shapes[key] = (*self.shapes.get(key, ()), *shapes)
         self.say(f"score tests beside {name_terms(terms)}")
-        frame = make_frame(bare.problem, bare.theta, self.errors)
+        frame = make_frame(bare.posterior, bare.theta, self.errors)
         alone = Hypothesis(frame, frame.expand(frame.start, bare.local.steps, frame.none), frame.none, 0.0, 0.0, 0.0)
         promises = self.list_promises(alone, set(self.fits))[: MOST_FITTED if terms else MOST_SINGLE]
         self.say(f"fits beside {name_terms(terms)}: {', '.join(p.key for p in promises) or 'none'}")
         single = use_one_core(bare)
-        for fit in each(lambda p: self._fit(single, p), promises, bare.problem.jobs):
-            self.keep(use_cores(fit, bare.problem.jobs))
+        for fit in each(lambda p: self._fit(single, p), promises, bare.posterior.jobs):
+            self.keep(use_cores(fit, bare.posterior.jobs))
         if not terms:
             for fit in fit_loads(bare, self.keys, self.say):
                 self.keep(fit)
@@ -150,7 +150,7 @@ class BareFits:
         A law that contains a simpler one, which promises something as well, waits until the simpler one is found; one
         that a law of the hypothesis contains adds nothing.
         """
-        bare, mine, have = beside.frame.problem, beside.frame.terms, set(known)
+        bare, mine, have = beside.frame.posterior, beside.frame.terms, set(known)
         own = self.fits[mine]
         more = [key for key in self.keys if not self._holds(mine, key) and self._join(mine, key) not in have]
         prices = {key: self.temper * self._price(own, key) for key in more}
@@ -163,8 +163,8 @@ class BareFits:
 
     def leave_out_waves(self, terms: Terms) -> Terms:
         """Return the largest fitted subset of a set without waves of the drive: a line of hum looks like one."""
-        problem = self.nominal.problem
-        laws = {key for key in terms if find_term(problem, key)[0].acts != "drive" or not find_wave(problem, key)}
+        posterior = self.nominal.posterior
+        laws = {key for key in terms if find_term(posterior, key)[0].acts != "drive" or not find_wave(posterior, key)}
         return max((one for one in self.fits if one <= laws), key=lambda one: (len(one), self.weigh(self.fits[one])))
 
     def reduce(self, terms: Terms, key: str) -> list[Terms]:
@@ -188,7 +188,7 @@ class BareFits:
     def _fit(self, bare: Fit, promise: Promise) -> Fit:
         """Return the fit with one more law, in place of the simpler one that it contains."""
         test = ScoreTest(promise.key, promise.gain, promise.start, 1.0)
-        simpler = self.find_simpler(bare.problem.active, promise.key)
+        simpler = self.find_simpler(bare.posterior.active, promise.key)
         return replace_term(bare, simpler, test) if simpler else fit_term(bare, test)
 
     def refit(self, terms: Terms) -> None:
@@ -196,23 +196,23 @@ class BareFits:
         self.refitted.add(terms)
         bare = self.fits[terms]
         for key in sorted(terms):
-            if (problem := rewrite_term(bare, key, self.keys)) is not None:
-                self.keep(maximise(problem, tolerance=ROUGHLY))
+            if (posterior := rewrite_term(bare, key, self.keys)) is not None:
+                self.keep(maximise(posterior, tolerance=ROUGHLY))
         for complete in refit_complete(bare):
-            self.keep(use_cores(complete, bare.problem.jobs))
-        if has_other_shapes(bare.problem):
+            self.keep(use_cores(complete, bare.posterior.jobs))
+        if has_other_shapes(bare.posterior):
             self.say(f"other shapes of {name_terms(terms)}")
-            self.keep(use_cores(refit_shapes(bare), bare.problem.jobs))
+            self.keep(use_cores(refit_shapes(bare), bare.posterior.jobs))
 
     def _contains(self, richer: str, simpler: str) -> bool:
         """Return whether a law contains another one at the same place."""
-        one, other = (find_term(self.nominal.problem, key)[0] for key in (richer, simpler))
+        one, other = (find_term(self.nominal.posterior, key)[0] for key in (richer, simpler))
         return is_simpler(other, one)
 
     def _price(self, fit: Fit, key: str) -> float:
         """Return the log prior odds against one more term."""
-        wider = replace(fit.problem, active=self._join(fit.problem.active, key))
-        return compute_price(wider, len(self.keys)) - compute_price(fit.problem, len(self.keys))
+        wider = fit.posterior.acting(self._join(fit.posterior.active, key))
+        return compute_price(wider, len(self.keys)) - compute_price(fit.posterior, len(self.keys))
 
 
 def make_weighed(terms: Terms, score: float, budget: Budget) -> Step:

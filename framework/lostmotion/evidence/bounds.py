@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,7 +30,7 @@ from lostmotion.inference.fit import solve_scaled
 from lostmotion.inference.natural import compute_size, find_term, sort_slots
 from lostmotion.inference.penalties import is_simpler
 from lostmotion.kernels.threads import each
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.system import Slot
 from lostmotion.likelihood.tangents import Tangents
 from lostmotion.quantities import FORCE
@@ -77,10 +77,10 @@ class AmplitudePosterior:
 
 def bound_absent(found: Hypothesis, keys: Sequence[str]) -> list[SizeBound]:
     """Return the bounds of the amplitudes of terms that a hypothesis does not have; those of no effect are left out."""
-    problem = found.frame.bare(found.at, found.choice)
-    theta = found.at[: len(problem.free)]
-    filtered = linearise_all(problem, theta)
-    rows = each(lambda key: list(_bound_term(found, problem, filtered, key)), list(keys), problem.jobs)
+    posterior = found.frame.bare(found.at, found.choice)
+    theta = found.at[: len(posterior.space.free)]
+    filtered = linearise_all(posterior, theta)
+    rows = each(lambda key: list(_bound_term(found, posterior, filtered, key)), list(keys), posterior.jobs)
     return [bound for row in rows for bound in row]
 
 
@@ -110,26 +110,26 @@ def _invert(left: Array, scale: Array) -> Array:
     return np.asarray((vectors / np.maximum(values, 1e-12)) @ vectors.T * np.outer(scale, scale))
 
 
-def _bound_term(found: Hypothesis, problem: Problem, filtered: Sequence[Tangents], key: str) -> Iterator[SizeBound]:
+def _bound_term(found: Hypothesis, posterior: Posterior, filtered: Sequence[Tangents], key: str) -> Iterator[SizeBound]:
     """Yield the bounds of the amplitudes of a term at its usual shape."""
-    shape, (amplitudes, _) = get_usual_shape(problem, key), sort_slots(problem, key)
-    groups = list_bounded(problem, key, amplitudes)
+    shape, (amplitudes, _) = get_usual_shape(posterior, key), sort_slots(posterior, key)
+    groups = list_bounded(posterior, key, amplitudes)
     if shape is None or not groups:
         return
-    theta = found.at[: len(problem.free)]
-    typical = np.array([compute_size(s.param, problem.scales) for s in amplitudes])
+    theta = found.at[: len(posterior.space.free)]
+    typical = np.array([compute_size(s.param, posterior.scales) for s in amplitudes])
     most = np.array([float(np.max(typical[group])) for group in groups])
     sizes, last = FIRST * typical, np.zeros(len(groups))
     uppers, why = last, [NONLINEAR] * len(groups)
     for _ in range(ROUNDS):
-        effect = next(differentiate_term(problem, theta, filtered, key, (shape,), sizes), None)
+        effect = next(differentiate_term(posterior, theta, filtered, key, (shape,), sizes), None)
         if effect is None:
             break
-        posterior = compute_amplitudes(found, effect)
-        uppers = np.array([_bound_group(posterior, amplitudes, group) for group in groups])
+        told = compute_amplitudes(found, effect)
+        uppers = np.array([_bound_group(told, amplitudes, group) for group in groups])
         why = [
             "" if abs(upper - before) < SETTLED * before else NONLINEAR if upper < limit
-            else ALIKE if np.any(posterior.alike[group]) else UNSEEN
+            else ALIKE if np.any(told.alike[group]) else UNSEEN
             for group, upper, before, limit in zip(groups, uppers, last, most, strict=True)
         ]  # fmt: skip
         if NONLINEAR not in why:
@@ -139,19 +139,19 @@ def _bound_term(found: Hypothesis, problem: Problem, filtered: Sequence[Tangents
             sizes[group] = upper / math.sqrt(len(group))
     for group, upper, reason in zip(groups, uppers, why, strict=True):
         slots = tuple(amplitudes[k] for k in group)
-        share = math.nan if reason else measure_share(problem, filtered, key, (shape, amplitudes, group), upper)
+        share = math.nan if reason else measure_share(posterior, filtered, key, (shape, amplitudes, group), upper)
         yield SizeBound(key, slots, shape, math.inf if reason else float(upper), share, reason)
 
 
-def list_bounded(problem: Problem, key: str, amplitudes: Sequence[Slot]) -> list[list[int]]:
+def list_bounded(posterior: Posterior, key: str, amplitudes: Sequence[Slot]) -> list[list[int]]:
     """Return the indices of the amplitudes that are bounded, in groups (`group_amplitudes`).
 
     Beside a simpler law of the model that it contains, a richer law has its further amplitudes only; without any, it
     has none.
     """
-    term, system = find_term(problem, key)[0], problem.system
-    groups = group_amplitudes(problem, key, amplitudes)
-    beside = any(k in problem.active for k, t in zip(system.keys, system.terms, strict=True) if is_simpler(t, term))
+    term, system = find_term(posterior, key)[0], posterior.system
+    groups = group_amplitudes(posterior, key, amplitudes)
+    beside = any(k in posterior.active for k, t in zip(system.keys, system.terms, strict=True) if is_simpler(t, term))
     return [] if beside and sum(map(len, groups)) == len(amplitudes) else groups
 
 
@@ -190,16 +190,18 @@ Amplitudes = tuple[Mapping[str, float], Sequence[Slot], Sequence[int]]
 """The shape of a term, its amplitudes, and the indices of those that are bounded."""
 
 
-def measure_share(problem: Problem, filtered: Sequence[Tangents], key: str, bounded: Amplitudes, upper: float) -> float:
+def measure_share(
+    posterior: Posterior, filtered: Sequence[Tangents], key: str, bounded: Amplitudes, upper: float
+) -> float:
     """Return the largest force of a term at its bound over that of the drive; NaN for a sensor, or where none is known.
 
     That of a drive term is the largest change of the input over its amplitude.
     """
-    term, (shape, amplitudes, group) = find_term(problem, key)[0], bounded
+    term, (shape, amplitudes, group) = find_term(posterior, key)[0], bounded
     if term.acts == "sensor":
         return math.nan
     if term.states:
-        return upper / problem.scales.force if amplitudes[group[0]].param.dimension == FORCE else math.nan
+        return upper / posterior.scales.force if amplitudes[group[0]].param.dimension == FORCE else math.nan
     size = upper / math.sqrt(len(group))
     pairs = [(one, set_amplitude(one, shape, amplitudes, k, size)) for one in filtered for k in group]
     shares = [_measure_one(one, key, term, full) for one, full in pairs]
@@ -208,12 +210,12 @@ def measure_share(problem: Problem, filtered: Sequence[Tangents], key: str, boun
 
 def _measure_one(filtered: Tangents, key: str, term: Term, full: Array) -> float:
     """Return the largest force of a term with the parameters `full` in one recording, as a share of the drive."""
-    problem = filtered.problem
-    active = problem.active | {key}
+    posterior = filtered.posterior
+    active = posterior.active | {key}
     if term.acts == "drive":
-        changed = replace(problem, active=active).drive_at(full, 0).inputs[: len(filtered.states)] - filtered.inputs
+        changed = posterior.acting(active).recordings[0].drive(full).inputs[: len(filtered.states)] - filtered.inputs
         return float(np.max(np.abs(changed[:, filtered.observation.lead]))) / max(filtered.observation.travel, 1e-300)
-    observation, system = filtered.observation, problem.system
-    packed = system.pack(full[None], observation.dt / problem.nsub, observation.harmonic)
+    observation, system = filtered.observation, posterior.system
+    packed = posterior.dynamics.pack(full[None], observation)
     force = system.compute_force(key, active, packed, (filtered.states, filtered.inputs, observation.time))
-    return float(np.max(np.abs(force))) / problem.scales.force
+    return float(np.max(np.abs(force))) / posterior.scales.force

@@ -60,7 +60,7 @@ ChannelError = SensorError | SensorHum | DriveError
 
 def list_channel_errors(nominal: Fit, recordings: Sequence[Observation]) -> tuple[ChannelError, ...]:
     """Return the usual errors of the channels of some whole recordings, with the predictions of a nominal fit."""
-    usual, first = nominal.problem.settings.rival, recordings[0]
+    usual, first = nominal.posterior.settings.rival, recordings[0]
     shown = {o.name: (o.begin, _predict_readings(nominal, o)) for o in recordings}
     errors: list[ChannelError] = []
     for sensor in range(len(first.sensors)):
@@ -91,7 +91,7 @@ def _list_sensor_errors(
 
 def _predict_readings(nominal: Fit, observation: Observation) -> Array:
     """Return the one-step predictions (samples, sensors) of a recording; the last one where nothing was read."""
-    errors = nominal.problem.on((observation,)).innovations(nominal.theta).errors
+    errors = nominal.posterior.on((observation,)).innovations(nominal.theta).errors
     predicted = observation.readings - errors.reshape(observation.readings.shape)
     for column in predicted.T:
         lost = ~np.isfinite(column)

@@ -48,11 +48,11 @@ class Corrections:
         """Return a fit on corrected recordings with corrected known values; unchanged without corrections."""
         if not self:
             return fit
-        problem = fit.problem.on(tuple(map(self.correct, fit.problem.observations)))
-        known = problem.known.copy()
+        posterior = fit.posterior.on(tuple(map(self.correct, fit.posterior.observations)))
+        known = posterior.known.copy()
         for name, factor in self.factors:
-            known[problem.system.index[name]] *= factor
-        found = maximise(replace(problem, known=known), fit.theta)
+            known[posterior.system.index[name]] *= factor
+        found = maximise(replace(posterior, known=known), fit.theta)
         return fit if found.status == "diverged" else found
 
     def describe(self, first: Observation) -> Iterator[str]:
@@ -99,7 +99,7 @@ def find_corrections(found: Hypothesis) -> Corrections:
     if together or clear.intersection(channels):
         errors = tuple((error, float(found.at[i])) for i, error in zip(channels, frame.errors, strict=True))
     if together or clear.intersection(known):
-        factors = tuple((frame.problem.keys[i], math.exp(_find_size(found, i))) for i in known)
+        factors = tuple((frame.posterior.space.keys[i], math.exp(_find_size(found, i))) for i in known)
     return Corrections(errors, factors, tuple(i in clear for i in channels) if errors else (), together)
 
 

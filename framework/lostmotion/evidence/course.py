@@ -46,15 +46,15 @@ class Course:
         """Return the search beside a nominal fit."""
         until = max((float(o.time[-1]) for o, _ in self.pieces), default=0.0)
         whole = ExplanationSearch(nominal, self.keys, self.pieces, self.budget, until=until, say=self.say)
-        short = cut_stretches(nominal.problem)
-        bare = nominal if short is nominal.problem else maximise(short, nominal.theta)
+        short = cut_stretches(nominal.posterior)
+        bare = nominal if short is nominal.posterior else maximise(short, nominal.theta)
         if bare is nominal or bare.status == "diverged":
             whole.run()
             self._complete(whole)
             return whole
         self.say(f"search on {short.samples} samples in {len(short.observations)} stretches")
-        share = short.samples / nominal.problem.samples
-        part, recordings = self.budget.part(FIRST), nominal.problem.observations
+        share = short.samples / nominal.posterior.samples
+        part, recordings = self.budget.part(FIRST), nominal.posterior.observations
         first = ExplanationSearch(bare, self.keys, (), part, share, until, self.say, whole.errors, recordings).run()
         whole.cancelled = first.cancelled
         whole.use_errors(first.errors)
@@ -66,7 +66,7 @@ class Course:
                 break
             fit = first.bare.fits[found.terms]
             if found.terms:
-                fit = maximise(fit.problem.on(nominal.problem.observations), fit.theta, tolerance=ROUGHLY)
+                fit = maximise(fit.posterior.on(nominal.posterior.observations), fit.theta, tolerance=ROUGHLY)
             else:
                 fit = whole.bare.nominal
             if fit.status != "diverged":
@@ -96,10 +96,10 @@ class Course:
         coloured = fit_noise_memory(plain)
         if coloured is None or not is_memory_supported(plain, coloured):
             return None
-        made = add_same_memory(nominal, coloured) if plain.problem.active else coloured
+        made = add_same_memory(nominal, coloured) if plain.posterior.active else coloured
         if made is None or made.status == "diverged":
             return None
-        return replace(made, problem=replace(made.problem, jobs=nominal.problem.jobs))
+        return replace(made, posterior=replace(made.posterior, jobs=nominal.posterior.jobs))
 
 
 def _list_best(search: ExplanationSearch) -> list[Hypothesis]:

@@ -16,6 +16,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,11 +28,11 @@ from lostmotion.evidence.slopes import list_force_slopes
 from lostmotion.inference.curves import compute_coefficient_size
 from lostmotion.inference.fit import list_stencil_points, make_stencil
 from lostmotion.inference.learned import OverPhase, OverPosition, OverTime, OverVelocity, compute_spread
-from lostmotion.likelihood.engine import Innovations
-from lostmotion.likelihood.point_groups import join_innovations
-from lostmotion.likelihood.problem import FreeParameter, Problem
+from lostmotion.likelihood.innovations import Innovations, join_innovations, join_recordings
+from lostmotion.likelihood.posterior import Posterior
+from lostmotion.likelihood.space import FreeParameter
 from lostmotion.likelihood.system import key_of
-from lostmotion.likelihood.tangents import Tangents, join_recordings, linearise_filter
+from lostmotion.likelihood.tangents import Tangents, linearise_filter
 
 SMOOTH = (OverPosition, OverVelocity, OverTime, OverPhase)
 SIZES = (0.005, 0.015, 0.05, 0.15)
@@ -68,10 +69,10 @@ Choice = tuple[int, ...]
 class JointFrame:
     """The coordinates of a hypothesis: own parameters, known values, coefficients of smooth forces, channel errors.
 
-    `problem` has the first three as free parameters. Channel errors are applied to the recordings.
+    `posterior` has the first three as free parameters. Channel errors are applied to the recordings.
     """
 
-    problem: Problem
+    posterior: Posterior
     own: int
     known: slice
     forces: tuple[SmoothForce, ...]
@@ -80,22 +81,22 @@ class JointFrame:
     @cached_property
     def count(self) -> int:
         """The number of all coordinates."""
-        return len(self.problem.free) + len(self.errors)
+        return len(self.posterior.space.free) + len(self.errors)
 
     @cached_property
     def channels(self) -> slice:
         """The coordinates of the channel errors."""
-        return slice(len(self.problem.free), self.count)
+        return slice(len(self.posterior.space.free), self.count)
 
     @cached_property
     def start(self) -> Array:
         """The coordinates to start from (count,): no discrepancy."""
-        return np.concatenate([self.problem.start, np.zeros(len(self.errors))])
+        return np.concatenate([self.posterior.space.start, np.zeros(len(self.errors))])
 
     @cached_property
     def terms(self) -> frozenset[str]:
         """The keys of the active terms of the library."""
-        return self.problem.active - {force.key for force in self.forces}
+        return self.posterior.active - {force.key for force in self.forces}
 
     @property
     def more(self) -> NDArray[np.intp]:
@@ -111,14 +112,14 @@ class JointFrame:
     def middle(self) -> Array:
         """The prior means (count - own,) of the discrepancy."""
         found = np.zeros(self.count - self.own)
-        found[: self.known.stop - self.known.start] = [f.mean for f in self.problem.free[self.known]]
+        found[: self.known.stop - self.known.start] = [f.mean for f in self.posterior.space.free[self.known]]
         return found
 
     @cached_property
     def bounds(self) -> tuple[Array, Array]:
         """The lower and upper bounds (count,) of the coordinates; coefficients of smooth forces have none."""
         low, high = np.full(self.count, -math.inf), np.full(self.count, math.inf)
-        free = self.problem.free[: self.own]
+        free = self.posterior.space.free[: self.own]
         low[: self.own], high[: self.own] = [f.low for f in free], [f.high for f in free]
         widths = USUAL * self.widths(self.none)
         for part in (self.known, self.channels):
@@ -134,7 +135,7 @@ class JointFrame:
     @cached_property
     def names(self) -> tuple[str, ...]:
         """The name of each coordinate."""
-        return (*self.problem.keys, *(f"channel error {i}" for i in range(len(self.errors))))
+        return (*self.posterior.space.keys, *(f"channel error {i}" for i in range(len(self.errors))))
 
     def transfer(self, values: Mapping[str, float]) -> Array:
         """Return coordinates (count,) from those of another frame by name; others are at their start."""
@@ -143,7 +144,7 @@ class JointFrame:
     def widths(self, choice: Choice) -> Array:
         """Return the prior standard deviations (count - own,) of the discrepancy; zero where a force is absent."""
         found = np.zeros(self.count)
-        found[self.known] = self.problem.settings.rival.known
+        found[self.known] = self.posterior.settings.rival.known
         found[self.channels] = [error.width for error in self.errors]
         for force, option in zip(self.forces, choice, strict=True):
             if option >= 0:
@@ -156,21 +157,18 @@ class JointFrame:
             math.log(len(force.options)) for force, option in zip(self.forces, choice, strict=True) if option >= 0
         )
 
-    def place(self, at: Array) -> Problem:
-        """Return the problem on recordings with the channel errors of coordinates (count,) removed."""
-        observations = self.problem.observations
+    def place(self, at: Array) -> Posterior:
+        """Return the posterior on recordings with the channel errors of coordinates (count,) removed."""
+        observations = self.posterior.observations
         for error, size in zip(self.errors, at[self.channels], strict=True):
             if size:
                 observations = tuple(error.correct(o, float(size)) for o in observations)
-        return self.problem if observations is self.problem.observations else self.problem.on(observations)
+        return self.posterior if observations is self.posterior.observations else self.posterior.on(observations)
 
-    def log_likelihood(self, at: Array, choice: Choice) -> float:
-        """Return the log-likelihood of the filter at some coordinates (count,)."""
-        return float(self.log_likelihoods(at[None], choice)[0])
-
-    def log_likelihoods(self, at: Array, choice: Choice) -> Array:
-        """Return the log-likelihoods (points,) at coordinates (points, count) that have the same channel errors."""
-        return self.bare(at[0], choice).log_likelihoods(at[:, : len(self.problem.free)])
+    def log_likelihood(self, at: Array, choice: Choice) -> Any:
+        """Return the log-likelihood at one point (count,), or at many (points, count) with the same channel errors."""
+        bare = self.bare(np.atleast_2d(at)[0], choice)
+        return bare.log_likelihood(at[..., : len(self.posterior.space.free)])
 
     def expand(self, at: Array, steps: Array, choice: Choice) -> Expansion:
         """Return one-step errors and their derivatives at some coordinates; `steps` (own,) are those of own ones.
@@ -179,11 +177,11 @@ class JointFrame:
         needs differences. A change of unit of mass, length or force leaves the errors as they are: steps over what it
         scales are so small that differences show this, or a recording would seem to tell the scales of its channels.
         """
-        problem, n = self.bare(at, choice), len(self.problem.free)
+        posterior, n = self.bare(at, choice), len(self.posterior.space.free)
         points, ends = self._make_stencil(at, steps, self.known.stop)
         made = [
-            linearise_filter(problem, points, i, [error.correct(o, EXACT) for error in self.errors])
-            for i, o in enumerate(problem.observations)
+            linearise_filter(posterior, points, i, [error.correct(o, EXACT) for error in self.errors])
+            for i, o in enumerate(posterior.observations)
         ]
         linear = [one for one in made if one is not None]
         if len(linear) == len(made):
@@ -193,14 +191,14 @@ class JointFrame:
             errors, variances = np.vstack([errors, rows]), np.vstack([variances, np.zeros_like(rows)])
             errors, variances = _add_channels(errors, variances, seen[0], seen[len(points) :])
         else:
-            problem = self.place(at)
+            posterior = self.place(at)
             points, ends = self._make_stencil(at, steps, n)
-            seen = problem.filter_many(points)
-            moved = [problem.on(tuple(e.correct(o, EXACT) for o in problem.observations)) for e in self.errors]
-            changed = join_innovations([other.filter_many(at[None, :n]) for other in moved]) if moved else seen[:0]
+            seen = posterior.innovations(points)
+            moved = [posterior.on(tuple(e.correct(o, EXACT) for o in posterior.observations)) for e in self.errors]
+            changed = join_innovations([other.innovations(at[None, :n]) for other in moved]) if moved else seen[:0]
             errors, variances = _add_channels(*_compute_differences(*ends, seen), seen[0], changed)
         middle, precision = np.zeros(self.count), np.zeros(self.count)
-        for i, f in enumerate(problem.free):
+        for i, f in enumerate(posterior.space.free):
             middle[i] = f.mean if math.isfinite(f.sd) else at[i]
             precision[i] = f.evidence_information(float(at[i])) if i < self.own else 0.0
         blocks = {"own": slice(0, self.own), "known": self.known, "channels": self.channels}
@@ -212,9 +210,9 @@ class JointFrame:
 
         Differences over own coordinates that are none of the model are central.
         """
-        n = len(self.problem.free)
+        n = len(self.posterior.space.free)
         tuned = np.concatenate([np.where(self._exact > 0.0, self._exact, steps), self._steps])
-        up, down = make_stencil(self.problem, at[:n], tuned)
+        up, down = make_stencil(self.posterior, at[:n], tuned)
         central = np.arange(n) < self.own
         central[: self.own] &= (self._exact == 0.0) | (up[: self.own] == at[: self.own])
         down = np.where(central, down, at[:n])
@@ -222,14 +220,14 @@ class JointFrame:
         ends = (at[:width], up[:width], down[:width])
         return np.vstack([points[: 1 + width], points[1 + n :]]), ends
 
-    def bare(self, at: Array, choice: Choice) -> Problem:
-        """Return the problem at coordinates (count,): corrected recordings, and the smooth forces that are present."""
+    def bare(self, at: Array, choice: Choice) -> Posterior:
+        """Return the posterior at coordinates (count,): corrected recordings, and the smooth forces that act."""
         return self._wake(self.place(at), choice)
 
-    def _wake(self, problem: Problem, choice: Choice) -> Problem:
-        """Return the problem with the smooth forces that are present: the others would only cost time."""
+    def _wake(self, posterior: Posterior, choice: Choice) -> Posterior:
+        """Return the posterior with the smooth forces that are present: the others would only cost time."""
         absent = {force.key for force, option in zip(self.forces, choice, strict=True) if option < 0}
-        return replace(problem, active=problem.active - absent)
+        return posterior.acting(posterior.active - absent)
 
     def _list_slopes(self, filtered: Tangents) -> Array:
         """Return the derivatives (coefficients, readings) of the errors in one recording over smooth forces."""
@@ -240,24 +238,24 @@ class JointFrame:
     @cached_property
     def _steps(self) -> Array:
         """The finite-difference steps of known values and of coefficients."""
-        found = np.full(len(self.problem.free) - self.own, EXACT)
+        found = np.full(len(self.posterior.space.free) - self.own, EXACT)
         for force in self.forces:
             found[force.columns.start - self.own : force.columns.stop - self.own] = NUDGE * float(
-                compute_coefficient_size(self._terms[force.key], self.problem)
+                compute_coefficient_size(self._terms[force.key], self.posterior)
             )
         return found
 
     @cached_property
     def _exact(self) -> Array:
         """The small finite-difference steps of own parameters of the model (own,); zero for others."""
-        names = {p.name for p in self.problem.system.model.params}
-        own = self.problem.free[: self.own]
+        names = {p.name for p in self.posterior.system.model.params}
+        own = self.posterior.space.free[: self.own]
         units = np.array([1.0 if f.log else min(f.sd, f.high - f.low) for f in own])
         return EXACT * units * [f.parameter in names for f in own]
 
     @cached_property
     def _terms(self) -> dict[str, OverPosition]:
-        return {key_of(t): t for t in self.problem.system.terms if isinstance(t, SMOOTH)}  # type: ignore[misc]
+        return {key_of(t): t for t in self.posterior.system.terms if isinstance(t, SMOOTH)}  # type: ignore[misc]
 
 
 def _add_channels(errors: Array, variances: Array, here: Innovations, changed: Innovations) -> tuple[Array, Array]:
@@ -268,33 +266,33 @@ def _add_channels(errors: Array, variances: Array, here: Innovations, changed: I
 
 
 def make_frame(
-    problem: Problem, theta: Array, errors: tuple[ChannelError, ...], sizes: Sequence[float] = SIZES
+    posterior: Posterior, theta: Array, errors: tuple[ChannelError, ...], sizes: Sequence[float] = SIZES
 ) -> JointFrame:
-    """Return the coordinates of the hypothesis with the terms of a problem, begun at its own coordinates `theta`.
+    """Return the coordinates of the hypothesis with the terms of a posterior, begun at its own coordinates `theta`.
 
-    The system of the problem has every curve (`add_all_curves`), none of which is active.
+    The system of the posterior has every curve (`add_all_curves`), none of which is active.
     """
-    curves = [(key_of(t), t) for t in problem.system.terms if isinstance(t, SMOOTH)]
-    own, known = len(theta), list_known_values(problem)
-    frees = [replace(f, start=float(c)) for f, c in zip(problem.free, theta, strict=True)] + known
+    curves = [(key_of(t), t) for t in posterior.system.terms if isinstance(t, SMOOTH)]
+    own, known = len(theta), list_known_values(posterior)
+    frees = [replace(f, start=float(c)) for f, c in zip(posterior.space.free, theta, strict=True)] + known
     forces = []
     for key, term in curves:
-        size, count = compute_coefficient_size(term, problem), min(term.count, MOST_WAVES)
+        size, count = compute_coefficient_size(term, posterior), min(term.count, MOST_WAVES)
         shares = SIZES if isinstance(term, OverPhase) else sizes
         options = np.array([s * size * compute_spread(term, length)[:count] for s in shares for length in LENGTHS])
         forces.append(SmoothForce(key, slice(len(frees), len(frees) + count), options))
         frees += [FreeParameter(f"{key}.v{i}", "", 0.0, -1e3 * size, 1e3 * size, linear=True) for i in range(count)]
-    wide = replace(problem, free=tuple(frees), active=problem.active | {key for key, _ in curves})
+    wide = posterior.over(frees).acting(posterior.active | {key for key, _ in curves})
     return JointFrame(wide, own, slice(own, own + len(known)), tuple(forces), errors)
 
 
-def list_known_values(problem: Problem) -> list[FreeParameter]:
+def list_known_values(posterior: Posterior) -> list[FreeParameter]:
     """Return the positive known values of the model as free parameters (in their logarithm)."""
-    estimated, found = {f.parameter for f in problem.free}, []
-    for param in problem.system.model.params:
-        value = float(problem.known[problem.system.index[param.name]])
+    estimated, found = {f.parameter for f in posterior.space.free}, []
+    for param in posterior.system.model.params:
+        value = float(posterior.known[posterior.system.index[param.name]])
         if param.name not in estimated and 0.0 < value < math.inf:
-            at, sd = math.log(value), problem.settings.rival.known
+            at, sd = math.log(value), posterior.settings.rival.known
             found.append(FreeParameter(param.name, "", at, at - 1.0, at + 1.0, log=True, mean=at, sd=sd))
     return found
 

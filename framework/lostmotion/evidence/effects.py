@@ -24,7 +24,7 @@ from lostmotion.inference.late import can_have_onset, list_onsets
 from lostmotion.inference.natural import compute_size, find_term, list_star_points, list_tried_values, sort_slots
 from lostmotion.inference.rounding import drop_rounding
 from lostmotion.kernels.threads import each
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.system import Slot, onset_key
 from lostmotion.likelihood.tangents import Tangents, linearise_filter
 
@@ -72,17 +72,17 @@ def list_promises(
 
     The price of a term with an onset is larger by `dearer`.
     """
-    problem = found.frame.bare(found.at, found.choice)
-    theta = found.at[: len(problem.free)]
-    filtered = linearise_all(problem, theta)
+    posterior = found.frame.bare(found.at, found.choice)
+    theta = found.at[: len(posterior.space.free)]
+    filtered = linearise_all(posterior, theta)
     before = Quadratic.of(found.frame, found.expansion.curvature).evaluate(found.choice)
 
     def test(key: str) -> tuple[Promise, TermEffect] | None:
-        effects = list(_list_effects(problem, theta, filtered, key, shapes.get(key, ())))
+        effects = list(_list_effects(posterior, theta, filtered, key, shapes.get(key, ())))
         tested = zip(_predict_each(found, effects, before + prices[key]), effects, strict=True)
         return max(tested, key=lambda one: one[0].gain, default=None)
 
-    tested = [one for one in each(test, list(keys), problem.jobs) if one is not None]
+    tested = [one for one in each(test, list(keys), posterior.jobs) if one is not None]
     tested.sort(key=lambda one: -one[0].gain)
     late = [_test_onsets(found, *one, before + prices[one[0].key] + dearer) for one in tested[:MOST_LATE]]
     promises = [*late, *(promise for promise, _ in tested[MOST_LATE:])]
@@ -95,11 +95,11 @@ def _test_onsets(found: Hypothesis, ever: Promise, effect: TermEffect, less: flo
     A filter forgets earlier samples within a few cycles. So the derivatives of the errors after an onset are those of a
     term that acts from the beginning.
     """
-    problem = found.frame.problem
-    if not can_have_onset(problem, effect.key):
+    posterior = found.frame.posterior
+    if not can_have_onset(posterior, effect.key):
         return ever
-    times = np.concatenate([np.repeat(o.time, len(o.sensors)) for o in problem.observations])
-    onsets = list_onsets(problem).tolist()
+    times = np.concatenate([np.repeat(o.time, len(o.sensors)) for o in posterior.observations])
+    onsets = list_onsets(posterior).tolist()
     after = [times >= onset for onset in onsets]
     cuts = [replace(effect, errors=effect.errors * late, variances=effect.variances * late) for late in after]
     late = [
@@ -110,38 +110,38 @@ def _test_onsets(found: Hypothesis, ever: Promise, effect: TermEffect, less: flo
 
 
 def _list_effects(
-    problem: Problem, theta: Array, filtered: Sequence[Tangents], key: str, more: Sequence[Mapping[str, float]]
+    posterior: Posterior, theta: Array, filtered: Sequence[Tangents], key: str, more: Sequence[Mapping[str, float]]
 ) -> Iterator[TermEffect]:
     """Yield the effect of a term at each shape."""
-    shapes = sort_slots(problem, key)[1]
-    usual = _list_star_shapes(problem, shapes)
-    tried = drop_rounding(problem, key, (*usual, *more)) if shapes else usual
-    yield from differentiate_term(problem, theta, filtered, key, tried)
+    shapes = sort_slots(posterior, key)[1]
+    usual = _list_star_shapes(posterior, shapes)
+    tried = drop_rounding(posterior, key, (*usual, *more)) if shapes else usual
+    yield from differentiate_term(posterior, theta, filtered, key, tried)
 
 
-def get_usual_shape(problem: Problem, key: str) -> Mapping[str, float] | None:
+def get_usual_shape(posterior: Posterior, key: str) -> Mapping[str, float] | None:
     """Return the values of the shapes of a term in the middle of their ranges; None where rounding hides it."""
-    shapes = sort_slots(problem, key)[1]
-    grids = [list_tried_values(s.param, problem.scales) for s in shapes]
+    shapes = sort_slots(posterior, key)[1]
+    grids = [list_tried_values(s.param, posterior.scales) for s in shapes]
     usual = {s.key: grid[len(grid) // 2] for s, grid in zip(shapes, grids, strict=True)}
-    return usual if not shapes or drop_rounding(problem, key, (usual,)) else None
+    return usual if not shapes or drop_rounding(posterior, key, (usual,)) else None
 
 
-def _list_star_shapes(problem: Problem, shapes: Sequence[Slot]) -> list[dict[str, float]]:
+def _list_star_shapes(posterior: Posterior, shapes: Sequence[Slot]) -> list[dict[str, float]]:
     """Return the values of shapes that are tried: each over its grid while the others are in their middle."""
-    grids = [list_tried_values(s.param, problem.scales) for s in shapes]
+    grids = [list_tried_values(s.param, posterior.scales) for s in shapes]
     return [dict(zip((s.key for s in shapes), values, strict=True)) for values in list_star_points(grids)]
 
 
-def linearise_all(problem: Problem, theta: Array) -> list[Tangents]:
+def linearise_all(posterior: Posterior, theta: Array) -> list[Tangents]:
     """Return the linearised filter of each recording; none where that of one recording does not exist."""
-    made = [linearise_filter(problem, theta[None], i) for i in range(len(problem.observations))]
+    made = [linearise_filter(posterior, theta[None], i) for i in range(len(posterior.observations))]
     filtered = [one[0] for one in made if one is not None]
     return filtered if len(filtered) == len(made) else []
 
 
 def differentiate_term(
-    problem: Problem,
+    posterior: Posterior,
     theta: Array,
     filtered: Sequence[Tangents],
     key: str,
@@ -155,15 +155,15 @@ def differentiate_term(
     """
     if not tried:
         return
-    term, amplitudes = find_term(problem, key)[0], sort_slots(problem, key)[0]
-    widths = np.array([f.sd for f in make_term_parameters(problem, key, amplitudes, {})])
+    term, amplitudes = find_term(posterior, key)[0], sort_slots(posterior, key)[0]
+    widths = np.array([f.sd for f in make_term_parameters(posterior, key, amplitudes, {})])
     if sizes is None:
-        sizes = SMALL * np.array([compute_size(s.param, problem.scales) for s in amplitudes])
+        sizes = SMALL * np.array([compute_size(s.param, posterior.scales) for s in amplitudes])
     if filtered and not term.states and term.acts in ("motion", "drive"):
         errors = np.concatenate([_respond(one, key, tried, amplitudes, sizes) for one in filtered], axis=2)
         variances = np.zeros_like(errors)
     else:
-        errors, variances = _compute_differences(problem, theta, key, tried, sizes)
+        errors, variances = _compute_differences(posterior, theta, key, tried, sizes)
     for shape, e, v in zip(tried, errors, variances, strict=True):
         if np.all(np.isfinite(e)) and np.all(np.isfinite(v)):
             yield TermEffect(key, shape, tuple(amplitudes), widths, e, v)
@@ -173,16 +173,16 @@ def _respond(
     filtered: Tangents, key: str, shapes: Sequence[Mapping[str, float]], amplitudes: Sequence[Slot], sizes: Array
 ) -> Array:
     """Return the derivatives (shapes, amplitudes, readings) of the errors over the amplitudes of a static term."""
-    problem = filtered.problem
+    posterior = filtered.posterior
     rows = [(shape, a) for shape in shapes for a in range(len(sizes))]
     fulls = np.array([set_amplitude(filtered, shape, amplitudes, a, sizes[a]) for shape, a in rows])
     scale = np.array([sizes[a] for _, a in rows])
-    if find_term(problem, key)[0].acts == "drive":
-        acting = replace(problem, active=problem.active | {key})
-        moved = [(acting.drive_at(full, 0).inputs[: len(filtered.states)] - filtered.inputs) for full in fulls]
+    if find_term(posterior, key)[0].acts == "drive":
+        acting = posterior.acting(posterior.active | {key})
+        moved = [(acting.recordings[0].drive(full).inputs[: len(filtered.states)] - filtered.inputs) for full in fulls]
         found = np.concatenate([filtered.respond_to_input(m / s) for m, s in zip(moved, scale, strict=True)])
     else:
-        rates, channels = filtered.compute_effects(fulls, problem.active | {key})
+        rates, channels = filtered.compute_effects(fulls, posterior.active | {key})
         here = filtered.here
         found = filtered.respond_to_forces(
             (rates - here[0]) / scale[:, None, None], (channels - here[1]) / scale[:, None, None]
@@ -194,7 +194,7 @@ def set_amplitude(
     filtered: Tangents, shape: Mapping[str, float], amplitudes: Sequence[Slot], which: int, size: float
 ) -> Array:
     """Return the full parameter vector with one amplitude of a term at a distance `size` from its null."""
-    index, full = filtered.problem.system.index, filtered.full.copy()
+    index, full = filtered.posterior.system.index, filtered.full.copy()
     for slot in amplitudes:
         full[index[slot.key]] = float(slot.param.null or 0.0)
     for name, value in shape.items():
@@ -204,17 +204,17 @@ def set_amplitude(
 
 
 def _compute_differences(
-    problem: Problem, theta: Array, key: str, shapes: Sequence[Mapping[str, float]], sizes: Array
+    posterior: Posterior, theta: Array, key: str, shapes: Sequence[Mapping[str, float]], sizes: Array
 ) -> tuple[Array, Array]:
     """Return the derivatives (shapes, amplitudes, readings) of errors and variances by runs of the filter."""
-    amplitudes, fixed = sort_slots(problem, key)
-    frees = (*make_term_parameters(problem, key, amplitudes, {}), *(hold_shape(slot) for slot in fixed))
-    wider, own, count = problem.extend(frees, {key}), len(theta), len(sizes)
+    amplitudes, fixed = sort_slots(posterior, key)
+    frees = (*make_term_parameters(posterior, key, amplitudes, {}), *(hold_shape(slot) for slot in fixed))
+    wider, own, count = posterior.extend(frees, {key}), len(theta), len(sizes)
     points = []
     for shape in shapes:
         zero = np.concatenate([theta, np.zeros(count), [shape[s.key] for s in fixed]])
         points += [zero, *(zero + np.eye(len(zero))[own + a] * sizes[a] for a in range(count))]
-    seen = wider.filter_many(np.array(points))
+    seen = wider.innovations(np.array(points))
     errors = seen.errors.reshape(len(shapes), 1 + count, -1)
     variances = seen.variances.reshape(len(shapes), 1 + count, -1)
     told: Any = np.asarray(seen.finite).reshape(len(shapes), 1 + count).all(axis=1)

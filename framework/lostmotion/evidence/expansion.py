@@ -19,7 +19,7 @@ from scipy.linalg.lapack import dpotrf, dtrtrs
 
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import solve_scaled
-from lostmotion.likelihood.engine import Innovations
+from lostmotion.likelihood.innovations import Innovations
 
 BLOCKS = 40
 """Parts of the recordings over which scores are summed."""

@@ -160,7 +160,7 @@ def compute_expected_ratio(one: Hypothesis, other: Hypothesis) -> float:
 
 def _draw(found: Hypothesis, keys: list[str], count: int, rng: np.random.Generator) -> Array:
     """Return draws (count, keys) of parameters from the posterior of one hypothesis; NaN where it lacks one."""
-    free = found.frame.problem.free[: found.frame.own]
+    free = found.frame.posterior.space.free[: found.frame.own]
     places = {f.key: i for i, f in enumerate(free) if f.physical}
     root = compute_root(found.scatter * found.covariance)
     low, high = (np.array([getattr(f, end) for f in free]) for end in ("low", "high"))
@@ -171,6 +171,6 @@ def _draw(found: Hypothesis, keys: list[str], count: int, rng: np.random.Generat
             f = free[places[key]]
             made[:, column] = [f.value(at) for at in theta[:, places[key]]]
         elif key.rpartition(".")[0] in found.frame.terms:
-            held = found.frame.problem.known[found.frame.problem.system.index[key]]
+            held = found.frame.posterior.known[found.frame.posterior.system.index[key]]
             made[:, column] = held or math.nan  # a complete law; at zero the amplitude is absent
     return made

@@ -37,7 +37,7 @@ from lostmotion.inference.natural import compute_size, find_term, sort_slots
 from lostmotion.inference.penalties import compute_penalty, is_simpler
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import RANDOM
+from lostmotion.likelihood.space import RANDOM
 from lostmotion.likelihood.system import Slot
 from lostmotion.likelihood.tangents import Tangents
 
@@ -156,26 +156,26 @@ class Forecast:
 
     def list_detectable(self) -> list[Detectable]:
         """Return the smallest size of each amplitude of each term."""
-        rows = each(self._find_sizes, list(self.effects), self.found.frame.problem.jobs)
+        rows = each(self._find_sizes, list(self.effects), self.found.frame.posterior.jobs)
         return [one for row in rows for one in row]
 
     def _find_sizes(self, key: str) -> list[Detectable]:
-        problem, effect = self.found.frame.problem, self.effects[key]
+        posterior, effect = self.found.frame.posterior, self.effects[key]
         found = []
-        for group in list_bounded(problem, key, effect.amplitudes):
+        for group in list_bounded(posterior, key, effect.amplitudes):
             slots = tuple(effect.amplitudes[k] for k in group)
             if parameter := self._find_alike(key, group):
                 found.append(Detectable(key, slots, effect.shape, math.inf, alike=parameter))
                 continue
             size, rivals = self._find_size(key, group)
             size *= SLACK
-            limit = max(compute_size(slot.param, problem.scales) for slot in slots)
+            limit = max(compute_size(slot.param, posterior.scales) for slot in slots)
             size = size if size < limit else math.inf
             if math.isfinite(size) and not self._is_linear(key, group, size):
                 found.append(Detectable(key, slots, effect.shape, math.inf, linear=False))
                 continue
             bounded: Amplitudes = (effect.shape, effect.amplitudes, group)
-            share = measure_share(problem, self.filtered, key, bounded, size) if math.isfinite(size) else math.nan
+            share = measure_share(posterior, self.filtered, key, bounded, size) if math.isfinite(size) else math.nan
             size = math.inf if share > MOST_SHARE else size
             found.append(Detectable(key, slots, effect.shape, size, share, rivals))
         return found
@@ -183,11 +183,11 @@ class Forecast:
     def _is_linear(self, key: str, group: Sequence[int], size: float) -> bool:
         """Return whether the secant to a size changes one-step errors as much as the derivative does."""
         frame, effect = self.found.frame, self.effects[key]
-        problem = frame.bare(frame.start, frame.none)
-        sizes = np.array([compute_size(slot.param, problem.scales) for slot in effect.amplitudes]) * FIRST
+        posterior = frame.bare(frame.start, frame.none)
+        sizes = np.array([compute_size(slot.param, posterior.scales) for slot in effect.amplitudes]) * FIRST
         sizes[list(group)] = size / math.sqrt(len(group))
-        at = frame.start[: len(problem.free)]
-        secant = next(differentiate_term(problem, at, self.filtered, key, (effect.shape,), sizes), None)
+        at = frame.start[: len(posterior.space.free)]
+        secant = next(differentiate_term(posterior, at, self.filtered, key, (effect.shape,), sizes), None)
         if secant is None:
             return False
         v = self.joined.here.variances
@@ -208,7 +208,7 @@ class Forecast:
             return ""
         with np.errstate(divide="ignore", invalid="ignore"):
             cosines = np.abs(cross[:, 0]) / np.sqrt(np.diag(whole)[own] * told[0])
-        physical = [f.physical for f in frame.problem.free[: frame.own]]
+        physical = [f.physical for f in frame.posterior.space.free[: frame.own]]
         return frame.names[int(np.argmax(np.where(physical, np.nan_to_num(cosines), 0.0)))]
 
     def _find_size(self, key: str, group: Sequence[int]) -> tuple[float, tuple[str, ...]]:
@@ -217,7 +217,7 @@ class Forecast:
         Terms that contain this law, or that it contains, count as this one.
         """
         columns = self.information[:, self.joined.list_indices(key)[list(group)]]
-        own, term = self._terms[key].explain(columns), find_term(self.found.frame.problem, key)[0]
+        own, term = self._terms[key].explain(columns), find_term(self.found.frame.posterior, key)[0]
         levels = [(0.0, 1.0), *((level.cost, level.left.get(key, level.usual)) for level in self.levels)]
 
         def solve(rival: _Rival) -> float:
@@ -227,7 +227,7 @@ class Forecast:
         least = self._propose(own, max(map(solve, plain)), levels)
         others = {}
         for other, explainer in self._terms.items():
-            law = find_term(self.found.frame.problem, other)[0]
+            law = find_term(self.found.frame.posterior, other)[0]
             if not (other == key or is_simpler(term, law) or is_simpler(law, term) or law.name in term.equals):
                 rival = explainer.explain(columns)
                 others[other] = self._part(own, rival, columns, max(solve(rival), least))
@@ -308,8 +308,8 @@ class Forecast:
 
     def _price(self, key: str) -> float:
         """Return the log prior odds against a term."""
-        problem = self.found.frame.problem
-        return compute_penalty(find_term(problem, key)[0], self.many, problem.settings)
+        posterior = self.found.frame.posterior
+        return compute_penalty(find_term(posterior, key)[0], self.many, posterior.settings)
 
 
 def _solve_size(own: _Rival, rival: _Rival) -> float:
@@ -331,15 +331,15 @@ def make_forecast(
     the usual noise of the drive, because what is missing must not hide itself; its logarithm is increased by `raised`.
     Smooth forces are those of the system of the fit, if it has them.
     """
-    problem, theta = nominal.problem, nominal.theta.copy()
-    for i, f in enumerate(problem.free):
+    posterior, theta = nominal.posterior, nominal.theta.copy()
+    for i, f in enumerate(posterior.space.free):
         if f.parameter == RANDOM:
             theta[i] = min(theta[i], f.mean) + raised
-    frame = make_frame(problem, theta, list_channel_errors(nominal, recordings))
-    steps = nominal.local.steps if len(nominal.local.steps) == frame.own else choose_first_steps(problem)
+    frame = make_frame(posterior, theta, list_channel_errors(nominal, recordings))
+    steps = nominal.local.steps if len(nominal.local.steps) == frame.own else choose_first_steps(posterior)
     found = Hypothesis(frame, frame.expand(frame.start, steps, frame.none), frame.none, 0.0, 0.0, 0.0)
     bare = frame.bare(frame.start, frame.none)
-    at = frame.start[: len(bare.free)]
+    at = frame.start[: len(bare.space.free)]
     filtered = linearise_all(bare, at)
 
     def differentiate(key: str) -> TermEffect | None:
@@ -347,7 +347,7 @@ def make_forecast(
         shapes = () if shape is None or not sort_slots(bare, key)[0] else (shape,)
         return next(differentiate_term(bare, at, filtered, key, shapes), None)
 
-    made = [one for one in each(differentiate, list(keys), problem.jobs) if one is not None]
+    made = [one for one in each(differentiate, list(keys), posterior.jobs) if one is not None]
     told = {one.key: one for one in made if np.any(one.errors) or np.any(one.variances)}
     return Forecast(found, join_effects(found.expansion, list(told.values())), told, filtered, repeated, len(keys))
 
@@ -357,9 +357,9 @@ def measure_levels(simulated: Fit, keys: Sequence[str], samples: int) -> list[Ra
 
     The fit has the recording and the coordinates with which it was simulated; costs are those of `samples`.
     """
-    recordings = simulated.problem.observations
+    recordings = simulated.posterior.observations
     first, *others = (make_forecast(simulated, keys, recordings, raised=raised) for raised in (0.0, *RAISED))
-    share, levels = samples / max(simulated.problem.samples, 1), []
+    share, levels = samples / max(simulated.posterior.samples, 1), []
     for forecast in others:
         left = {}
         for key in first.effects.keys() & forecast.effects.keys():

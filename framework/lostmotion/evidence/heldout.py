@@ -31,9 +31,9 @@ def score_heldout(found: Hypothesis, pieces: Sequence[tuple[Observation, int]]) 
 
 
 def _score_piece(found: Hypothesis, observation: Observation, begin: int) -> float:
-    frame, fitted = found.frame, found.frame.problem
-    one = replace(frame, problem=fitted.on((observation,)))
-    steps = choose_first_steps(replace(fitted, free=fitted.free[: frame.own]))
+    frame, fitted = found.frame, found.frame.posterior
+    one = replace(frame, posterior=fitted.on((observation,)))
+    steps = choose_first_steps(fitted.over(fitted.space.free[: frame.own]))
     first = begin * len(observation.sensors)
 
     def expand(step: Array) -> Expansion:
@@ -123,8 +123,8 @@ def average_over_posterior(
 
 def _score_point(frame: JointFrame, found: Hypothesis, at: Array, first: int) -> float:
     """Return the log density of the readings from number `first` on at some coordinates; -inf after a divergence."""
-    problem = frame.bare(at, found.choice)
-    seen = problem.innovations(at[: len(problem.free)])
+    posterior = frame.bare(at, found.choice)
+    seen = posterior.innovations(at[: len(posterior.space.free)])
     held = replace(seen, errors=seen.errors[first:], variances=seen.variances[first:])
     return float(held.log_likelihood)
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -24,7 +24,7 @@ from lostmotion.evidence.expansion import Curvature, Expansion
 from lostmotion.inference.fit import STRIDE, choose_first_steps, solve_scaled
 from lostmotion.inference.natural import find_term, sort_slots
 from lostmotion.inference.penalties import is_simpler
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.system import Slot
 
 UNKNOWN = "unknown"
@@ -82,7 +82,7 @@ class Hypothesis:
     @property
     def log_profile(self) -> float:
         """The log evidence of all data at the maximum of own coordinates, without the widths of their priors."""
-        free = self.frame.problem.free[: self.frame.own]
+        free = self.frame.posterior.space.free[: self.frame.own]
         prior = sum(f.log_prior(float(at)) for f, at in zip(free, self.theta, strict=True))
         occam = 0.5 * float(np.linalg.slogdet(2.0 * math.pi * self.covariance)[1])
         return self.log_evidence + self.heldout - prior - occam
@@ -130,10 +130,10 @@ def list_vague(found: Hypothesis, key: str) -> list[str]:
 
     Those of a wave are one amplitude (`group_amplitudes`).
     """
-    free = found.frame.problem.free[: found.frame.own]
+    free = found.frame.posterior.space.free[: found.frame.own]
     places = {f.key: i for i, f in enumerate(free) if not f.log}
-    slots = [s for s in sort_slots(found.frame.problem, key)[0] if s.key in places]
-    rows = [[slots[k] for k in group] for group in group_amplitudes(found.frame.problem, key, slots)]
+    slots = [s for s in sort_slots(found.frame.posterior, key)[0] if s.key in places]
+    rows = [[slots[k] for k in group] for group in group_amplitudes(found.frame.posterior, key, slots)]
     return [
         " and ".join(s.param.name for s in row)
         for row in rows
@@ -141,14 +141,14 @@ def list_vague(found: Hypothesis, key: str) -> list[str]:
     ]
 
 
-def group_amplitudes(problem: Problem, key: str, amplitudes: Sequence[Slot]) -> list[list[int]]:
+def group_amplitudes(posterior: Posterior, key: str, amplitudes: Sequence[Slot]) -> list[list[int]]:
     """Return the indices of the amplitudes that tell a term from other laws: each alone, those of a wave together.
 
     Which of the cosine and the sine of a wave is small depends on the phase alone. Of a law that contains simpler ones,
     those count that the simpler ones lack, if there are any.
     """
-    term, _ = find_term(problem, key)
-    shared = {param.name for other in problem.system.terms if is_simpler(other, term) for param in other.params}
+    term, _ = find_term(posterior, key)
+    shared = {param.name for other in posterior.system.terms if is_simpler(other, term) for param in other.params}
     own = [k for k, s in enumerate(amplitudes) if s.param.name not in shared] or list(range(len(amplitudes)))
     waves = [k for k in own if amplitudes[k].param.name in WAVE]
     return [[k] for k in own if k not in waves] + ([waves] if waves else [])
@@ -168,7 +168,7 @@ def fit_hypothesis(frame: JointFrame, begin: Array, price: float, choice: Choice
     both explain is not left to the more flexible one because of the point where the fit began. Smooth forces that make
     the evidence smaller are left out.
     """
-    steps = choose_first_steps(replace(frame.problem, free=frame.problem.free[: frame.own]))
+    steps = choose_first_steps(frame.posterior.over(frame.posterior.space.free[: frame.own]))
     begin = begin.copy()
     begin[frame.own :][frame.widths(choice or frame.none) == 0.0] = 0.0
     expansion = frame.expand(begin, steps, choice or frame.none)
@@ -238,7 +238,7 @@ def _leave_out_absent(frame: JointFrame, expansion: Expansion, choice: Choice) -
 
 def _tune_steps(frame: JointFrame, expansion: Expansion) -> Array:
     """Return finite-difference steps (own,) of a share of conditional standard deviations, within bounds."""
-    free = frame.problem.free[: frame.own]
+    free = frame.posterior.space.free[: frame.own]
     widths = np.array([min(f.sd, f.high - f.low) for f in free])
     curvature = np.maximum(np.diag(expansion.information)[: frame.own], 1e-300)
     return np.clip(STRIDE / np.sqrt(curvature), 1e-9 * widths, 0.05 * widths)
@@ -313,7 +313,7 @@ def solve_within(solve: Callable[[NDArray[np.intp], Array], Array], gradient: Ar
 def _limit_step(frame: JointFrame, at: Array) -> tuple[Array, Array]:
     """Return the lowest and the highest change (count,) of coordinates in one step; zero is within."""
     low, high = (np.asarray(bound - at) for bound in frame.bounds)
-    for i, f in enumerate(frame.problem.free[: frame.own]):
+    for i, f in enumerate(frame.posterior.space.free[: frame.own]):
         if f.log or f.key.startswith("log_"):
             most = MOST_LOG if f.physical else MOST_LEVEL
             low[i], high[i] = max(low[i], -most), min(high[i], most)
@@ -336,7 +336,7 @@ def _add_priors(frame: JointFrame, at: Array, log_likelihood: float, choice: Cho
     widths = frame.widths(choice)
     used = widths > 0.0
     away = (at[frame.own :] - frame.middle)[used] / widths[used]
-    own = sum(f.log_prior(float(c)) for f, c in zip(frame.problem.free[: frame.own], at, strict=False))
+    own = sum(f.log_prior(float(c)) for f, c in zip(frame.posterior.space.free[: frame.own], at, strict=False))
     return log_likelihood + own - 0.5 * float(away @ away)
 
 
@@ -351,7 +351,7 @@ def _climb(frame: JointFrame, expansion: Expansion, step: Array, choice: Choice)
     low, high = frame.bounds
     whole = np.array([at + step * np.where(levels, reach, 1.0) for reach in REACHES])
     whole[:, levels] = np.clip(whole, low, high)[:, levels]
-    gained = [_add_priors(frame, *one, choice) for one in zip(whole, frame.log_likelihoods(whole, choice), strict=True)]
+    gained = [_add_priors(frame, *one, choice) for one in zip(whole, frame.log_likelihood(whole, choice), strict=True)]
     if max(gained) > value:
         return frame.expand(whole[int(np.argmax(gained))], steps, choice)
     for share in SHARES:

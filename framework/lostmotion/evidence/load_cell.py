@@ -14,7 +14,8 @@ from lostmotion.contracts import Array
 from lostmotion.inference.candidates import ScoreTest, add_term
 from lostmotion.inference.fit import ROUGHLY, Fit, maximise, restart
 from lostmotion.inference.natural import compute_size, sort_slots
-from lostmotion.likelihood.problem import RANDOM, Problem
+from lostmotion.likelihood.posterior import Posterior
+from lostmotion.likelihood.space import RANDOM
 from lostmotion.quantities import FORCE
 
 SHARE = 0.7
@@ -25,34 +26,34 @@ LEVELS = (2.0, 6.0, 9.0)
 
 def fit_loads(bare: Fit, keys: Sequence[str], say: Callable[[str], None]) -> Iterator[Fit]:
     """Yield the best fit of each force with one amplitude, where all sensors are load cells."""
-    if any(sensor.channel != "force" for o in bare.problem.observations for sensor in o.sensors):
+    if any(sensor.channel != "force" for o in bare.posterior.observations for sensor in o.sensors):
         return
     for key in keys:
-        if (hint := _guess_load(bare.problem, key)) is not None:
+        if (hint := _guess_load(bare.posterior, key)) is not None:
             say(f"fit with a large {key}")
-            problem = add_term(restart(bare), hint, hint.start)
-            starts = [problem.start, *(_begin_at_prior(problem, level) for level in LEVELS)]
+            posterior = add_term(restart(bare), hint, hint.start)
+            starts = [posterior.space.start, *(_begin_at_prior(posterior, level) for level in LEVELS)]
             found = [
-                fit for start in starts if (fit := maximise(problem, start, tolerance=ROUGHLY)).status != "diverged"
+                fit for start in starts if (fit := maximise(posterior, start, tolerance=ROUGHLY)).status != "diverged"
             ]
             yield from sorted(found, key=lambda fit: fit.local.log_posterior)[-1:]
 
 
-def _guess_load(problem: Problem, key: str) -> ScoreTest | None:
+def _guess_load(posterior: Posterior, key: str) -> ScoreTest | None:
     """Return a start at which a term is most of the measured force; None for one that is no force of one amplitude."""
-    amplitudes, shapes = sort_slots(problem, key)
+    amplitudes, shapes = sort_slots(posterior, key)
     if len(amplitudes) != 1 or amplitudes[0].param.dimension != FORCE or amplitudes[0].param.low < 0.0:
         return None
-    usual = {s.key: compute_size(s.param, problem.scales) for s in shapes}
-    return ScoreTest(key, 0.0, {amplitudes[0].key: SHARE * problem.scales.force, **usual}, 1.0)
+    usual = {s.key: compute_size(s.param, posterior.scales) for s in shapes}
+    return ScoreTest(key, 0.0, {amplitudes[0].key: SHARE * posterior.scales.force, **usual}, 1.0)
 
 
-def _begin_at_prior(problem: Problem, level: float) -> Array:
-    """Return the start of a problem with each parameter of the model at the centre of its prior."""
-    theta, model = problem.start.copy(), {param.name for param in problem.system.model.params}
-    for i, free in enumerate(problem.free):
+def _begin_at_prior(posterior: Posterior, level: float) -> Array:
+    """Return the start of a posterior with each parameter of the model at the centre of its prior."""
+    theta, model = posterior.space.start.copy(), {param.name for param in posterior.system.model.params}
+    for i, free in enumerate(posterior.space.free):
         if free.parameter == RANDOM:
-            theta[i] = problem.scales.usual + level
+            theta[i] = posterior.scales.usual + level
         elif free.parameter in model:
             theta[i] = free.mean if math.isfinite(free.sd) else 0.5 * (free.low + free.high)
-    return problem.clip(theta)
+    return posterior.space.clip(theta)

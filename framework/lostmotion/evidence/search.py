@@ -64,10 +64,10 @@ class ExplanationSearch:
 
     def __post_init__(self) -> None:
         """Prepare the system with every curve, and the usual errors of the channels if they are not given."""
-        whole = {o.name: o for o in (*self.nominal.problem.observations, *(o for o, _ in self.pieces))}
+        whole = {o.name: o for o in (*self.nominal.posterior.observations, *(o for o, _ in self.pieces))}
         self.errors = self.errors or list_channel_errors(self.nominal, list(whole.values()))
-        wide, plain = add_all_curves(self.nominal, self.until), self.nominal.problem.system
-        recordings = self.recordings or self.nominal.problem.observations
+        wide, plain = add_all_curves(self.nominal, self.until), self.nominal.posterior.system
+        recordings = self.recordings or self.nominal.posterior.observations
         self.bare = BareFits(wide, plain, self.keys, self.errors, self.budget, recordings, self.temper, self.say)
 
     def run(self) -> ExplanationSearch:
@@ -93,7 +93,7 @@ class ExplanationSearch:
         """Climb, weigh what is near the best set, and extend it."""
         self.bare.climb(self.budget.part(CLIMB))
         plain = self.bare.fits[self.bare.leave_out_waves(self.bare.lead)]
-        self.use_errors(renew_hums(self.errors, plain, self.recordings or plain.problem.observations))
+        self.use_errors(renew_hums(self.errors, plain, self.recordings or plain.posterior.observations))
         self.weigh(self.bare.fits[self.bare.lead])
         if frozenset() not in self.found:
             self._drop_all(self.best)
@@ -176,7 +176,7 @@ class ExplanationSearch:
         ranked = sorted(self.bare.fits.values(), key=self.bare.weigh, reverse=True)
         least = self.bare.weigh(ranked[0]) - CLOSE
         for fit in ranked[:MOST_CLOSE]:
-            if fit.problem.active not in self.found and self.bare.weigh(fit) > least and not self.budget.spent:
+            if fit.posterior.active not in self.found and self.bare.weigh(fit) > least and not self.budget.spent:
                 self.weigh(fit)
 
     def _weigh_alike(self) -> None:
@@ -197,11 +197,11 @@ class ExplanationSearch:
 
     def weigh(self, bare: Fit, begin: Mapping[str, float] | None = None, choice: Choice | None = None) -> None:
         """Fit the hypothesis of a bare fit, from some coordinates, and keep it if it is the best of its terms."""
-        self.say(f"weighing {name_terms(bare.problem.active)}")
+        self.say(f"weighing {name_terms(bare.posterior.active)}")
         bare = settle_steps(bare)
         self.bare.keep(bare)
-        frame = make_frame(bare.problem, bare.theta, self.errors)
-        at, price = frame.start, compute_price(bare.problem, len(self.keys))
+        frame = make_frame(bare.posterior, bare.theta, self.errors)
+        at, price = frame.start, compute_price(bare.posterior, len(self.keys))
         if begin is not None:
             at = max(frame.transfer(begin), at, key=lambda one: frame.log_likelihood(one, choice or frame.none))
         self._keep(fit_hypothesis(frame, at, price, choice))
@@ -210,7 +210,7 @@ class ExplanationSearch:
         """Fit a set with a smooth force that is larger than the usual discrepancy; its price is that of a term."""
         self.say(f"weighing an unknown force beside {name_terms(target.terms)}")
         bare, price = self.bare.fits[target.terms], target.price + compute_unknown_price(len(self.keys))
-        frame = make_frame(bare.problem, bare.theta, self.errors, LARGE)
+        frame = make_frame(bare.posterior, bare.theta, self.errors, LARGE)
         made = fit_hypothesis(frame, frame.transfer(target.values), price, target.choice)
         if max(made.choice, default=-1) >= len(SIZES) * len(LENGTHS):
             self._keep(replace(made, unknown=True))
@@ -228,19 +228,21 @@ class ExplanationSearch:
         """Fit a hypothesis with one more term from the coordinates that another one predicts."""
         simpler = self.bare.find_simpler(target.terms, promise.key)
         bare = restart(self.bare.fits[target.terms])
-        problem = bare.remove_term(simpler, self._get_own_values(target)) if simpler else bare
+        posterior = bare.remove_term(simpler, self._get_own_values(target)) if simpler else bare
         test = ScoreTest(promise.key, promise.gain, promise.start, 1.0)
-        problem = add_term(problem, test, dict(promise.start))
+        posterior = add_term(posterior, test, dict(promise.start))
         moved = dict(zip(target.frame.names, (target.at + promise.step).tolist(), strict=True))
-        begin = {f.key: f.start for f in problem.free} | moved
-        begin |= {f.key: f.start for f in problem.free if f.key.startswith(f"{promise.key}.")}
-        theta = problem.clip(np.array([begin[key] for key in problem.keys]))
-        begin |= dict(zip(problem.keys, theta.tolist(), strict=True))
-        known = self.bare.fits.get(problem.active)
-        if known is None or known.problem.keys != problem.keys:
-            known = maximise(problem, theta, tolerance=ROUGHLY)
+        begin = {f.key: f.start for f in posterior.space.free} | moved
+        begin |= {f.key: f.start for f in posterior.space.free if f.key.startswith(f"{promise.key}.")}
+        theta = posterior.space.clip(np.array([begin[key] for key in posterior.space.keys]))
+        begin |= dict(zip(posterior.space.keys, theta.tolist(), strict=True))
+        known = self.bare.fits.get(posterior.active)
+        if known is None or known.posterior.space.keys != posterior.space.keys:
+            known = maximise(posterior, theta, tolerance=ROUGHLY)
         if known.status != "diverged":
-            fit = replace(known, problem=replace(problem, nsub=max(problem.nsub, known.problem.nsub)))
+            fit = replace(
+                known, posterior=posterior.stepped(max(posterior.dynamics.nsub, known.posterior.dynamics.nsub))
+            )
             self.weigh(fit, begin, promise.choice)
 
     def _drop(self, target: Hypothesis, key: str, less: Terms) -> None:
@@ -251,11 +253,11 @@ class ExplanationSearch:
             return
         self.dropped.add((target.terms, less))
         own = self._get_own_values(target)
-        problem = self.bare.fits[target.terms].problem.remove_term(key, own)
+        posterior = self.bare.fits[target.terms].posterior.remove_term(key, own)
         for simpler in less - target.terms:
             shared = {simpler + name.removeprefix(key): v for name, v in own.items() if name.startswith(f"{key}.")}
-            problem = add_term(problem, ScoreTest(simpler, 0.0, shared, 1.0), {})
-        fit = self.bare.fits.get(less) or maximise(problem, tolerance=ROUGHLY)
+            posterior = add_term(posterior, ScoreTest(simpler, 0.0, shared, 1.0), {})
+        fit = self.bare.fits.get(less) or maximise(posterior, tolerance=ROUGHLY)
         if fit.status != "diverged":
             self.weigh(fit, _leave_out(target, [key]), target.choice)
 
@@ -268,7 +270,7 @@ class ExplanationSearch:
 
     def _get_own_values(self, target: Hypothesis) -> dict[str, float]:
         """Return the own parameters of a hypothesis by key, in their units."""
-        return {f.key: f.value(target.values[f.key]) for f in target.frame.problem.free[: target.frame.own]}
+        return {f.key: f.value(target.values[f.key]) for f in target.frame.posterior.space.free[: target.frame.own]}
 
 
 def _leave_out(target: Hypothesis, keys: Iterable[str]) -> dict[str, float]:

@@ -52,8 +52,8 @@ class SensorHum:
 
 def list_hums(fit: Fit) -> Iterator[SensorHum]:
     """Yield the two waves of each line of hum that the one-step errors of a fit show, by recording and sensor."""
-    for observation in fit.problem.observations:
-        seen = fit.problem.on((observation,)).innovations(fit.theta)
+    for observation in fit.posterior.observations:
+        seen = fit.posterior.on((observation,)).innovations(fit.theta)
         errors, variances = (np.reshape(part, observation.readings.shape) for part in (seen.errors, seen.variances))
         standard = np.nan_to_num(errors / np.sqrt(variances))
         motion = np.nan_to_num(observation.readings - errors)
@@ -75,7 +75,7 @@ def renew_hums(
 ) -> tuple[T | SensorHum, ...]:
     """Return errors of channels with the hums that a better fit shows: missing physics makes lines and hides others."""
     other = [one for one in errors if not isinstance(one, SensorHum)]
-    return (*other, *list_hums(replace(fit, problem=fit.problem.on(tuple(recordings)))))
+    return (*other, *list_hums(replace(fit, posterior=fit.posterior.on(tuple(recordings)))))
 
 
 def find_lines(

@@ -37,15 +37,15 @@ def scan_waves(fit: Fit, observations: Sequence[Observation]) -> dict[str, list[
     """
     keys = {
         key: slot
-        for key in fit.problem.system.keys
-        if key not in fit.problem.active
-        if (slot := find_wave(fit.problem, key))
+        for key in fit.posterior.system.keys
+        if key not in fit.posterior.active
+        if (slot := find_wave(fit.posterior, key))
     }
     if not keys or not observations[0].harmonic.omega:
         return {}
-    problem = choose_steps(fit.problem, fit.theta)
-    motions = [SmoothedMotion.of(problem.on((one,)), fit.theta) for one in observations]
-    span = find_span(problem.on(tuple(observations)))
+    posterior = choose_steps(fit.posterior, fit.theta)
+    motions = [SmoothedMotion.of(posterior.on((one,)), fit.theta) for one in observations]
+    span = find_span(posterior.on(tuple(observations)))
     found = {key: _list_waves(motions, span, key, slot) for key, slot in keys.items()}
     return {key: shapes for key, shapes in found.items() if shapes}
 
@@ -54,14 +54,14 @@ def _list_waves(
     motions: Sequence[SmoothedMotion], span: tuple[float, float], key: str, wave: Slot
 ) -> list[dict[str, float]]:
     """Return the shapes of a term with the frequencies that stand out over a span of time (s), the clearest first."""
-    problem = motions[0].problem
-    dt, omega = problem.observations[0].dt, problem.observations[0].harmonic.omega
-    shape = {s.key: compute_size(s.param, problem.scales) for s in sort_slots(problem, key)[1]}
+    posterior = motions[0].posterior
+    dt, omega = posterior.observations[0].dt, posterior.observations[0].harmonic.omega
+    shape = {s.key: compute_size(s.param, posterior.scales) for s in sort_slots(posterior, key)[1]}
     signal = np.zeros(round((span[1] - span[0]) / dt))
     for motion in motions:
         columns = motion.compute_columns(key, [{**shape, wave.key: 0.0}])[0]
         product = columns[:, np.argmax(np.abs(columns).sum(axis=0))] * motion.gradient
-        first = round((float(motion.problem.observations[0].time[0]) - span[0]) / dt)
+        first = round((float(motion.posterior.observations[0].time[0]) - span[0]) / dt)
         signal[first : first + len(product)] += product - product.mean()
     power = np.abs(np.fft.rfft(signal, FINER * len(signal))) ** 2
     ratio = power / _measure_level(power)

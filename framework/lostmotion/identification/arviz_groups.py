@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from lostmotion.case import CaseFile
 from lostmotion.contracts import Array
 from lostmotion.identification.sampling import SampledPosterior, Task
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.posterior import Posterior
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -35,16 +35,16 @@ def make_groups(
     """
     import xarray as xr
 
-    problem = task.posterior
-    if not isinstance(problem, Problem):
+    posterior = task.posterior
+    if not isinstance(posterior, Posterior):
         return {}
-    told = predict_readings(problem, task.coordinates(result.draws), result.chain.shape[:2], rng)
+    told = predict_readings(posterior, task.coordinates(result.draws), result.chain.shape[:2], rng)
     prior = xr.Dataset(_draw_prior(case, result, rng))
     return {**told, "prior": prior.assign_coords({str(dim): np.arange(n) for dim, n in prior.sizes.items()})}
 
 
 def predict_readings(
-    problem: Problem, thetas: Array, shape: tuple[int, int], rng: np.random.Generator
+    posterior: Posterior, thetas: Array, shape: tuple[int, int], rng: np.random.Generator
 ) -> dict[str, xr.Dataset]:
     """Return the groups `log_likelihood`, `observed_data` and `posterior_predictive` for points in coordinates.
 
@@ -52,11 +52,11 @@ def predict_readings(
     """
     import xarray as xr
 
-    readings = np.concatenate([observation.readings.ravel() for observation in problem.observations])
+    readings = np.concatenate([observation.readings.ravel() for observation in posterior.observations])
     taken = np.flatnonzero(np.isfinite(readings))
     picked = taken[np.unique(np.linspace(0, len(taken) - 1, REPLICATED).astype(int))]
     edges = np.unique(np.linspace(0, len(readings), BLOCKS + 1).astype(int))[:-1]
-    terms, replicates = _predict_blocks(problem, thetas, readings, (edges, picked), rng)
+    terms, replicates = _predict_blocks(posterior, thetas, readings, (edges, picked), rng)
     groups = {
         "log_likelihood": xr.Dataset({"readings": (("chain", "draw", "block"), terms.reshape(*shape, -1))}),
         "observed_data": xr.Dataset({"readings": (("reading",), readings[picked])}),
@@ -73,13 +73,13 @@ def predict_readings(
 
 
 def _predict_blocks(
-    problem: Problem, thetas: Array, readings: Array, where: tuple[Indices, Indices], rng: np.random.Generator
+    posterior: Posterior, thetas: Array, readings: Array, where: tuple[Indices, Indices], rng: np.random.Generator
 ) -> tuple[Array, Array]:
     """Return the log-likelihood of each block (draws, blocks), and replicates of some readings (draws, shown)."""
     edges, picked = where
     terms, replicates = [], []
     for first in range(0, len(thetas), POINTS_PER_CALL):
-        seen = problem.filter_many(thetas[first : first + POINTS_PER_CALL])
+        seen = posterior.innovations(thetas[first : first + POINTS_PER_CALL])
         each = -0.5 * (seen.errors**2 / seen.variances + np.log(2.0 * np.pi * seen.variances))
         terms.append(np.add.reduceat(each, edges, axis=1))
         spread = np.sqrt(seen.variances[:, picked])

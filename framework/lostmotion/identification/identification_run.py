@@ -100,11 +100,15 @@ def _prepare_trajectory(
     folder_for(out)
     watch(0, "looking for the maximum")
     fits = find_best_fits(prepared, terms, rng, order.jobs, order.settings)
-    problem = fits[0].problem
-    settings = {"terms": sorted(problem.active), "steps_between_samples": problem.nsub, "sensor": asdict(case.sensor)}
+    posterior = fits[0].posterior
+    settings = {
+        "terms": sorted(posterior.active),
+        "steps_between_samples": posterior.dynamics.nsub,
+        "sensor": asdict(case.sensor),
+    }
     origin = make_origin(case, order, settings, prepared.inputs)
     notes = (*prepared.notes, *write_mode_notes(len(fits)), *list_short_contacts(fits[0]), *write_warnings(fits[0]))
-    model = " + ".join([case.model, *sorted(problem.active)])
+    model = " + ".join([case.model, *sorted(posterior.active)])
 
     def complete(found: SampledPosterior) -> Identification:
         result = make_result(found, TRAJECTORY, case, origin)

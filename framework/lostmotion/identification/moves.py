@@ -10,7 +10,7 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.identification.t_mixture import TMixture
-from lostmotion.likelihood.problem import FreeParameter
+from lostmotion.likelihood.space import ParameterSpace
 
 JUMP_SHARE, JUMP_SHARE_AFTER_FIT = 0.95, 0.5
 """Share of independent proposals, and their share after the mixture was fitted to a chain that mixed badly.
@@ -18,17 +18,14 @@ JUMP_SHARE, JUMP_SHARE_AFTER_FIT = 0.95, 0.5
 The other proposals are differential evolution and snooker steps, which need no mixture."""
 
 
-class Posterior(Protocol):
-    """The interface of a posterior that can be sampled."""
+class TargetDensity(Protocol):
+    """A posterior that can be sampled."""
 
     @property
-    def free(self) -> tuple[FreeParameter, ...]:
-        """The free parameters."""
+    def space(self) -> ParameterSpace:
+        """The free parameters with their priors."""
 
-    def log_prior(self, theta: Array) -> float:
-        """Return the log prior density at the coordinates `theta`."""
-
-    def log_likelihoods(self, points: Array) -> Array:
+    def log_likelihood(self, points: Array) -> Array:
         """Return the log-likelihood (points,) at `points` (points, parameters), minus infinity where it diverges."""
 
 
@@ -36,15 +33,15 @@ class Posterior(Protocol):
 class Density:
     """The log posterior density of many points at once; `evaluations` counts the evaluations of the likelihood."""
 
-    posterior: Posterior
+    posterior: TargetDensity
     evaluations: int = field(default=0)
 
     def __call__(self, points: Array) -> Array:
         """Return log densities (points,); minus infinity outside the prior or where the likelihood diverges."""
-        log_densities = np.array([self.posterior.log_prior(p) for p in points])
+        log_densities = np.array(self.posterior.space.log_prior(points))
         inside = np.flatnonzero(np.isfinite(log_densities))
         if len(inside):
-            log_densities[inside] += self.posterior.log_likelihoods(points[inside])
+            log_densities[inside] += self.posterior.log_likelihood(points[inside])
         self.evaluations += len(inside)
         return np.where(np.isfinite(log_densities), log_densities, -np.inf)
 

@@ -155,7 +155,7 @@ class _SamplingRun:
 
     def __init__(self, task: Task, plan: SamplingPlan, seed: int, watch: Watch) -> None:
         self.task, self.plan, self.seed, self.watch = task, plan, seed, watch
-        self.walkers = _count_walkers(plan, len(task.posterior.free))
+        self.walkers = _count_walkers(plan, len(task.posterior.space.free))
         self.density = Density(task.posterior)
         self.log_density = float(self.density(np.atleast_2d(task.maximum))[0])
         if not math.isfinite(self.log_density):
@@ -190,7 +190,7 @@ class _SamplingRun:
             mixture.scale.breadth,
         )
         versions = origin_of("identify", {}, self.seed, {}).versions
-        texts = (versions, task.digest, task.posterior.free, task.shown, self.seed, self.walkers)
+        texts = (versions, task.digest, task.posterior.space.free, task.shown, self.seed, self.walkers)
         return compute_digest([*texts, self.log_density, *arrays])
 
     def _begin(self) -> StoredChain:
@@ -297,7 +297,7 @@ class _ChainFile:
         if self.path is None or time.monotonic() - self.last < every:
             return
         course = self.course
-        keys = tuple(f.key for f in course.task.posterior.free)
+        keys = tuple(f.key for f in course.task.posterior.space.free)
         save(self.path, course.digest, keys, self.kept, course.density.evaluations)
         self.last = time.monotonic()
 

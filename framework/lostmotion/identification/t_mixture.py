@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from lostmotion.contracts import Array
 from lostmotion.identification.normal_scores import MAX_SCORE, Scores
-from lostmotion.likelihood.problem import FreeParameter
+from lostmotion.likelihood.space import FreeParameter
 
 KERNEL_DOF = 10.0
 """Degrees of freedom of each kernel: its tails are heavier than those of the posteriors in this project."""

@@ -10,11 +10,13 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.errors import DataError
-from lostmotion.identification.moves import Posterior
+from lostmotion.identification.moves import TargetDensity
 from lostmotion.identification.t_mixture import TMixture
 from lostmotion.inference.fit import Fit
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import NOISE, PACE, RANDOM, FreeParameter, Problem
+from lostmotion.likelihood.posterior import Posterior
+from lostmotion.likelihood.space import PACE, RANDOM, FreeParameter
+from lostmotion.noises import NOISE
 from lostmotion.quantities import unit_of
 
 OFFSET = "offset"
@@ -49,7 +51,7 @@ class Task:
     `digest` is a text that changes with the case and its recordings: a stored chain is continued only if it is equal.
     """
 
-    posterior: Posterior
+    posterior: TargetDensity
     mixture: TMixture
     shown: tuple[ShownCoordinate, ...]
     maximum: Array
@@ -72,16 +74,20 @@ def make_task(fits: Sequence[Fit], digest: str = "") -> Task:
     found = [f for f in fits if np.isfinite(f.local.log_posterior)]
     if not found:
         raise DataError("the model cannot follow this recording from any start: check units, known values and priors")
-    problem = fits[0].problem
+    posterior = fits[0].posterior
     highest = max(found, key=lambda f: f.local.log_posterior)
     mixture = TMixture.of_modes(
         np.array([f.theta for f in found]),
-        [limit_covariance(f.local.covariance, problem.free) for f in found],
+        [limit_covariance(f.local.covariance, posterior.space.free) for f in found],
         compute_mode_weights(np.array([f.log_evidence for f in found])),
-        problem.free,
+        posterior.space.free,
     )
     return Task(
-        problem, mixture, tuple(_make_shown_coordinate(f, problem) for f in problem.free), highest.theta, digest
+        posterior,
+        mixture,
+        tuple(_make_shown_coordinate(f, posterior) for f in posterior.space.free),
+        highest.theta,
+        digest,
     )
 
 
@@ -109,10 +115,10 @@ def compute_mode_weights(log_evidence: Array) -> Array:
     return np.asarray(weights / weights.sum())
 
 
-def _make_shown_coordinate(free: FreeParameter, problem: Problem) -> ShownCoordinate:
+def _make_shown_coordinate(free: FreeParameter, posterior: Posterior) -> ShownCoordinate:
     """Return how a parameter is shown; a random force as the rms (N, N m) of a force held from sample to sample."""
-    observation = _find_observation(problem, free.recording or "")
-    motion = problem.system.model.motion
+    observation = _find_observation(posterior, free.recording or "")
+    motion = posterior.system.model.motion
     if free.level not in (OFFSET, *NOISES):
         return ShownCoordinate(free.key, free.unit, 1.0 if free.log else 0.0)
     if free.level == RANDOM:
@@ -128,6 +134,6 @@ def _make_shown_coordinate(free: FreeParameter, problem: Problem) -> ShownCoordi
     return ShownCoordinate(NOISES[NOISE] + free.key[len(NOISE) :], unit_of(channel, motion), 1.0)
 
 
-def _find_observation(problem: Problem, name: str) -> Observation:
+def _find_observation(posterior: Posterior, name: str) -> Observation:
     """Return the recording that a key names, or the first."""
-    return next((t for t in problem.observations if t.name == name), problem.observations[0])
+    return next((t for t in posterior.observations if t.name == name), posterior.observations[0])

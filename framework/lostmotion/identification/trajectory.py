@@ -19,7 +19,7 @@ from lostmotion.inference.setup import (
     SHARED,
     find_modes,
     make_case_parameters,
-    make_problem,
+    make_posterior,
     polish_modes,
     separate_levels,
 )
@@ -54,7 +54,11 @@ def sample_case(
 
 def make_trajectory_task(prepared: Prepared, fits: Sequence[Fit], terms: tuple[Term, ...]) -> Task:
     """Return the task of sampling around the fits; its digest changes with the case, its recordings and the terms."""
-    used = {"inputs": prepared.inputs, "terms": [key_of(term) for term in terms], "steps": fits[0].problem.nsub}
+    used = {
+        "inputs": prepared.inputs,
+        "terms": [key_of(term) for term in terms],
+        "steps": fits[0].posterior.dynamics.nsub,
+    }
     return make_task(fits, json.dumps(used, sort_keys=True))
 
 
@@ -78,14 +82,14 @@ def find_best_fits(
 ) -> list[Fit]:
     """Return the distinct maxima of the posterior on all recordings, with the terms, best first.
 
-    All belong to one problem with fine integration steps.
+    All belong to one posterior with fine integration steps.
     """
     case = prepared.case
     bare = replace(case, estimate={k: v for k, v in case.estimate.items() if "." not in k})
-    problem = make_problem(
+    posterior = make_posterior(
         make_system(prepared.model, terms), bare, prepared.observations, jobs=jobs, settings=settings
     )
-    found = find_modes(problem, rng, sensor=SHARED if terms else case.sensor)
+    found = find_modes(posterior, rng, sensor=SHARED if terms else case.sensor)
     return polish_modes([_add_terms(fit, terms, case) for fit in found])
 
 
@@ -100,21 +104,21 @@ def _add_terms(fit: Fit, terms: tuple[Term, ...], case: CaseFile) -> Fit:
 
 def _apply_case_priors(fit: Fit, case: CaseFile) -> Fit:
     """Return the fit with the priors and the known values of the case for parameters of terms."""
-    problem = restart(fit)
-    names = [observation.name for observation in problem.observations]
+    posterior = restart(fit)
+    names = [observation.name for observation in posterior.observations]
     frees = []
-    for free in problem.free:
+    for free in posterior.space.free:
         if free.key in case.estimate and "." in free.key:
-            given = make_case_parameters(problem.system.slot(free.key), case.estimate[free.key], names)
+            given = make_case_parameters(posterior.system.slot(free.key), case.estimate[free.key], names)
             frees += [replace(one, start=one.coordinate(free.value(free.start))) for one in given]
         elif free.key not in case.known:
             frees.append(free)
-    return maximise(replace(problem, free=tuple(frees)))
+    return maximise(posterior.over(frees))
 
 
 def write_warnings(fit: Fit) -> list[str]:
     """Return a warning where the intervals are too narrow although the chain has converged."""
-    if compute_random_force_gain(fit) <= fit.problem.settings.locate.significant:
+    if compute_random_force_gain(fit) <= fit.posterior.settings.locate.significant:
         return []
     return [
         "A force remains that this model does not explain. The intervals assume that the model is right: here they are"

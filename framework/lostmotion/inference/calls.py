@@ -12,16 +12,16 @@ from lostmotion.errors import ContractError
 from lostmotion.inference.natural import find_term
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.plan import prepare_values
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.posterior import Posterior
 
 LOOKS = 200
 """Samples at which a force is evaluated when a filter with it diverges."""
 
 
-def require_finite(problem: Problem, key: str) -> None:
+def require_finite(posterior: Posterior, key: str) -> None:
     """Raise a `ContractError` if force or rates of a term, all its numbers one, are not finite along a recording."""
-    term, _ = find_term(problem, key)
-    if term.acts == "motion" and not all(_is_finite(term, observation) for observation in problem.observations):
+    term, _ = find_term(posterior, key)
+    if term.acts == "motion" and not all(_is_finite(term, observation) for observation in posterior.observations):
         raise ContractError(
             f"the force of {key} is not a finite number along the recorded motion: correct the term, or leave it out",
             key,

@@ -36,7 +36,9 @@ from lostmotion.inference.natural import (
     sort_slots,
 )
 from lostmotion.inference.rounding import drop_rounding, find_shortest_wave
-from lostmotion.likelihood.problem import LATEST, FreeParameter, Problem
+from lostmotion.likelihood.posed import LATEST
+from lostmotion.likelihood.posterior import Posterior
+from lostmotion.likelihood.space import FreeParameter
 from lostmotion.likelihood.system import ALWAYS, Slot, onset_key
 from lostmotion.quantities import FORCE, TIME
 
@@ -75,7 +77,7 @@ class ScoreTest:
 
 def compute_slopes(fit: Fit) -> Sensitivity:
     """Return the sensitivities of a fit, which all its score tests share."""
-    return compute_sensitivity(fit.problem, fit.theta, fit.local.steps)
+    return compute_sensitivity(fit.posterior, fit.theta, fit.local.steps)
 
 
 def run_score_test(fit: Fit, slopes: Sensitivity, key: str, more: Sequence[Mapping[str, float]] = ()) -> ScoreTest:
@@ -95,17 +97,17 @@ def run_score_tests(
     fit: Fit, slopes: Sensitivity, key: str, more: Sequence[Mapping[str, float]] = ()
 ) -> list[ScoreTest]:
     """Return score tests of a term: at each of its best shapes, and at far values of its amplitude."""
-    problem = fit.problem
-    amplitudes, shapes = sort_slots(problem, key)
-    grids = [list_tried_values(s.param, problem.scales) for s in shapes]
+    posterior = fit.posterior
+    amplitudes, shapes = sort_slots(posterior, key)
+    grids = [list_tried_values(s.param, posterior.scales) for s in shapes]
     usual = [dict(zip((s.key for s in shapes), values, strict=True)) for values in list_star_points(grids)]
-    tried = drop_rounding(problem, key, (*usual, *more)) if shapes else usual
+    tried = drop_rounding(posterior, key, (*usual, *more)) if shapes else usual
     if not tried:
         return [ScoreTest(key, 0.0, usual[0], 0.0)]
     hints = _test_shapes(fit, slopes, key, tried)
-    bounded = find_term(problem, key)[0].acts == "sensor" and len(problem.observations[0].sensors) > 1
+    bounded = find_term(posterior, key)[0].acts == "sensor" and len(posterior.observations[0].sensors) > 1
     late = bounded and amplitudes[0].param.dimension == TIME
-    if len(amplitudes) == 1 and not problem.active and not late and (far := try_far_values(fit, amplitudes[0], key)):
+    if len(amplitudes) == 1 and not posterior.active and not late and (far := try_far_values(fit, amplitudes[0], key)):
         hints.append(ScoreTest(key, far.gain, {amplitudes[0].key: far.value}, hints[0].distinct, far.base))
     if len(amplitudes) == 1 and amplitudes[0].param.scan:
         hints += _test_secants(fit, slopes, key, amplitudes[0])
@@ -118,10 +120,10 @@ def _test_secants(fit: Fit, slopes: Sensitivity, key: str, slot: Slot) -> list[S
     The slope at zero is replaced by the secant to each amplitude, and the estimate is limited to half to one and a half
     times this amplitude.
     """
-    problem = fit.problem
-    reached = list_tried_values(slot.param, problem.scales)
-    wider = problem.extend((hold_shape(slot),), {key})
-    here, seen = slopes.here, wider.filter_many(np.vstack([np.append(slopes.theta, a) for a in reached]))
+    posterior = fit.posterior
+    reached = list_tried_values(slot.param, posterior.scales)
+    wider = posterior.extend((hold_shape(slot),), {key})
+    here, seen = slopes.here, wider.innovations(np.vstack([np.append(slopes.theta, a) for a in reached]))
     hints = []
     for i, amplitude in enumerate(reached):
         if not seen.finite[i]:
@@ -145,52 +147,52 @@ def _test_secants(fit: Fit, slopes: Sensitivity, key: str, slot: Slot) -> list[S
     return hints
 
 
-def add_term(problem: Problem, hint: ScoreTest, start: Mapping[str, float]) -> Problem:
-    """Return a problem with one more term, its choices held at those of the score test."""
-    wider = join_term(problem, hint.key, {**hint.start, **start})
-    return replace(wider, nsub=max(wider.nsub, count_steps_for_sticking(wider, wider.start)))
+def add_term(posterior: Posterior, hint: ScoreTest, start: Mapping[str, float]) -> Posterior:
+    """Return a posterior with one more term, its choices held at those of the score test."""
+    wider = join_term(posterior, hint.key, {**hint.start, **start})
+    return wider.stepped(max(wider.dynamics.nsub, count_steps_for_sticking(wider, wider.space.start)))
 
 
-def join_term(problem: Problem, key: str, start: Mapping[str, float]) -> Problem:
-    """Return a problem with one more term that begins at `start`, its choices held at the values there."""
-    _, slots = find_term(problem, key)
+def join_term(posterior: Posterior, key: str, start: Mapping[str, float]) -> Posterior:
+    """Return a posterior with one more term that begins at `start`, its choices held at the values there."""
+    _, slots = find_term(posterior, key)
     choices = {s.key: start[s.key] for s in slots if s.key in start and is_choice(s, start)}
-    if onset_key(key) in problem.system.index:
+    if onset_key(key) in posterior.system.index:
         choices[onset_key(key)] = start.get(onset_key(key), ALWAYS)
-    return problem.hold_values(choices).extend(make_term_parameters(problem, key, slots, start), {key})
+    return posterior.hold_values(choices).extend(make_term_parameters(posterior, key, slots, start), {key})
 
 
 def make_term_parameters(
-    problem: Problem, key: str, slots: list[Slot], start: Mapping[str, float]
+    posterior: Posterior, key: str, slots: list[Slot], start: Mapping[str, float]
 ) -> tuple[FreeParameter, ...]:
-    """Return the free parameters of a term of a problem; the delay of one of several sensors is bounded.
+    """Return the free parameters of a term of a posterior; the delay of one of several sensors is bounded.
 
     A wave of a sensor is longer than its rounding.
     """
-    frees, (term, _) = make_free_parameters(slots, problem.scales, start), find_term(problem, key)
-    if any(f.log for f in frees) and (least := find_shortest_wave(problem, key)) > 0.0:
+    frees, (term, _) = make_free_parameters(slots, posterior.scales, start), find_term(posterior, key)
+    if any(f.log for f in frees) and (least := find_shortest_wave(posterior, key)) > 0.0:
         low = math.log(least)
         frees = tuple(replace(f, low=max(f.low, low), start=max(f.start, low)) if f.log else f for f in frees)
-    if term.acts != "sensor" or len(problem.observations[0].sensors) == 1:
+    if term.acts != "sensor" or len(posterior.observations[0].sensors) == 1:
         return frees
-    most = LATEST * problem.scales.time
+    most = LATEST * posterior.scales.time
     late = {s.key for s in slots if s.param.dimension == TIME}
     return tuple(replace(f, high=min(f.high, most), start=min(f.start, most)) if f.key in late else f for f in frees)
 
 
-def count_steps_for_sticking(problem: Problem, theta: Array, *, creep: float = CREEP) -> int:
+def count_steps_for_sticking(posterior: Posterior, theta: Array, *, creep: float = CREEP) -> int:
     """Return the steps between samples at which a law that jumps at rest hardly creeps during sticking.
 
     Its creep is at most `force * mobility`, which is limited to the share `creep` of the velocity of the motion.
     """
-    system, most, full = problem.system, 1.0, problem.full(theta)
-    for key in problem.active:
-        term, slots = find_term(problem, key)
+    system, most, full = posterior.system, 1.0, posterior.recordings[0].full(theta)
+    for key in posterior.active:
+        term, slots = find_term(posterior, key)
         if "mobility" in term.needs:
             inertia = system.inertia(full, place_of(system.model, term))
             force = sum(abs(full[system.index[s.key]]) for s in slots if s.param.dimension == FORCE)
-            width = force * max(t.dt for t in problem.observations) / inertia
-            most = max(most, width / (creep * problem.scales.velocity))
+            width = force * max(t.dt for t in posterior.observations) / inertia
+            most = max(most, width / (creep * posterior.scales.velocity))
     return min(math.ceil(most), FINEST)
 
 
@@ -200,24 +202,24 @@ def _test_shapes(fit: Fit, slopes: Sensitivity, key: str, shapes: Sequence[Mappi
     Differences of all shapes are taken over a small amplitude, those of the best over half a standard deviation: small
     differences may miss the whole gain of a dry friction.
     """
-    amplitudes, fixed = sort_slots(fit.problem, key)
-    frees = (*make_term_parameters(fit.problem, key, amplitudes, {}), *(hold_shape(slot) for slot in fixed))
-    wider = fit.problem.extend(frees, {key})
-    sizes = np.array([compute_size(s.param, fit.problem.scales) for s in amplitudes])
+    amplitudes, fixed = sort_slots(fit.posterior, key)
+    frees = (*make_term_parameters(fit.posterior, key, amplitudes, {}), *(hold_shape(slot) for slot in fixed))
+    wider = fit.posterior.extend(frees, {key})
+    sizes = np.array([compute_size(s.param, fit.posterior.scales) for s in amplitudes])
     zeros = [np.concatenate([slopes.theta, np.zeros(len(sizes)), [shape[s.key] for s in fixed]]) for shape in shapes]
     joints = _join_sensitivities(slopes, wider, zeros, [0.01 * sizes for _ in shapes], shared=True)
     hints = [_solve_score_test(fit, key, amplitudes, shape, joint) for shape, joint in zip(shapes, joints, strict=True)]
     near = sorted(range(len(hints)), key=lambda i: -hints[i].gain)[:REFINED]
     told = [np.maximum(np.diag(joints[i].information())[-len(sizes) :], 1e-300) for i in near]
     widths = [np.clip(0.5 / np.sqrt(curvature), 1e-9 * sizes, sizes) for curvature in told]
-    shared = not find_term(fit.problem, key)[0].states
+    shared = not find_term(fit.posterior, key)[0].states
     joints = _join_sensitivities(slopes, wider, [zeros[i] for i in near], widths, shared=shared)
     pairs = zip(near, joints, strict=True)
     return [_solve_score_test(fit, key, amplitudes, shapes[i], joint) for i, joint in pairs]
 
 
 def _join_sensitivities(
-    slopes: Sensitivity, wider: Problem, zeros: Sequence[Array], widths: Sequence[Array], *, shared: bool
+    slopes: Sensitivity, wider: Posterior, zeros: Sequence[Array], widths: Sequence[Array], *, shared: bool
 ) -> list[Sensitivity]:
     """Return the sensitivities of base parameters and amplitudes together, at amplitude zero, for each point.
 
@@ -228,7 +230,7 @@ def _join_sensitivities(
     ups = np.stack([np.tile(zero, (count, 1)) for zero in zeros])
     ups[:, :, base : base + count] += np.stack([np.diag(width) for width in widths])
     below = np.array(zeros[:1] if shared else zeros)
-    seen, found = wider.filter_many(np.vstack([below, ups.reshape(-1, ups.shape[2])])), []
+    seen, found = wider.innovations(np.vstack([below, ups.reshape(-1, ups.shape[2])])), []
     for k, (zero, width) in enumerate(zip(zeros, widths, strict=True)):
         here = seen[0 if shared else k]
         part = seen[len(below) + k * count : len(below) + (k + 1) * count]
@@ -252,15 +254,15 @@ def _solve_from_gradient(
 ) -> ScoreTest:
     """Return the score test of a term from gradient and information of base parameters and amplitudes together."""
     if not (np.all(np.isfinite(gradient)) and np.all(np.isfinite(information))):
-        require_finite(fit.problem, key)
+        require_finite(fit.posterior, key)
         return ScoreTest(key, 0.0, dict(shape), 0.0)
     k = len(amplitudes)
     base, cross, own = information[:-k, :-k], information[:-k, -k:], information[-k:, -k:]
-    base = base + np.diag(list(map(FreeParameter.prior_information, fit.problem.free, fit.theta)))
+    base = base + np.diag(list(map(FreeParameter.prior_information, fit.posterior.space.free, fit.theta)))
     pulled = solve_scaled(base, np.column_stack([cross, gradient[:-k]]))
     schur = own - cross.T @ pulled[:, :k]
     force = gradient[-k:] - cross.T @ pulled[:, k]
-    sizes = np.array([compute_size(a.param, fit.problem.scales) for a in amplitudes])
+    sizes = np.array([compute_size(a.param, fit.posterior.scales) for a in amplitudes])
     kept = [i for i in range(k) if own[i, i] * sizes[i] ** 2 > MUTE]
     distinct = min((float(schur[i, i] / own[i, i]) for i in kept), default=0.0)
     while kept:
@@ -280,14 +282,14 @@ def fit_term(fit: Fit, hint: ScoreTest) -> Fit:
 
     Without the term the likelihood is that of the given fit; a fit that ends lower has failed.
     """
-    _, slots = find_term(fit.problem, hint.key)
-    begun = restart(fit) if hint.base is None else begin_at(fit.problem, hint.base)
-    problems = [add_term(begun, hint, _scale_start(hint, slots, factor)) for factor in SHARES]
-    log_densities = [p.log_posterior(p.clip(p.start)) for p in problems[:2]]
+    _, slots = find_term(fit.posterior, hint.key)
+    begun = restart(fit) if hint.base is None else begin_at(fit.posterior, hint.base)
+    posteriors = [add_term(begun, hint, _scale_start(hint, slots, factor)) for factor in SHARES]
+    log_densities = [p.log_density(p.space.clip(p.space.start)) for p in posteriors[:2]]
     order = (*np.argsort(log_densities)[::-1], *range(2, len(SHARES)))
     fits: list[Fit] = []
     for i in order:
-        fits.append(maximise(problems[i], tolerance=ROUGHLY))
+        fits.append(maximise(posteriors[i], tolerance=ROUGHLY))
         if fits[-1].status == "converged" and fits[-1].log_likelihood > fit.log_likelihood - 1.0:
             break
     best = max(fits, key=lambda f: f.local.log_posterior)
@@ -297,40 +299,46 @@ def fit_term(fit: Fit, hint: ScoreTest) -> Fit:
 def replace_term(fit: Fit, key: str, hint: ScoreTest) -> Fit:
     """Return the fit with the term of `hint` in place of the related term `key`, started from shared parameters."""
     values = fit.values
-    _, slots = find_term(fit.problem, hint.key)
+    _, slots = find_term(fit.posterior, hint.key)
     shared = {s.key: values.get(f"{key}.{s.param.name}") for s in slots}
     start = {**hint.start, **{name: value for name, value in shared.items() if value is not None}}
-    problem = add_term(restart(fit).remove_term(key, values), hint, start)
+    posterior = add_term(restart(fit).remove_term(key, values), hint, start)
     own = [s for s in slots if shared[s.key] is None]
-    begins = np.array([problem.start, *_list_shape_starts(problem, own), *_list_smaller_starts(problem, own)])
-    begins = problem.clip(np.vstack([begins, [raise_random_force(problem, theta, RAISED) for theta in begins]]))
+    begins = np.array(
+        [posterior.space.start, *_list_shape_starts(posterior, own), *_list_smaller_starts(posterior, own)]
+    )
+    begins = posterior.space.clip(
+        np.vstack([begins, [raise_random_force(posterior, theta, RAISED) for theta in begins]])
+    )
     fits: list[Fit] = []
-    for i in np.argsort(-problem.log_posteriors(begins))[:MOST_BEGUN].tolist():
-        fits.append(maximise(problem, begins[i], tolerance=ROUGHLY))
+    for i in np.argsort(-posterior.log_density(begins))[:MOST_BEGUN].tolist():
+        fits.append(maximise(posterior, begins[i], tolerance=ROUGHLY))
         if fits[-1].log_likelihood > fit.log_likelihood + max(KEPT * hint.gain, 1.0):
             break
     return max(fits, key=lambda one: one.local.log_posterior)
 
 
-def _list_shape_starts(problem: Problem, slots: Sequence[Slot]) -> Iterator[Array]:
-    """Yield the start of a problem with one of the shapes among `slots` changed over a thousandfold range.
+def _list_shape_starts(posterior: Posterior, slots: Sequence[Slot]) -> Iterator[Array]:
+    """Yield the start of a posterior with one of the shapes among `slots` changed over a thousandfold range.
 
     A shape with a scan is not changed: the scan has covered its range already.
     """
     for slot in slots:
         if slot.param.null is None and slot.param.scale == "log" and not (slot.param.choices or slot.param.scan):
-            at = problem.keys.index(slot.key)
+            at = posterior.space.keys.index(slot.key)
             for factor in SPREAD:
-                theta = problem.start.copy()
-                theta[at] = math.log(factor * compute_size(slot.param, problem.scales))
+                theta = posterior.space.start.copy()
+                theta[at] = math.log(factor * compute_size(slot.param, posterior.scales))
                 yield theta
 
 
-def _list_smaller_starts(problem: Problem, slots: Sequence[Slot]) -> Iterator[Array]:
-    """Yield the start of a problem with smaller amplitudes among `slots`: score tests overestimate some of them."""
-    at = [problem.keys.index(s.key) for s in slots if s.param.null is not None and s.key in problem.keys]
+def _list_smaller_starts(posterior: Posterior, slots: Sequence[Slot]) -> Iterator[Array]:
+    """Yield the start of a posterior with smaller amplitudes among `slots`: score tests overestimate some of them."""
+    at = [
+        posterior.space.keys.index(s.key) for s in slots if s.param.null is not None and s.key in posterior.space.keys
+    ]
     for share in SHARES[1:] if at else ():
-        theta = problem.start.copy()
+        theta = posterior.space.start.copy()
         theta[at] *= share
         yield theta
 

@@ -8,22 +8,22 @@ from lostmotion.inference.candidates import join_term
 from lostmotion.inference.fit import Fit, restart
 from lostmotion.inference.late import find_onset
 from lostmotion.inference.natural import find_term
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.system import key_of, onset_key
 
 
-def rewrite_term(fit: Fit, key: str, candidates: Collection[str]) -> Problem | None:
-    """Return the problem with more common terms in place of one, at the same force; None where it is no sum."""
-    term, slots = find_term(fit.problem, key)
+def rewrite_term(fit: Fit, key: str, candidates: Collection[str]) -> Posterior | None:
+    """Return the posterior with more common terms in place of one, at the same force; None where it is no sum."""
+    term, slots = find_term(fit.posterior, key)
     values = fit.values
     if not all(slot.key in values for slot in slots):
         return None
     commoner = term.commoner({slot.param.name: values[slot.key] for slot in slots})
-    keys = {t.name: key_of(t) for t in fit.problem.system.terms if t.at == term.at and t.name in commoner}
-    if not commoner or len(keys) < len(commoner) or not set(keys.values()) <= set(candidates) - fit.problem.active:
+    keys = {t.name: key_of(t) for t in fit.posterior.system.terms if t.at == term.at and t.name in commoner}
+    if not commoner or len(keys) < len(commoner) or not set(keys.values()) <= set(candidates) - fit.posterior.active:
         return None
-    since, problem = find_onset(fit.problem, key), restart(fit).remove_term(key, values)
+    since, posterior = find_onset(fit.posterior, key), restart(fit).remove_term(key, values)
     for name, own in commoner.items():
         start = {f"{keys[name]}.{param}": value for param, value in own.items()}
-        problem = join_term(problem, keys[name], {**start, onset_key(keys[name]): since})
-    return problem
+        posterior = join_term(posterior, keys[name], {**start, onset_key(keys[name]): since})
+    return posterior

@@ -10,12 +10,12 @@ from lostmotion.results import rounded
 
 def list_short_contacts(fit: Fit) -> list[str]:
     """Return a note for each contact that is so stiff that a bounce is shorter than a sample."""
-    problem, notes = fit.problem, []
-    for place in problem.system.model.places:
-        for i, observation in enumerate(problem.observations):
-            full = problem.full(fit.theta, i)
-            stiff = full[problem.system.index[place.stiffness]] if place.stiffness and place.play else 0.0
-            lasts = np.pi * np.sqrt(problem.system.inertia(full, place) / stiff) if stiff > 0.0 else np.inf
+    posterior, notes = fit.posterior, []
+    for place in posterior.system.model.places:
+        for i, observation in enumerate(posterior.observations):
+            full = posterior.recordings[i].full(fit.theta)
+            stiff = full[posterior.system.index[place.stiffness]] if place.stiffness and place.play else 0.0
+            lasts = np.pi * np.sqrt(posterior.system.inertia(full, place) / stiff) if stiff > 0.0 else np.inf
             if lasts < observation.dt:
                 notes.append(
                     f"{observation.name}: a bounce at the {place.name} lasts {rounded(lasts)} s and samples are"

@@ -18,7 +18,8 @@ from lostmotion.inference.fit import Fit, Sensitivity, compute_robust_covariance
 from lostmotion.inference.learned import LearnedTerm, compute_spread
 from lostmotion.inference.natural import find_term
 from lostmotion.inference.surfaces import RICHER, OverHistory, Surface, list_all_curves
-from lostmotion.likelihood.problem import FreeParameter, Problem
+from lostmotion.likelihood.posterior import Posterior
+from lostmotion.likelihood.space import FreeParameter
 from lostmotion.likelihood.system import System, key_of
 
 SIZES = (0.002, 0.006, 0.02, 0.06, 0.2)
@@ -65,25 +66,25 @@ def add_all_curves(fit: Fit, until: float = 0.0) -> Fit:
     Curves over the time reach to `until` (s), if that is later than the recordings of the fit end. All terms stay, so
     one kernel serves any active set. A system that has the curves is returned unchanged.
     """
-    problem, old = fit.problem, fit.problem.system
+    posterior, old = fit.posterior, fit.posterior.system
     if any(isinstance(term, LearnedTerm) for term in old.terms):
         return fit
-    driven = all(observation.harmonic.omega > 0.0 for observation in problem.observations)
+    driven = all(observation.harmonic.omega > 0.0 for observation in posterior.observations)
     curves = list_all_curves(old.model, driven=driven)
     system = replace(old, terms=(*old.terms, *curves))
-    known = system.vector({key: problem.known[old.index[key]] for key in system.index if key in old.index})
+    known = system.vector({key: posterior.known[old.index[key]] for key in system.index if key in old.index})
     moved = smooth_motions(fit, [place_of(old.model, curve) for curve in curves])
     for curve in curves:
         for key, value in _find_ranges(fit, curve, moved, until).items():
             known[system.index[f"{key_of(curve)}.{key}"]] = value
-    return replace(fit, problem=replace(problem, system=system, known=known))
+    return replace(fit, posterior=replace(posterior, dynamics=replace(posterior.dynamics, system=system), known=known))
 
 
 def drop_all_curves(fit: Fit, system: System) -> Fit:
     """Return a fit whose curves are all absent in a system without them; its values are unchanged."""
-    problem = fit.problem
-    known = system.vector({key: problem.known[problem.system.index[key]] for key in system.index})
-    return replace(fit, problem=replace(problem, system=system, known=known))
+    posterior = fit.posterior
+    known = system.vector({key: posterior.known[posterior.system.index[key]] for key in system.index})
+    return replace(fit, posterior=replace(posterior, dynamics=replace(posterior.dynamics, system=system), known=known))
 
 
 Motions = dict[str, list[Array]]
@@ -92,19 +93,19 @@ Motions = dict[str, list[Array]]
 
 def smooth_motions(fit: Fit, places: Sequence[Place]) -> Motions:
     """Return the filtered motion at places of the model in each recording; each recording is filtered once."""
-    problem, distinct = fit.problem, {place.name: place for place in places}
+    posterior, distinct = fit.posterior, {place.name: place for place in places}
     found: Motions = {name: [] for name in distinct}
-    for observation in problem.observations:
-        single = replace(problem.on((observation,)), jobs=1)
-        states, full = single.smooth(fit.theta).filtered, single.full(fit.theta)
+    for observation in posterior.observations:
+        single = replace(posterior.on((observation,)), jobs=1)
+        states, full = single.filters[0].smooth(fit.theta).filtered, single.recordings[0].full(fit.theta)
         for name, place in distinct.items():
-            found[name].append(place.move(states, single.observations[0].inputs, problem.system.lever(full, place)))
+            found[name].append(place.move(states, single.observations[0].inputs, posterior.system.lever(full, place)))
     return found
 
 
 def _find_ranges(fit: Fit, curve: LearnedTerm, moved: Motions, until: float) -> dict[str, float]:
     """Return middle and half width of the range of a curve's variable, for a surface of both variables."""
-    time = fit.problem.scales.time
+    time = fit.posterior.scales.time
     found = _centre_range(*_find_range(fit, curve, curve.over, moved, until))
     if isinstance(curve, Surface):
         found |= {f"{k}2": v for k, v in _centre_range(*_find_range(fit, curve, curve.beside, moved, until)).items()}
@@ -117,13 +118,15 @@ def _centre_range(low: float, high: float) -> dict[str, float]:
 
 def _find_range(fit: Fit, curve: LearnedTerm, over: str, moved: Motions, until: float) -> tuple[float, float]:
     """Return the least and the greatest value of a variable in all recordings, with a narrow margin."""
-    problem = fit.problem
+    posterior = fit.posterior
     if over in ("time", "phase"):
-        return 0.0, max(until, *(float(observation.time[-1]) for observation in problem.observations))
-    seen = moved[place_of(problem.system.model, curve).name]
+        return 0.0, max(until, *(float(observation.time[-1]) for observation in posterior.observations))
+    seen = moved[place_of(posterior.system.model, curve).name]
     if over == "history":
-        steps = zip(seen, problem.observations, strict=True)
-        values = [OverHistory.followed(motion[1], observation.dt, problem.scales.time) for motion, observation in steps]
+        steps = zip(seen, posterior.observations, strict=True)
+        values = [
+            OverHistory.followed(motion[1], observation.dt, posterior.scales.time) for motion, observation in steps
+        ]
     else:
         values = [motion[int(over == "velocity")] for motion in seen]
     ends = [_find_ends(value) for value in values]
@@ -137,23 +140,23 @@ def _find_ends(moved: Array) -> tuple[float, float]:
     return float(low), float(high)
 
 
-def compute_coefficient_size(term: LearnedTerm, problem: Problem) -> float:
+def compute_coefficient_size(term: LearnedTerm, posterior: Posterior) -> float:
     """Return the natural size of the coefficients of a curve: the drive, in their dimension."""
-    scales = problem.scales
+    scales = posterior.scales
     return term.params[0].dimension.scale(scales.force, scales.length, scales.time)
 
 
 def run_curve_test(fit: Fit, slopes: Sensitivity, key: str) -> CurveTest:
     """Return the score test of a curve; one with a memory is tested at each of `TIMES`, at a price for the choice."""
-    problem, term = fit.problem, _find_curve(fit.problem, key)
+    posterior, term = fit.posterior, _find_curve(fit.posterior, key)
     if not isinstance(term, OverHistory):
         return _choose_smoothness(fit, slopes, key)
-    moved, found = smooth_motions(fit, [place_of(problem.system.model, term)]), []
+    moved, found = smooth_motions(fit, [place_of(posterior.system.model, term)]), []
     for share in TIMES:
-        time = share * problem.scales.time
+        time = share * posterior.scales.time
         held = {"time": time, **_centre_range(*_find_range(fit, term, "history", moved, time))}
         known = {f"{key}.{name}": value for name, value in held.items()}
-        best = _choose_smoothness(replace(fit, problem=problem.hold_values(known)), slopes, key)
+        best = _choose_smoothness(replace(fit, posterior=posterior.hold_values(known)), slopes, key)
         found.append(replace(best, gain=best.gain - math.log(len(TIMES)), known=known))
     return max(found, key=lambda shape: shape.gain)
 
@@ -164,12 +167,12 @@ def _choose_smoothness(fit: Fit, slopes: Sensitivity, key: str) -> CurveTest:
     With gradient g and information H of its coefficients, prior widths D: the evidence gains (g'D (I + D H D)^-1 D g -
     log det(I + D H D)) / 2.
     """
-    problem = fit.problem
-    term = _find_curve(problem, key)
+    posterior = fit.posterior
+    term = _find_curve(posterior, key)
     gradient, information = project_score(fit, slopes, key)
     options = []
     for size, length in itertools.product(SIZES, LENGTHS):
-        widths = size * compute_coefficient_size(term, problem) * compute_spread(term, length)
+        widths = size * compute_coefficient_size(term, posterior) * compute_spread(term, length)
         inner = np.eye(term.count) + information * np.outer(widths, widths)
         pull = np.linalg.solve(inner, widths * gradient)
         gain = 0.5 * float(widths * gradient @ pull) - 0.5 * float(np.linalg.slogdet(inner)[1])
@@ -178,8 +181,8 @@ def _choose_smoothness(fit: Fit, slopes: Sensitivity, key: str) -> CurveTest:
     return max(options, key=lambda s: s.gain)
 
 
-def _find_curve(problem: Problem, key: str) -> LearnedTerm:
-    term, _ = find_term(problem, key)
+def _find_curve(posterior: Posterior, key: str) -> LearnedTerm:
+    term, _ = find_term(posterior, key)
     if not isinstance(term, LearnedTerm):
         raise TypeError(f"{key} is no learned curve")
     return term
@@ -195,11 +198,11 @@ def project_score(fit: Fit, slopes: Sensitivity, key: str) -> tuple[Array, Array
 
 def join_curve(fit: Fit, slopes: Sensitivity, key: str) -> Sensitivity:
     """Return the sensitivities of a fit, followed by those of the coefficients of a curve at zero."""
-    problem, term = fit.problem, _find_curve(fit.problem, key)
-    width = NUDGE * compute_coefficient_size(term, problem)
-    wider = add_curve(problem, key, np.full(term.count, math.inf), np.zeros(term.count))
+    posterior, term = fit.posterior, _find_curve(fit.posterior, key)
+    width = NUDGE * compute_coefficient_size(term, posterior)
+    wider = add_curve(posterior, key, np.full(term.count, math.inf), np.zeros(term.count))
     zero = np.concatenate([slopes.theta, np.zeros(term.count)])
-    seen = wider.filter_many(np.vstack([zero[None], zero + width * np.eye(len(zero))[len(slopes.theta) :]]))
+    seen = wider.innovations(np.vstack([zero[None], zero + width * np.eye(len(zero))[len(slopes.theta) :]]))
     above = np.where(seen.finite[1:], np.arange(1, len(seen)), 0)
     de = (seen.errors[above] - seen.errors[0]) / width
     dv = (seen.variances[above] - seen.variances[0]) / width
@@ -213,10 +216,10 @@ def project_from(fit: Fit, joint: Sensitivity, k: int) -> tuple[Array, Array, Ar
 
     They are those of `project_score`, from the sensitivities of `join_curve`.
     """
-    problem = fit.problem
+    posterior = fit.posterior
     gradient, information = joint.gradient(), joint.information()
-    pull = np.array(list(map(FreeParameter.prior_information, problem.free, joint.theta)))
-    gradient[:k] -= pull * (joint.theta[:k] - np.array([f.mean for f in problem.free]))
+    pull = np.array(list(map(FreeParameter.prior_information, posterior.space.free, joint.theta)))
+    gradient[:k] -= pull * (joint.theta[:k] - np.array([f.mean for f in posterior.space.free]))
     pulled = solve_scaled(information[:k, :k] + np.diag(pull), information[:k, k:])
     own = information[k:, k:]
     told = _keep_independent(gradient[k:] - pulled.T @ gradient[:k], own - information[k:, :k] @ pulled, own)
@@ -239,22 +242,22 @@ def _keep_independent(gradient: Array, left: Array, own: Array) -> tuple[Array, 
     return turned @ (kept.T @ np.linalg.solve(root, gradient)), turned * shares[shares > COVERED] @ turned.T
 
 
-def add_curve(problem: Problem, key: str, widths: Array, start: Array) -> Problem:
-    """Return a problem with one more curve: coefficients normal about zero with `widths` > 0, begun at `start`."""
-    term = _find_curve(problem, key)
-    reach = np.where(np.isfinite(widths), 30.0 * widths, 1e3 * compute_coefficient_size(term, problem))
-    unit = term.params[0].dimension.unit(problem.system.model.motion)
+def add_curve(posterior: Posterior, key: str, widths: Array, start: Array) -> Posterior:
+    """Return a posterior with one more curve: coefficients normal about zero with `widths` > 0, begun at `start`."""
+    term = _find_curve(posterior, key)
+    reach = np.where(np.isfinite(widths), 30.0 * widths, 1e3 * compute_coefficient_size(term, posterior))
+    unit = term.params[0].dimension.unit(posterior.system.model.motion)
     rows = [(int(i), *(float(row[i]) for row in (start, reach, widths))) for i in np.flatnonzero(widths > 0.0)]
     frees = [FreeParameter(f"{key}.v{i}", unit, at, -far, far, sd=wide, linear=True) for i, at, far, wide in rows]
-    return problem.extend(frees, {key})
+    return posterior.extend(frees, {key})
 
 
 def fit_curve(fit: Fit, shape: CurveTest) -> Fit:
     """Return the fit with one more curve, started at the estimate of its score test or at a share of it."""
     base = restart(fit).hold_values(shape.known)
-    problems = [add_curve(base, shape.key, shape.widths, f * shape.start) for f in (1.0, 0.5, 0.2)]
-    log_densities = [p.log_posterior(p.clip(p.start)) for p in problems]
-    return maximise(problems[int(np.argmax(log_densities))], rounds=ROUNDS, tolerance=0.3)
+    posteriors = [add_curve(base, shape.key, shape.widths, f * shape.start) for f in (1.0, 0.5, 0.2)]
+    log_densities = [p.log_density(p.space.clip(p.space.start)) for p in posteriors]
+    return maximise(posteriors[int(np.argmax(log_densities))], rounds=ROUNDS, tolerance=0.3)
 
 
 @dataclass(frozen=True)
@@ -278,29 +281,29 @@ class Band:
 
 def compute_band(fit: Fit, key: str, points: int = 161) -> Band:
     """Return a learned curve over the range of the data, with the robust covariance of its coefficients."""
-    problem, term = fit.problem, _find_curve(fit.problem, key)
-    places = {name: i for i, name in enumerate(problem.keys)}
+    posterior, term = fit.posterior, _find_curve(fit.posterior, key)
+    places = {name: i for i, name in enumerate(posterior.space.keys)}
     used = [i for i in range(term.count) if f"{key}.v{i}" in places]
     columns = [places[f"{key}.v{i}"] for i in used]
     beside = None
     if isinstance(term, Surface):
         (z, at), (w, beside) = (
-            _make_axis(problem, key, term.over, GRID[0]),
-            _make_axis(problem, key, term.beside, GRID[1], "2"),
+            _make_axis(posterior, key, term.over, GRID[0]),
+            _make_axis(posterior, key, term.beside, GRID[1], "2"),
         )
         basis = term.grid(z, w).reshape(len(z) * len(w), -1)[:, used]
     else:
-        z, at = _make_axis(problem, key, term.over, points)
+        z, at = _make_axis(posterior, key, term.over, points)
         basis = term.basis(z)[:, used]
     covariance = compute_robust_covariance(fit)[np.ix_(columns, columns)]
     return Band(term, at, basis @ fit.theta[columns], basis @ covariance @ basis.T, beside)
 
 
-def _make_axis(problem: Problem, key: str, over: str, points: int, which: str = "") -> tuple[Array, Array]:
+def _make_axis(posterior: Posterior, key: str, over: str, points: int, which: str = "") -> tuple[Array, Array]:
     """Return places (points,) in half widths (half periods) of a range, and their values in its unit (periods)."""
     if over == "phase":
         z = np.linspace(0.0, 2.0, points)
         return z, 0.5 * z
-    middle, half = (float(problem.known[problem.system.index[f"{key}.{n}{which}"]]) for n in ("middle", "half"))
+    middle, half = (float(posterior.known[posterior.system.index[f"{key}.{n}{which}"]]) for n in ("middle", "half"))
     z = np.linspace(-1.0, 1.0, points)
     return z, middle + half * z

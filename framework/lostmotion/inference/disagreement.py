@@ -57,7 +57,7 @@ class Windows:
 
 def compute_squares(fit: Fit, observation: Observation) -> Array:
     """Return the squared standardised innovation (samples,), mean over the sensors; NaN where none was read."""
-    seen = filter_recording(fit.problem.on((observation,)), fit.theta)
+    seen = filter_recording(fit.posterior.on((observation,)), fit.theta)
     read = seen.taken & np.isfinite(seen.errors) & np.isfinite(seen.variances)
     with np.errstate(over="ignore", invalid="ignore"):
         squares = np.where(read, np.minimum(seen.errors**2 / seen.variances, LARGEST), np.nan)

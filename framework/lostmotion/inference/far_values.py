@@ -15,7 +15,8 @@ from lostmotion.contracts import Array
 from lostmotion.inference.fit import HOPELESS, Fit, maximise, raise_random_force, restart
 from lostmotion.inference.natural import compute_size, list_tried_values
 from lostmotion.inference.random_force import compute_random_force_gain
-from lostmotion.likelihood.problem import FreeParameter, Problem
+from lostmotion.likelihood.posterior import Posterior
+from lostmotion.likelihood.space import FreeParameter
 from lostmotion.likelihood.system import Slot
 
 SHORT = 1500
@@ -48,25 +49,25 @@ def try_far_values(fit: Fit, slot: Slot, key: str) -> FarValue | None:
     the usual gains more than a far value must gain, also from the middle of the priors, because a gap makes a spring
     seem far too soft.
     """
-    least = fit.problem.settings.select.far
-    values = [factor * compute_size(slot.param, fit.problem.scales) for factor in slot.param.far]
+    least = fit.posterior.settings.select.far
+    values = [factor * compute_size(slot.param, fit.posterior.scales) for factor in slot.param.far]
     scanned = bool(slot.param.scan) and compute_random_force_gain(fit) > least
     if scanned:
-        values += list_tried_values(slot.param, fit.problem.scales)
+        values += list_tried_values(slot.param, fit.posterior.scales)
     if not values:
         return None
     bottom = _shorten(fit)
-    short, nominal = bottom.problem, bottom.local.log_posterior
+    short, nominal = bottom.posterior, bottom.local.log_posterior
     wider = short.extend((hold_shape(slot),), {key})
     theta = raise_random_force(short, bottom.theta, RAISED)
-    log_densities = wider.log_likelihoods(np.array([np.append(theta, value) for value in values]))
+    log_densities = wider.log_likelihood(np.array([np.append(theta, value) for value in values]))
     best: FarValue | None = None
     for i in np.argsort(-log_densities)[:MOST_TRIED]:
         trial = _hold_value(short, slot, key, values[i])
         near = maximise(trial, bottom.theta, rounds=ROUNDS, tolerance=1.0, hopeless=nominal, patience=1)
         refits: list[tuple[Fit, Array | None]] = [(near, None)]
         if scanned:
-            begin = raise_random_force(short, short.start, RAISED_MOST)
+            begin = raise_random_force(short, short.space.start, RAISED_MOST)
             other = maximise(trial, begin, rounds=MORE_ROUNDS, tolerance=1.0, hopeless=nominal - HOPELESS)
             refits.append((other, other.theta))
         for found, base in refits:
@@ -78,17 +79,17 @@ def try_far_values(fit: Fit, slot: Slot, key: str) -> FarValue | None:
 
 def _shorten(fit: Fit) -> Fit:
     """Return the fit to the beginning of the recordings; it is the fit itself where they are short."""
-    observations = fit.problem.observations
+    observations = fit.posterior.observations
     if all(t.samples <= SHORT for t in observations):
         return fit
-    short = fit.problem.on(tuple(t.part(0, min(t.samples, SHORT)) for t in observations))
-    return maximise(restart(replace(fit, problem=short)), fit.theta, rounds=2)
+    short = fit.posterior.on(tuple(t.part(0, min(t.samples, SHORT)) for t in observations))
+    return maximise(restart(replace(fit, posterior=short)), fit.theta, rounds=2)
 
 
-def _hold_value(problem: Problem, slot: Slot, key: str, value: float) -> Problem:
-    """Return a problem with a term active, and its amplitude held at a value."""
-    trial = problem.hold_values({slot.key: value})
-    return replace(trial, active=trial.active | {key})
+def _hold_value(posterior: Posterior, slot: Slot, key: str, value: float) -> Posterior:
+    """Return a posterior with a term active, and its amplitude held at a value."""
+    trial = posterior.hold_values({slot.key: value})
+    return trial.acting(trial.active | {key})
 
 
 def hold_shape(slot: Slot) -> FreeParameter:

@@ -14,7 +14,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.likelihood.problem import RANDOM, Innovations, Problem
+from lostmotion.likelihood.innovations import Innovations
+from lostmotion.likelihood.posterior import Posterior
+from lostmotion.likelihood.space import RANDOM
 
 BLOCKS = 40
 STRIDE = 0.3
@@ -55,7 +57,7 @@ class LocalExpansion:
 class Fit:
     """The maximum of a posterior: coordinates, local expansion, log evidence by Laplace's method, and a status."""
 
-    problem: Problem
+    posterior: Posterior
     local: LocalExpansion
     status: str
     rounds: int
@@ -73,7 +75,7 @@ class Fit:
     @property
     def values(self) -> dict[str, float]:
         """The free parameters by key."""
-        return self.problem.values(self.theta)
+        return {key: float(value) for key, value in self.posterior.space.values(self.theta).items()}
 
     @property
     def log_evidence(self) -> float:
@@ -86,7 +88,9 @@ class Fit:
     @property
     def sd(self) -> dict[str, float]:
         """The standard deviation of each coordinate by key."""
-        return dict(zip(self.problem.keys, np.sqrt(np.maximum(np.diag(self.local.covariance), 0.0)), strict=True))
+        return dict(
+            zip(self.posterior.space.keys, np.sqrt(np.maximum(np.diag(self.local.covariance), 0.0)), strict=True)
+        )
 
 
 def solve_scaled(information: Array, right: Array) -> Array:
@@ -100,10 +104,10 @@ def solve_scaled(information: Array, right: Array) -> Array:
     return np.asarray(tall * np.linalg.lstsq(scaled, tall * right, rcond=1e-12)[0], dtype=float)
 
 
-def choose_first_steps(problem: Problem) -> Array:
+def choose_first_steps(posterior: Posterior) -> Array:
     """Return the first finite-difference steps: a thousandth of a logarithm, or of the prior width."""
     return np.array(
-        [1e-3 if f.log or f.key.startswith("log_") else 1e-3 * min(f.sd, f.high - f.low) for f in problem.free]
+        [1e-3 if f.log or f.key.startswith("log_") else 1e-3 * min(f.sd, f.high - f.low) for f in posterior.space.free]
     )
 
 
@@ -133,13 +137,13 @@ class Sensitivity:
         return np.asarray((self.errors / v) @ self.errors.T + 0.5 * (self.variances / v**2) @ self.variances.T)
 
 
-def make_stencil(problem: Problem, theta: Array, steps: Array) -> tuple[Array, Array]:
+def make_stencil(posterior: Posterior, theta: Array, steps: Array) -> tuple[Array, Array]:
     """Return coordinates above and below `theta`, (n,) each: equal to it where one side is enough or a bound is met.
 
     Differences are central, except for coordinates in which the innovations are linear.
     """
-    space = problem.space
-    straight = np.array([f.linear for f in problem.free], dtype=bool)
+    space = posterior.space
+    straight = np.array([f.linear for f in posterior.space.free], dtype=bool)
     return np.minimum(theta + steps, space.high), np.where(straight, theta, np.maximum(theta - steps, space.low))
 
 
@@ -150,10 +154,10 @@ def list_stencil_points(theta: Array, up: Array, down: Array) -> Array:
     return np.vstack([theta[None], above, below[down != theta]])
 
 
-def compute_sensitivity(problem: Problem, theta: Array, steps: Array) -> Sensitivity:
+def compute_sensitivity(posterior: Posterior, theta: Array, steps: Array) -> Sensitivity:
     """Return innovations and their derivatives at `theta`, by differences within the bounds."""
-    up, down = make_stencil(problem, theta, steps)
-    return compute_differences(theta, (up, down), problem.filter_many(list_stencil_points(theta, up, down)), steps)
+    up, down = make_stencil(posterior, theta, steps)
+    return compute_differences(theta, (up, down), posterior.innovations(list_stencil_points(theta, up, down)), steps)
 
 
 def compute_differences(theta: Array, ends: tuple[Array, Array], seen: Innovations, steps: Array) -> Sensitivity:
@@ -173,37 +177,37 @@ def compute_differences(theta: Array, ends: tuple[Array, Array], seen: Innovatio
     return Sensitivity(theta, seen[0], de, dv, steps)
 
 
-def expand(problem: Problem, theta: Array, steps: Array) -> LocalExpansion:
+def expand(posterior: Posterior, theta: Array, steps: Array) -> LocalExpansion:
     """Return the log posterior at `theta` with its gradient and its expected information.
 
     A uniform prior contributes the information of its variance: where the recording does not inform a parameter, its
     posterior is as wide as its prior, and it does not change the evidence by Laplace's method.
     """
-    return _expand_from(problem, compute_sensitivity(problem, theta, steps))
+    return _expand_from(posterior, compute_sensitivity(posterior, theta, steps))
 
 
-def _expand_from(problem: Problem, slopes: Sensitivity) -> LocalExpansion:
+def _expand_from(posterior: Posterior, slopes: Sensitivity) -> LocalExpansion:
     theta = slopes.theta
     with np.errstate(over="ignore", divide="ignore", invalid="ignore"):  # where the filter does not get through
         gradient, information = slopes.gradient(), slopes.information()
-    for i, f in enumerate(problem.free):
+    for i, f in enumerate(posterior.space.free):
         gradient[i] -= f.prior_information(theta[i]) * (theta[i] - f.mean)
         information[i, i] += f.evidence_information(theta[i])
     log_likelihood = slopes.here.log_likelihood
     return LocalExpansion(
-        theta, log_likelihood, log_likelihood + problem.log_prior(theta), gradient, information, slopes.steps
+        theta, log_likelihood, log_likelihood + posterior.space.log_prior(theta), gradient, information, slopes.steps
     )
 
 
-def _tune_steps(local: LocalExpansion, problem: Problem) -> Array:
+def _tune_steps(local: LocalExpansion, posterior: Posterior) -> Array:
     """Return steps of `STRIDE` conditional standard deviations, within bounds."""
-    widths = np.array([min(f.sd, f.high - f.low) for f in problem.free])
+    widths = np.array([min(f.sd, f.high - f.low) for f in posterior.space.free])
     curvature = np.maximum(np.diag(local.information), 1e-300)
     return np.clip(STRIDE / np.sqrt(curvature), 1e-9 * widths, 0.05 * widths)
 
 
 def maximise(
-    problem: Problem,
+    posterior: Posterior,
     theta: Array | None = None,
     *,
     rounds: int = 40,
@@ -216,23 +220,23 @@ def maximise(
     It has converged when a full step predicts a gain of less than `tolerance` in log posterior. It is abandoned when
     after `patience` rounds five times the predicted gain would not reach `hopeless`.
     """
-    point = problem.clip(problem.start if theta is None else theta)
-    local = expand(problem, point, choose_first_steps(problem))
+    point = posterior.space.clip(posterior.space.start if theta is None else theta)
+    local = expand(posterior, point, choose_first_steps(posterior))
     if not math.isfinite(local.log_posterior):
-        return Fit(problem, local, "diverged", 0)
+        return Fit(posterior, local, "diverged", 0)
     if len(point) > MANY:
-        return _maximise_many(problem, local, rounds, tolerance)
-    steps = _tune_steps(local, problem)
+        return _maximise_many(posterior, local, rounds, tolerance)
+    steps = _tune_steps(local, posterior)
     if np.any((steps > STEP_FACTOR * local.steps) | (local.steps > STEP_FACTOR * steps)):
-        local = expand(problem, point, steps)
+        local = expand(posterior, point, steps)
     damping, curved = 1e-3, local
     for turn in range(rounds):
-        promise = _compute_step(problem, curved, damping)[1]
+        promise = _compute_step(posterior, curved, damping)[1]
         if promise < tolerance:
-            return Fit(problem, local, "converged", turn)
+            return Fit(posterior, local, "converged", turn)
         if turn >= patience and local.log_posterior + 5.0 * promise < hopeless:
-            return Fit(problem, local, "abandoned", turn)
-        better = _climb(problem, curved, damping)
+            return Fit(posterior, local, "abandoned", turn)
+        better = _climb(posterior, curved, damping)
         if better is not None:
             good = better.log_posterior - local.log_posterior > 0.5 * promise
             damping = max(damping * (0.2 if good else 1.0), 1e-6)
@@ -240,8 +244,8 @@ def maximise(
         else:
             damping *= DAMPINGS[-1] * 8.0
             if damping > 1e6:
-                return Fit(problem, local, "rough", turn)
-    return Fit(problem, local, "not converged", rounds)
+                return Fit(posterior, local, "rough", turn)
+    return Fit(posterior, local, "not converged", rounds)
 
 
 def _correct_curvature(local: LocalExpansion, before: LocalExpansion) -> LocalExpansion:
@@ -257,50 +261,52 @@ def _correct_curvature(local: LocalExpansion, before: LocalExpansion) -> LocalEx
     return replace(local, information=local.information + more / max(expected, 1e-300) * np.outer(pulled, pulled))
 
 
-def _climb(problem: Problem, local: LocalExpansion, damping: float) -> LocalExpansion | None:
+def _climb(posterior: Posterior, local: LocalExpansion, damping: float) -> LocalExpansion | None:
     """Return the expansion at the best of several steps with different damping, or None where none gains.
 
     They are computed together with the stencil of the longest step, which is usually accepted.
     """
-    trials = [problem.clip(local.theta + _compute_step(problem, local, factor * damping)[0]) for factor in DAMPINGS]
-    steps = _tune_steps(local, problem)
-    ends = make_stencil(problem, trials[0], steps)
+    trials = [
+        posterior.space.clip(local.theta + _compute_step(posterior, local, factor * damping)[0]) for factor in DAMPINGS
+    ]
+    steps = _tune_steps(local, posterior)
+    ends = make_stencil(posterior, trials[0], steps)
     points = list_stencil_points(trials[0], *ends)
-    seen = problem.filter_many(np.vstack([points, *(t[None] for t in trials[1:])]))
+    seen = posterior.innovations(np.vstack([points, *(t[None] for t in trials[1:])]))
     log_densities = [
-        seen[k].log_likelihood + problem.log_prior(t)
+        seen[k].log_likelihood + posterior.space.log_prior(t)
         for k, t in zip((0, *range(len(points), len(seen))), trials, strict=True)
     ]
     best = int(np.argmax(np.where(np.isnan(log_densities), -np.inf, log_densities)))
     if not log_densities[best] > local.log_posterior:
         return None
     if best == 0:
-        return _expand_from(problem, compute_differences(trials[0], ends, seen[: len(points)], steps))
-    return expand(problem, trials[best], steps)
+        return _expand_from(posterior, compute_differences(trials[0], ends, seen[: len(points)], steps))
+    return expand(posterior, trials[best], steps)
 
 
-def _maximise_many(problem: Problem, local: LocalExpansion, rounds: int, tolerance: float) -> Fit:
+def _maximise_many(posterior: Posterior, local: LocalExpansion, rounds: int, tolerance: float) -> Fit:
     """Return the maximum near a point in many coordinates: several steps with each set of derivatives."""
     for turn in range(rounds):
-        slopes = compute_sensitivity(problem, local.theta, _tune_steps(local, problem))
-        local = _expand_from(problem, slopes)
-        if _compute_step(problem, local, 1e-3)[1] < tolerance:
-            return Fit(problem, local, "converged", turn)
-        point = _reuse_derivatives(problem, slopes, local)
+        slopes = compute_sensitivity(posterior, local.theta, _tune_steps(local, posterior))
+        local = _expand_from(posterior, slopes)
+        if _compute_step(posterior, local, 1e-3)[1] < tolerance:
+            return Fit(posterior, local, "converged", turn)
+        point = _reuse_derivatives(posterior, slopes, local)
         if np.array_equal(point, local.theta):
-            return Fit(problem, local, "rough", turn)
+            return Fit(posterior, local, "rough", turn)
         local = replace(local, theta=point)
-    return Fit(problem, expand(problem, local.theta, local.steps), "not converged", rounds)
+    return Fit(posterior, expand(posterior, local.theta, local.steps), "not converged", rounds)
 
 
-def _reuse_derivatives(problem: Problem, slopes: Sensitivity, local: LocalExpansion) -> Array:
+def _reuse_derivatives(posterior: Posterior, slopes: Sensitivity, local: LocalExpansion) -> Array:
     """Return the end of steps with the same derivatives, as long as they gain; one filter run for each."""
     damping = 1e-3
     for _ in range(REUSES):
-        step, promise = _compute_step(problem, local, damping)
-        trial = problem.clip(local.theta + step)
-        held = replace(slopes, theta=trial, here=problem.innovations(trial))
-        there = _expand_from(problem, held)
+        step, promise = _compute_step(posterior, local, damping)
+        trial = posterior.space.clip(local.theta + step)
+        held = replace(slopes, theta=trial, here=posterior.innovations(trial))
+        there = _expand_from(posterior, held)
         gain = there.log_posterior - local.log_posterior
         if gain > 0.0:
             local = there
@@ -311,9 +317,9 @@ def _reuse_derivatives(problem: Problem, slopes: Sensitivity, local: LocalExpans
     return local.theta
 
 
-def _compute_step(problem: Problem, local: LocalExpansion, damping: float) -> tuple[Array, float]:
+def _compute_step(posterior: Posterior, local: LocalExpansion, damping: float) -> tuple[Array, float]:
     """Return the damped step and its predicted gain; coordinates at a bound with an outward gradient stay there."""
-    low, high = problem.space.low, problem.space.high
+    low, high = posterior.space.low, posterior.space.high
     pressed = ((local.theta <= low) & (local.gradient < 0)) | ((local.theta >= high) & (local.gradient > 0))
     loose = np.flatnonzero(~pressed)
     step = np.zeros_like(local.theta)
@@ -321,37 +327,37 @@ def _compute_step(problem: Problem, local: LocalExpansion, damping: float) -> tu
         return step, 0.0
     info = local.information[np.ix_(loose, loose)]
     step[loose] = solve_scaled(info + damping * np.diag(np.diag(info)), local.gradient[loose])
-    limit = np.array([2.0 if f.log or f.key.startswith("log_") else math.inf for f in problem.free])
+    limit = np.array([2.0 if f.log or f.key.startswith("log_") else math.inf for f in posterior.space.free])
     step = np.clip(step, -limit, limit)
-    clipped = problem.clip(local.theta + step) - local.theta
+    clipped = posterior.space.clip(local.theta + step) - local.theta
     return clipped, 0.5 * float(local.gradient @ clipped)
 
 
 def use_one_core(fit: Fit) -> Fit:
-    """Return the fit with its problem on one core, for work that is divided over the cores already."""
-    return replace(fit, problem=replace(fit.problem, jobs=1))
+    """Return the fit with its posterior on one core, for work that is divided over the cores already."""
+    return replace(fit, posterior=replace(fit.posterior, jobs=1))
 
 
 def use_cores(fit: Fit, jobs: int) -> Fit:
-    """Return the fit with its problem on this number of cores."""
-    return replace(fit, problem=replace(fit.problem, jobs=jobs))
+    """Return the fit with its posterior on this number of cores."""
+    return replace(fit, posterior=replace(fit.posterior, jobs=jobs))
 
 
-def restart(fit: Fit) -> Problem:
-    """Return the problem of a fit with its maximum as the starting point."""
-    return begin_at(fit.problem, fit.theta)
+def restart(fit: Fit) -> Posterior:
+    """Return the posterior of a fit with its maximum as the starting point."""
+    return begin_at(fit.posterior, fit.theta)
 
 
-def begin_at(problem: Problem, theta: Array) -> Problem:
-    """Return a problem with the coordinates `theta` as the starting point."""
-    frees = zip(problem.free, theta, strict=True)
-    return replace(problem, free=tuple(replace(f, start=float(c)) for f, c in frees))
+def begin_at(posterior: Posterior, theta: Array) -> Posterior:
+    """Return a posterior with the coordinates `theta` as the starting point."""
+    frees = zip(posterior.space.free, theta, strict=True)
+    return posterior.over(replace(f, start=float(c)) for f, c in frees)
 
 
-def hold_free(problem: Problem, at: int, value: float) -> Problem:
-    """Return a problem without its free parameter number `at`, which is held at a value (SI)."""
-    held = problem.hold_values({problem.free[at].parameter: value})
-    return replace(held, free=(*held.free[:at], *held.free[at + 1 :]))
+def hold_free(posterior: Posterior, at: int, value: float) -> Posterior:
+    """Return a posterior without its free parameter number `at`, which is held at a value (SI)."""
+    held = posterior.hold_values({posterior.space.free[at].parameter: value})
+    return held.over((*held.space.free[:at], *held.space.free[at + 1 :]))
 
 
 def compute_covariance(fit: Fit, held: Sequence[int] = ()) -> Array:
@@ -371,7 +377,7 @@ def compute_robust_covariance(fit: Fit, held: Sequence[int] = ()) -> Array:
     that correlated residuals reduce the information. Never smaller than the usual covariance. It is zero for
     coordinates that are `held`.
     """
-    scores = compute_sensitivity(fit.problem, fit.theta, fit.local.steps).scores()
+    scores = compute_sensitivity(fit.posterior, fit.theta, fit.local.steps).scores()
     edges = np.linspace(0, scores.shape[1], BLOCKS + 1).astype(int)[:-1]
     sums = np.add.reduceat(scores, edges, axis=1)
     sums -= sums.mean(axis=1, keepdims=True)
@@ -381,8 +387,8 @@ def compute_robust_covariance(fit: Fit, held: Sequence[int] = ()) -> Array:
     return np.asarray(usual * np.outer(factor, factor))
 
 
-def raise_random_force(problem: Problem, theta: Array, by: float) -> Array:
+def raise_random_force(posterior: Posterior, theta: Array, by: float) -> Array:
     """Return the coordinates with a larger random force, where the posterior is smoother."""
     warm = theta.copy()
-    warm[[f.parameter == RANDOM for f in problem.free]] += by
-    return problem.clip(warm)
+    warm[[f.parameter == RANDOM for f in posterior.space.free]] += by
+    return posterior.space.clip(warm)

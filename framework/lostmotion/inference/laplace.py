@@ -30,7 +30,7 @@ def sample_evidence(fit: Fit, rng: np.random.Generator, draws: int = 150) -> Sam
     shape = covariance / np.outer(sd, sd) * WIDER**2 + 1e-10 * np.eye(len(sd))
     raw, told = _draw_t(shape, draws, rng)
     points, log_densities = theta + raw * sd, told - float(np.sum(np.log(sd)))
-    weights = fit.problem.log_posteriors(points) - log_densities
+    weights = fit.posterior.log_density(points) - log_densities
     if not np.isfinite(weights).any():
         return SampledEvidence(fit.log_evidence, -math.inf, math.inf, 0.0)
     total = float(logsumexp(weights))

@@ -9,7 +9,8 @@ import numpy as np
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit, maximise, restart
 from lostmotion.inference.natural import find_term
-from lostmotion.likelihood.problem import FreeParameter, Problem
+from lostmotion.likelihood.posterior import Posterior
+from lostmotion.likelihood.space import FreeParameter
 from lostmotion.likelihood.system import ALWAYS, onset_key
 from lostmotion.quantities import TIME
 from lostmotion.results import Interval
@@ -23,37 +24,37 @@ PRICE = math.log(TIMES)
 """The log prior penalty of the choice of an onset."""
 
 
-def can_have_onset(problem: Problem, key: str) -> bool:
+def can_have_onset(posterior: Posterior, key: str) -> bool:
     """Return whether an onset of a term can be estimated: from one recording, or stretches of one.
 
     A term whose own parameters say when it acts (a change at a time, a warming up) has no second time beside that.
     """
-    if len({o.name for o in problem.observations}) > 1 or onset_key(key) not in problem.system.index:
+    if len({o.name for o in posterior.observations}) > 1 or onset_key(key) not in posterior.system.index:
         return False
-    term, _ = find_term(problem, key)
+    term, _ = find_term(posterior, key)
     return not any(param.lasting and param.dimension == TIME for param in term.params)
 
 
-def find_onset(problem: Problem, key: str) -> float:
-    """Return the time (s) from which a term acts in a problem, `ALWAYS` if from the beginning."""
-    return problem.system.onset(problem.known, key)
+def find_onset(posterior: Posterior, key: str) -> float:
+    """Return the time (s) from which a term acts in a posterior, `ALWAYS` if from the beginning."""
+    return posterior.system.onset(posterior.known, key)
 
 
-def find_span(problem: Problem) -> tuple[float, float]:
-    """Return begin and end (s) of the recording of a problem, of which its observations may be stretches."""
-    ends = [float(o.time[0]) + o.samples * o.dt for o in problem.observations]
-    return min(float(o.time[0]) for o in problem.observations), max(ends)
+def find_span(posterior: Posterior) -> tuple[float, float]:
+    """Return begin and end (s) of the recording of a posterior, of which its observations may be stretches."""
+    ends = [float(o.time[0]) + o.samples * o.dt for o in posterior.observations]
+    return min(float(o.time[0]) for o in posterior.observations), max(ends)
 
 
-def list_onsets(problem: Problem, count: int = TIMES) -> Array:
+def list_onsets(posterior: Posterior, count: int = TIMES) -> Array:
     """Return the onsets (count,) that are tried, in s."""
-    (begin, end), limits = find_span(problem), problem.settings.select
+    (begin, end), limits = find_span(posterior), posterior.settings.select
     return begin + (end - begin) * np.linspace(limits.onset_first, limits.onset_last, count)
 
 
-def make_onset_parameter(problem: Problem, key: str, start: float) -> FreeParameter:
+def make_onset_parameter(posterior: Posterior, key: str, start: float) -> FreeParameter:
     """Return the onset of a term as a free parameter, uniform over the recording."""
-    return FreeParameter(onset_key(key), "s", start, *find_span(problem))
+    return FreeParameter(onset_key(key), "s", start, *find_span(posterior))
 
 
 def refine_onset(fit: Fit, key: str) -> Fit:
@@ -62,50 +63,50 @@ def refine_onset(fit: Fit, key: str) -> Fit:
     If the term explains as much from the beginning on, apart from the price of an onset, it has none: where the drive
     reaches a resonance late, a term promises more from then on.
     """
-    if fit.status == "diverged" or not find_onset(fit.problem, key) > ALWAYS:
+    if fit.status == "diverged" or not find_onset(fit.posterior, key) > ALWAYS:
         return fit
-    onset = find_onset(fit.problem, key)
-    wider = restart(fit).extend((make_onset_parameter(fit.problem, key, onset),), ())
+    onset = find_onset(fit.posterior, key)
+    wider = restart(fit).extend((make_onset_parameter(fit.posterior, key, onset),), ())
     found = maximise(wider, _scan_time(wider, np.append(fit.theta, onset), len(fit.theta)))
     late, ever = (
         maximise(restart(fit).hold_values({onset_key(key): at}), found.theta[:-1]) for at in (found.theta[-1], ALWAYS)
     )
-    if ever.log_evidence > max(late.log_evidence, fit.log_evidence) - price_onset(fit.problem):
+    if ever.log_evidence > max(late.log_evidence, fit.log_evidence) - price_onset(fit.posterior):
         return ever
     return late if late.local.log_posterior > fit.local.log_posterior else fit
 
 
-def find_change_time(problem: Problem, key: str) -> int | None:
+def find_change_time(posterior: Posterior, key: str) -> int | None:
     """Return the index of the free time at which a term changes the machine; None for a term without one.
 
     It is a time in the recording with a scan, such as that of a change of inertia.
     """
-    _, slots = find_term(problem, key)
+    _, slots = find_term(posterior, key)
     times = [s.key for s in slots if s.param.lasting and s.param.dimension == TIME and s.param.scan]
-    return next((i for i, name in enumerate(problem.keys) if name in times), None)
+    return next((i for i, name in enumerate(posterior.space.keys) if name in times), None)
 
 
 def refine_change(fit: Fit, key: str) -> Fit:
     """Return the fit with the time of a change at the highest maximum; unchanged for a term without one."""
-    if fit.status == "diverged" or (at := find_change_time(fit.problem, key)) is None:
+    if fit.status == "diverged" or (at := find_change_time(fit.posterior, key)) is None:
         return fit
-    found = maximise(fit.problem, _scan_time(fit.problem, fit.theta, at))
+    found = maximise(fit.posterior, _scan_time(fit.posterior, fit.theta, at))
     return found if found.local.log_posterior > fit.local.log_posterior else fit
 
 
-def _scan_time(problem: Problem, theta: Array, at: int) -> Array:
+def _scan_time(posterior: Posterior, theta: Array, at: int) -> Array:
     """Return coordinates with a time in the recording, the one at index `at`, at the highest of many maxima.
 
     The likelihood of such a time has a maximum in nearly every cycle of the motion, so it is computed on a grid over
     the recording, then between the neighbours of the best time.
     """
-    best, grid = theta.copy(), list_onsets(problem, GRID)
+    best, grid = theta.copy(), list_onsets(posterior, GRID)
     for _ in range(2):
-        times = np.append(grid, math.exp(best[at]) if problem.free[at].log else best[at])
+        times = np.append(grid, math.exp(best[at]) if posterior.space.free[at].log else best[at])
         thetas = np.repeat(best[None], len(times), axis=0)
-        thetas[:, at] = np.log(times) if problem.free[at].log else times
-        thetas = problem.clip(thetas)
-        chosen = int(np.nanargmax(problem.log_posteriors(thetas)))
+        thetas[:, at] = np.log(times) if posterior.space.free[at].log else times
+        thetas = posterior.space.clip(thetas)
+        chosen = int(np.nanargmax(posterior.log_density(thetas)))
         best = thetas[chosen]
         grid = times[chosen] + np.linspace(-1.0, 1.0, TIMES + 1) * (grid[1] - grid[0])
         grid = grid[grid > 0.0]
@@ -118,16 +119,16 @@ def estimate_onset(fit: Fit, key: str) -> Interval | None:
     A likelihood over onsets has kinks, and is flat where the term does nothing, so it is summed over a grid: first over
     a part of the recording about the onset, then over the region of high likelihood.
     """
-    problem, at = fit.problem, find_onset(fit.problem, key)
+    posterior, at = fit.posterior, find_onset(fit.posterior, key)
     if not at > ALWAYS:
         return None
-    free = make_onset_parameter(problem, key, at)
-    wider, reach = problem.extend((free,), ()), AROUND * (free.high - free.low)
+    free = make_onset_parameter(posterior, key, at)
+    wider, reach = posterior.extend((free,), ()), AROUND * (free.high - free.low)
     low, high = max(at - reach, free.low), min(at + reach, free.high)
     grid, heights = np.zeros(0), np.zeros(0)
     for _ in range(2):
         grid = np.linspace(low, high, GRID)
-        heights = wider.log_likelihoods(np.array([np.append(fit.theta, t) for t in grid]))
+        heights = wider.log_likelihood(np.array([np.append(fit.theta, t) for t in grid]))
         near = grid[heights > heights.max() - DEPTH]
         low, high = near[0] - (grid[1] - grid[0]), near[-1] + (grid[1] - grid[0])
     weights = np.exp(heights - heights.max())
@@ -137,11 +138,11 @@ def estimate_onset(fit: Fit, key: str) -> Interval | None:
     return Interval(median, low, high, "s")
 
 
-def compute_onset_price(problem: Problem) -> float:
+def compute_onset_price(posterior: Posterior) -> float:
     """Return the log prior penalty of the onsets of the active terms."""
-    return price_onset(problem) * sum(find_onset(problem, key) > ALWAYS for key in problem.active)
+    return price_onset(posterior) * sum(find_onset(posterior, key) > ALWAYS for key in posterior.active)
 
 
-def price_onset(problem: Problem) -> float:
+def price_onset(posterior: Posterior) -> float:
     """Return the log prior penalty of one onset, of its time and of a change at all: few machines change."""
-    return PRICE + problem.settings.select.onset
+    return PRICE + posterior.settings.select.onset

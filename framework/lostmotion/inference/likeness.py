@@ -15,7 +15,7 @@ from lostmotion.contracts import Array
 from lostmotion.inference.learned import LearnedTerm
 from lostmotion.inference.natural import find_term, list_tried_values, sort_slots
 from lostmotion.inference.shape_scan import MOST_SAMPLES, SmoothedMotion, list_shapes
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.posterior import Posterior
 
 MOST_SHAPES = 40
 KEPT = 6
@@ -30,15 +30,15 @@ class Likeness:
     share: float
 
 
-def find_likeness(problem: Problem, theta: Array, states: Array, force: Array) -> Likeness | None:
+def find_likeness(posterior: Posterior, theta: Array, states: Array, force: Array) -> Likeness | None:
     """Return the law, or the pair of laws, that approximates a learned force (samples,) along `states` (samples, n).
 
-    None where there is none. The problem is of the one recording along which the force is given.
+    None where there is none. The posterior is of the one recording along which the force is given.
     """
     kept = slice(0, MOST_SAMPLES)
-    whole = problem.observations[0]
-    short = problem.on((whole.part(0, min(whole.samples, MOST_SAMPLES)),))
-    moved = np.ascontiguousarray(states[kept, : len(problem.system.model.states)])
+    whole = posterior.observations[0]
+    short = posterior.on((whole.part(0, min(whole.samples, MOST_SAMPLES)),))
+    moved = np.ascontiguousarray(states[kept, : len(posterior.system.model.states)])
     motion, aim = SmoothedMotion(short, theta, moved, np.zeros(0)), force[kept] - np.mean(force[kept])
     if not float(aim @ aim) > 0.0:
         return None
@@ -46,20 +46,20 @@ def find_likeness(problem: Problem, theta: Array, states: Array, force: Array) -
     ranked = sorted(alone, key=lambda key: -alone[key][0])[:KEPT]
     if not ranked:
         return None
-    if alone[ranked[0]][0] > problem.settings.unknown.alike:
+    if alone[ranked[0]][0] > posterior.settings.unknown.alike:
         return Likeness((ranked[0],), alone[ranked[0]][0])
     pairs = {
         (a, b): _compute_share(np.hstack([alone[a][1], alone[b][1]]), aim) for a, b in itertools.combinations(ranked, 2)
     }
     best = max(pairs, key=lambda pair: pairs[pair], default=None)
-    return Likeness(best, pairs[best]) if best and pairs[best] > problem.settings.unknown.alike_two else None
+    return Likeness(best, pairs[best]) if best and pairs[best] > posterior.settings.unknown.alike_two else None
 
 
-def _list_static(problem: Problem) -> list[str]:
+def _list_static(posterior: Posterior) -> list[str]:
     """Return the keys of the forces of the library without states, which are functions of the motion alone."""
     found = []
-    for key in problem.system.keys:
-        term = find_term(problem, key)[0]
+    for key in posterior.system.keys:
+        term = find_term(posterior, key)[0]
         if (
             term.acts == "motion"
             and not term.states
@@ -73,10 +73,10 @@ def _list_static(problem: Problem) -> list[str]:
 def _find_closest(motion: SmoothedMotion, key: str, aim: Array) -> tuple[float, Array]:
     """Return the largest share of a force that a law explains at any shape, and its columns (samples, amplitudes)."""
     best, columns = 0.0, np.zeros((len(aim), 0))
-    problem = motion.problem
-    shapes = sort_slots(problem, key)[1]
-    usual = {s.key: float(list_tried_values(s.param, problem.scales)[0]) for s in shapes}
-    tried = list_shapes(problem, key) or [usual]
+    posterior = motion.posterior
+    shapes = sort_slots(posterior, key)[1]
+    usual = {s.key: float(list_tried_values(s.param, posterior.scales)[0]) for s in shapes}
+    tried = list_shapes(posterior, key) or [usual]
     for law in motion.compute_columns(key, tried[:: max(1, len(tried) // MOST_SHAPES)]):
         share = _compute_share(law, aim) if np.all(np.isfinite(law)) else 0.0
         if share > best:

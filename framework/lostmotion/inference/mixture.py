@@ -14,7 +14,7 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit, LocalExpansion, compute_robust_covariance, maximise
-from lostmotion.likelihood.problem import RANDOM
+from lostmotion.likelihood.space import RANDOM
 
 STRIDE = 0.8
 MOST = 7
@@ -46,9 +46,9 @@ def draw_posterior(fit: Fit, rng: np.random.Generator, count: int) -> Array:
     roots = [compute_root(node.local.covariance) for node in nodes]
     theta = np.array([nodes[k].local.theta + wider * (roots[k] @ z) for k, z in zip(which, noise, strict=True)])
     if len(nodes) > 1:
-        at = fit.problem.keys.index(RANDOM)
+        at = fit.posterior.space.keys.index(RANDOM)
         theta[:, at] = [nodes[k].local.theta[at] for k in which] + STRIDE * (rng.random(count) - 0.5)
-    return fit.problem.clip(theta)
+    return fit.posterior.space.clip(theta)
 
 
 def compute_root(covariance: Array) -> Array:
@@ -60,10 +60,10 @@ def compute_root(covariance: Array) -> Array:
 
 def compute_nodes(fit: Fit) -> list[MixtureNode]:
     """Return the nodes from the maximum outwards, each started from its neighbour."""
-    if RANDOM not in fit.problem.keys or len(fit.theta) > MANY:
+    if RANDOM not in fit.posterior.space.keys or len(fit.theta) > MANY:
         return [MixtureNode(fit.local, 0.0)]
-    at = fit.problem.keys.index(RANDOM)
-    free = fit.problem.free[at]
+    at = fit.posterior.space.keys.index(RANDOM)
+    free = fit.posterior.space.free[at]
     centre = _compute_node(fit, fit.theta, at)
     nodes = [centre]
     for direction in (1.0, -1.0):
@@ -83,10 +83,10 @@ def compute_nodes(fit: Fit) -> list[MixtureNode]:
 
 def _compute_node(fit: Fit, theta: Array, at: int) -> MixtureNode:
     """Return the node at the random force of `theta`, with all other parameters at their conditional maximum."""
-    frees = list(fit.problem.free)
+    frees = list(fit.posterior.space.free)
     frees[at] = replace(frees[at], start=theta[at], low=theta[at], high=theta[at])
-    local = maximise(replace(fit.problem, free=tuple(frees)), theta, rounds=4, tolerance=0.1).local
+    local = maximise(fit.posterior.over(frees), theta, rounds=4, tolerance=0.1).local
     kept = [i for i in range(len(theta)) if i != at]
     sign, logdet = np.linalg.slogdet(local.information[np.ix_(kept, kept)])
-    height = local.log_likelihood + fit.problem.log_prior(local.theta)
+    height = local.log_likelihood + fit.posterior.space.log_prior(local.theta)
     return MixtureNode(local, height - 0.5 * float(logdet) if sign > 0 else -math.inf)

@@ -21,12 +21,12 @@ def is_same_mode(a: Fit, b: Fit) -> bool:
     A filter through a kink leaves a posterior rough, so fits stop at several places of one mode; a dip from roughness
     is shallower than one between modes.
     """
-    width, limits = np.maximum(_list_sd(a), _list_sd(b)), a.problem.settings.mode
+    width, limits = np.maximum(_list_sd(a), _list_sd(b)), a.posterior.settings.mode
     if np.all(np.abs(a.theta - b.theta) < limits.near * width):
         return True
-    problem = max(a.problem, b.problem, key=lambda p: p.nsub)
+    posterior = max(a.posterior, b.posterior, key=lambda p: p.dynamics.nsub)
     along = np.linspace(0.0, 1.0, LOOKS)[:, None]
-    log_densities = problem.log_posteriors(problem.clip(a.theta + along * (b.theta - a.theta)))
+    log_densities = posterior.log_density(posterior.space.clip(a.theta + along * (b.theta - a.theta)))
     return bool(np.min(log_densities[1:-1]) > min(log_densities[0], log_densities[-1]) - limits.dip)
 
 

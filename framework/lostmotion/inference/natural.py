@@ -9,7 +9,8 @@ from dataclasses import replace
 import numpy as np
 
 from lostmotion.contracts import Param, Term
-from lostmotion.likelihood.problem import FreeParameter, Problem, Scales
+from lostmotion.likelihood.posterior import Posterior
+from lostmotion.likelihood.space import FreeParameter, Scales
 from lostmotion.likelihood.system import Slot
 from lostmotion.quantities import CURRENT, FORCE, FREQUENCY, LENGTH, SPEED, VOLTAGE, Dimension, quantity_of
 
@@ -27,9 +28,9 @@ SHAPES = (0.3, 1.0, 3.0)
 """The values of a shape parameter that are tried, in units of its typical value."""
 
 
-def find_wave(problem: Problem, key: str) -> Slot | None:
+def find_wave(posterior: Posterior, key: str) -> Slot | None:
     """Return the frequency of the wave of a term; None for a term without one."""
-    return next((slot for slot in sort_slots(problem, key)[1] if slot.param.wave), None)
+    return next((slot for slot in sort_slots(posterior, key)[1] if slot.param.wave), None)
 
 
 def compute_size(param: Param, scales: Scales) -> float:
@@ -71,11 +72,11 @@ def _make_free(slot: Slot, scales: Scales, start: float | None) -> FreeParameter
     return FreeParameter(slot.key, slot.unit, start or 0.0, low, high, mean=0.0, sd=size, tail=TAIL)
 
 
-def find_term(problem: Problem, key: str) -> tuple[Term, list[Slot]]:
-    """Return a term of the problem's system and the slots of its parameters."""
-    i = problem.system.keys.index(key)
-    term, slots = problem.system.terms[i], [s for s in problem.system.slots if s.term == i]
-    return term, slots if term.acts == "motion" else [_convert_dimension(problem, term, slot) for slot in slots]
+def find_term(posterior: Posterior, key: str) -> tuple[Term, list[Slot]]:
+    """Return a term of the posterior's system and the slots of its parameters."""
+    i = posterior.system.keys.index(key)
+    term, slots = posterior.system.terms[i], [s for s in posterior.system.slots if s.term == i]
+    return term, slots if term.acts == "motion" else [_convert_dimension(posterior, term, slot) for slot in slots]
 
 
 SHOWN = {
@@ -88,30 +89,30 @@ SHOWN = {
 }
 
 
-def _convert_dimension(problem: Problem, term: Term, slot: Slot) -> Slot:
+def _convert_dimension(posterior: Posterior, term: Term, slot: Slot) -> Slot:
     """Return a parameter of a sensor or drive term: a length stands for the channel, a force for the input."""
-    first = problem.observations[0]
+    first = posterior.observations[0]
     if term.acts == "sensor":
         stands, name = LENGTH, next((s.channel for s in first.sensors if s.place == term.at), "position")
     else:
-        inputs = problem.system.model.inputs
+        inputs = posterior.system.model.inputs
         stands, name = FORCE, term.at if term.at in inputs else inputs[first.lead]
     dimension = SHOWN[quantity_of(name)]
     if slot.param.dimension != stands or dimension == stands:
         return slot
-    unit = dimension.unit(problem.system.model.motion)
+    unit = dimension.unit(posterior.system.model.motion)
     return replace(slot, param=replace(slot.param, dimension=dimension), unit=unit)
 
 
-def sort_slots(problem: Problem, key: str) -> tuple[list[Slot], list[Slot]]:
+def sort_slots(posterior: Posterior, key: str) -> tuple[list[Slot], list[Slot]]:
     """Return the slots of the amplitudes of a term, and those of its shapes."""
-    _, slots = find_term(problem, key)
+    _, slots = find_term(posterior, key)
     return [s for s in slots if s.param.null is not None], [s for s in slots if s.param.null is None]
 
 
-def collect_shapes(problem: Problem, keys: Iterable[str]) -> list[Slot]:
+def collect_shapes(posterior: Posterior, keys: Iterable[str]) -> list[Slot]:
     """Return the slots of the shapes of some terms, in alphabetical order of the terms."""
-    return [slot for key in sorted(keys) for slot in sort_slots(problem, key)[1]]
+    return [slot for key in sorted(keys) for slot in sort_slots(posterior, key)[1]]
 
 
 def list_star_points(grids: Sequence[Sequence[float]]) -> list[tuple[float, ...]]:

@@ -45,7 +45,7 @@ from lostmotion.inference.learned import (
 )
 from lostmotion.inference.setup import choose_steps
 from lostmotion.inference.stretches import list_stretches
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.settings import DEFAULT
 
 LEAST = 1e-6
@@ -90,8 +90,8 @@ def compute_log_ratios(fit: Fit) -> dict[str, LikelihoodRatio]:
     wider = _prepare_fit(fit)
     slopes = compute_slopes(wider)
     found: dict[str, list[LikelihoodRatio]] = {}
-    for key, term in zip(wider.problem.system.keys, wider.problem.system.terms, strict=True):
-        if isinstance(term, LearnedTerm) and type(term) in NAMES and key not in wider.problem.active:
+    for key, term in zip(wider.posterior.system.keys, wider.posterior.system.terms, strict=True):
+        if isinstance(term, LearnedTerm) and type(term) in NAMES and key not in wider.posterior.active:
             found.setdefault(name_covariate(term), []).append(_compute_ratio(wider, slopes, key, term))
     return {name: LikelihoodRatio(*map(compute_log_mean, zip(*values, strict=True))) for name, values in found.items()}
 
@@ -99,15 +99,15 @@ def compute_log_ratios(fit: Fit) -> dict[str, LikelihoodRatio]:
 def _prepare_fit(fit: Fit) -> Fit:
     """Return the fit in a system with every curve, with the time steps of a search and at most `MOST_SAMPLES`."""
     fit = add_all_curves(fit)
-    short = choose_steps(_shorten_recordings(fit.problem), fit.theta)
-    return replace(fit, problem=short)
+    short = choose_steps(_shorten_recordings(fit.posterior), fit.theta)
+    return replace(fit, posterior=short)
 
 
-def _shorten_recordings(problem: Problem) -> Problem:
-    share = MOST_SAMPLES / problem.samples
+def _shorten_recordings(posterior: Posterior) -> Posterior:
+    share = MOST_SAMPLES / posterior.samples
     if share >= 1.0:
-        return problem
-    return problem.on(tuple(part for one in problem.observations for part in list_stretches(one, share)))
+        return posterior
+    return posterior.on(tuple(part for one in posterior.observations for part in list_stretches(one, share)))
 
 
 def _compute_ratio(fit: Fit, slopes: Sensitivity, key: str, term: LearnedTerm) -> LikelihoodRatio:
@@ -119,7 +119,7 @@ def _compute_ratio(fit: Fit, slopes: Sensitivity, key: str, term: LearnedTerm) -
         return LikelihoodRatio(-math.inf, -math.inf)
     scores = joint.scores()
     sums = _sum_blocks(scores[k:] - pulled.T @ scores[:k])
-    size = compute_coefficient_size(term, fit.problem)
+    size = compute_coefficient_size(term, fit.posterior)
     plain, robust = [], []
     for roots in _list_prior_roots(term):
         wider = [size * root for root in roots]

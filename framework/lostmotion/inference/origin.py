@@ -24,9 +24,9 @@ def list_unlocated(fit: Fit) -> list[str]:
     No sensor shows the position, and the motion is the same if the machine is moved and these terms with it: nothing
     else pulls it towards a place.
     """
-    problem = fit.problem
-    waves = [key for key in sorted(problem.active) if type(find_term(problem, key)[0]).shifted is not Term.shifted]
-    located = any(shows_place(observation) for observation in problem.observations)
+    posterior = fit.posterior
+    waves = [key for key in sorted(posterior.active) if type(find_term(posterior, key)[0]).shifted is not Term.shifted]
+    located = any(shows_place(observation) for observation in posterior.observations)
     return waves if waves and not located and _is_free(fit, waves) else []
 
 
@@ -38,20 +38,20 @@ def list_shifted(term: Term, values: Mapping[str, float], by: float) -> list[str
 
 def _is_free(fit: Fit, waves: list[str]) -> bool:
     """Return whether the derivatives are the same after a shift of all bodies and of the waves."""
-    problem, rng = fit.problem, np.random.default_rng(0)
-    system, scales = problem.system, problem.scales
+    posterior, rng = fit.posterior, np.random.default_rng(0)
+    system, scales = posterior.system, posterior.scales
     places = [quantity_of(name) == "position" for name in system.model.states]
-    full = problem.full(fit.theta[None])[0]
-    states = scales.length * rng.standard_normal((STATES, system.states(problem.active)))
-    inputs = problem.observations[0].inputs[rng.integers(0, problem.observations[0].samples, STATES)]
+    full = posterior.recordings[0].full(fit.theta[None])[0]
+    states = scales.length * rng.standard_normal((STATES, system.states(posterior.active)))
+    inputs = posterior.observations[0].inputs[rng.integers(0, posterior.observations[0].samples, STATES)]
     by = scales.length * float(rng.uniform(0.5, 1.5))
     moved, there = states.copy(), full.copy()
     moved[:, np.flatnonzero(places)] -= by
     for key in waves:
-        at = [system.index[slot.key] for slot in find_term(problem, key)[1]]
-        there[at] = find_term(problem, key)[0].shifted(tuple(full[at]), by)
+        at = [system.index[slot.key] for slot in find_term(posterior, key)[1]]
+        there[at] = find_term(posterior, key)[0].shifted(tuple(full[at]), by)
     here, then = (
-        system.compute_derivatives(problem.active, system.pack(p[None], problem.observations[0].dt), y, inputs)[0]
+        system.compute_derivatives(posterior.active, system.pack(p[None], posterior.observations[0].dt), y, inputs)[0]
         for p, y in ((full, states), (there, moved))
     )
     return bool(np.allclose(here, then, rtol=SAME, atol=SAME * float(np.max(np.abs(here)))))
@@ -62,12 +62,12 @@ def shift_origin(fit: Fit, draws: Array, keys: list[str], rng: np.random.Generat
 
     Otherwise the draws are returned unchanged. A fit begins at one position, and its phase of a wave belongs to that.
     """
-    made, problem = draws.copy(), fit.problem
+    made, posterior = draws.copy(), fit.posterior
     unlocated = list_unlocated(fit)
-    shifts = rng.uniform(0.0, FAR * problem.scales.length, len(draws)) if unlocated else draws[:, 0]
+    shifts = rng.uniform(0.0, FAR * posterior.scales.length, len(draws)) if unlocated else draws[:, 0]
     for key in unlocated:
-        term, slots = find_term(problem, key)
-        held = [float(problem.known[problem.system.index[slot.key]]) for slot in slots]
+        term, slots = find_term(posterior, key)
+        held = [float(posterior.known[posterior.system.index[slot.key]]) for slot in slots]
         columns = [keys.index(slot.key) if slot.key in keys else -1 for slot in slots]
         for row, by in zip(made, shifts, strict=True):
             own = tuple(row[c] if c >= 0 else value for c, value in zip(columns, held, strict=True))

@@ -12,7 +12,7 @@ from lostmotion.contracts import Array
 from lostmotion.inference.fit import HOPELESS, ROUGHLY, Fit, hold_free, maximise, raise_random_force, use_one_core
 from lostmotion.inference.natural import collect_shapes, sort_slots
 from lostmotion.kernels.threads import each
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.posterior import Posterior
 
 FACTORS = (0.7, 0.85, 0.93, 1.08, 1.2, 1.4)
 """Shapes that are tried, over the fitted one: a wave that has one period more or less within the travel fits next."""
@@ -28,16 +28,16 @@ NEAR = 0.03
 """Maxima with shapes that differ by less, as a logarithm, are the same one."""
 
 
-def has_other_shapes(problem: Problem) -> bool:
+def has_other_shapes(posterior: Posterior) -> bool:
     """Return whether an active term has a shape with a range to be scanned, or with choices."""
-    return any(s.param.choices or s.param.scan for s in collect_shapes(problem, problem.active))
+    return any(s.param.choices or s.param.scan for s in collect_shapes(posterior, posterior.active))
 
 
-def list_scanned_shapes(problem: Problem) -> list[int]:
+def list_scanned_shapes(posterior: Posterior) -> list[int]:
     """Return the indices among the free parameters of the shapes of active terms that have a range to be scanned."""
-    slots = collect_shapes(problem, problem.active)
+    slots = collect_shapes(posterior, posterior.active)
     keys = {s.key for s in slots if s.param.scan and s.param.scale == "log" and not s.param.choices}
-    return [i for i, key in enumerate(problem.keys) if key in keys]
+    return [i for i, key in enumerate(posterior.space.keys) if key in keys]
 
 
 def find_modes(fit: Fit, *, reach: float = math.inf) -> list[Fit]:
@@ -46,14 +46,14 @@ def find_modes(fit: Fit, *, reach: float = math.inf) -> list[Fit]:
     Those whose log evidence is below the best by more than `reach` are left out. A fit without a scanned shape is
     returned alone.
     """
-    at = list_scanned_shapes(fit.problem)
+    at = list_scanned_shapes(fit.posterior)
     if not at or fit.status == "diverged":
         return [fit]
     single = use_one_core(fit)
     starts = [_scale_shape(single, i, factor, up) for i in at for factor in FACTORS for up in RAISES]
     kept = [fit]
     hopeless = fit.local.log_posterior - min(HOPELESS, reach + VARIED)
-    for other in _maximise_each([single.problem] * len(starts), starts, fit, hopeless):
+    for other in _maximise_each([single.posterior] * len(starts), starts, fit, hopeless):
         if all(_are_apart(other, one, at) for one in kept):
             kept.append(other)
     best = max(one.log_evidence for one in kept)
@@ -66,7 +66,7 @@ def refit_shapes(fit: Fit) -> Fit:
         before, fit = fit, find_modes(fit, reach=BETTER)[0]
         if not fit.log_evidence > before.log_evidence + BETTER:
             break
-    return refit_choices(fit, fit.problem.active)
+    return refit_choices(fit, fit.posterior.active)
 
 
 def refit_choices(fit: Fit, keys: Iterable[str]) -> Fit:
@@ -74,41 +74,41 @@ def refit_choices(fit: Fit, keys: Iterable[str]) -> Fit:
 
     The score test at the nominal model may choose the wrong side of a stop, or the wrong harmonic.
     """
-    single, problem = use_one_core(fit), fit.problem
-    problems = []
-    for s in collect_shapes(problem, keys):
-        if s.key in problem.keys:
+    single, posterior = use_one_core(fit), fit.posterior
+    posteriors = []
+    for s in collect_shapes(posterior, keys):
+        if s.key in posterior.space.keys:
             continue
-        now = float(problem.full(fit.theta)[problem.system.index[s.key]])
-        problems += [single.problem.hold_values({s.key: v}) for v in s.param.choices or () if v != now]
-    starts = [raise_random_force(one, fit.theta, max(RAISES)) for one in problems]
+        now = float(posterior.recordings[0].full(fit.theta)[posterior.system.index[s.key]])
+        posteriors += [single.posterior.hold_values({s.key: v}) for v in s.param.choices or () if v != now]
+    starts = [raise_random_force(one, fit.theta, max(RAISES)) for one in posteriors]
     hopeless = fit.local.log_posterior - HOPELESS
-    return max([fit, *_maximise_each(problems, starts, fit, hopeless)], key=lambda found: found.log_evidence)
+    return max([fit, *_maximise_each(posteriors, starts, fit, hopeless)], key=lambda found: found.log_evidence)
 
 
 def refit_complete(fit: Fit) -> list[Fit]:
     """Return the fit of each law that is complete: an amplitude of an active term is held at its greatest value."""
-    problem, found = fit.problem, list[Fit]()
-    for slot in (s for key in sorted(problem.active) for s in sort_slots(problem, key)[0]):
-        if math.isfinite(slot.param.high) and slot.key in problem.keys:
-            at = problem.keys.index(slot.key)
-            held = hold_free(problem, at, slot.param.high)
-            found.append(maximise(held, held.clip(np.delete(fit.theta, at))))
+    posterior, found = fit.posterior, list[Fit]()
+    for slot in (s for key in sorted(posterior.active) for s in sort_slots(posterior, key)[0]):
+        if math.isfinite(slot.param.high) and slot.key in posterior.space.keys:
+            at = posterior.space.keys.index(slot.key)
+            held = hold_free(posterior, at, slot.param.high)
+            found.append(maximise(held, held.space.clip(np.delete(fit.theta, at))))
     return [one for one in found if one.status == "converged"]
 
 
-def _maximise_each(problems: Sequence[Problem], starts: Sequence[Array], fit: Fit, hopeless: float) -> list[Fit]:
+def _maximise_each(posteriors: Sequence[Posterior], starts: Sequence[Array], fit: Fit, hopeless: float) -> list[Fit]:
     """Return the converged fits, best first; those that would stay below a log posterior are abandoned."""
     climb = partial(maximise, hopeless=hopeless, tolerance=ROUGHLY, patience=1)
-    found = each(lambda pair: climb(*pair), list(zip(problems, starts, strict=True)), fit.problem.jobs)
+    found = each(lambda pair: climb(*pair), list(zip(posteriors, starts, strict=True)), fit.posterior.jobs)
     return sorted((f for f in found if f.status == "converged"), key=lambda f: -f.local.log_posterior)
 
 
 def _scale_shape(fit: Fit, at: int, factor: float, more: float) -> Array:
     """Return the coordinates of a fit with one shape multiplied by a factor, and with a larger random force."""
-    theta = raise_random_force(fit.problem, fit.theta, more)
+    theta = raise_random_force(fit.posterior, fit.theta, more)
     theta[at] += math.log(factor)
-    return fit.problem.clip(theta)
+    return fit.posterior.space.clip(theta)
 
 
 def _are_apart(one: Fit, other: Fit, at: list[int]) -> bool:

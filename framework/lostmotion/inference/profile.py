@@ -40,10 +40,10 @@ def measure_stretches(fit: Fit) -> Array:
     if len(fit.theta) > MANY:
         return factors
     single = use_one_core(fit)
-    shared = [i for i, f in enumerate(fit.problem.free) if f.physical and f.recording is None]
+    shared = [i for i, f in enumerate(fit.posterior.space.free) if f.physical and f.recording is None]
     asked = [one for one in ((i, side) for i in shared for side in (0, 1)) if _has_room(fit, *one)]
     asked = [one for one, fall in zip(asked, _predict_falls(fit, asked), strict=True) if not NARROW < fall < STEEP]
-    found = each(lambda one: _measure_half(single, *one), asked, fit.problem.jobs)
+    found = each(lambda one: _measure_half(single, *one), asked, fit.posterior.jobs)
     for (i, side), factor in zip(asked, found, strict=True):
         factors[i, side] = factor
     return factors
@@ -52,12 +52,12 @@ def measure_stretches(fit: Fit) -> Array:
 def stretch_draws(fit: Fit, draws: Array, stretches: Array) -> Array:
     """Return draws (draws, n) of the coordinates with their deviations from the maximum multiplied by `stretches`."""
     away = draws - fit.theta
-    return fit.problem.clip(fit.theta + away * np.where(away < 0.0, stretches[:, 0], stretches[:, 1]))
+    return fit.posterior.space.clip(fit.theta + away * np.where(away < 0.0, stretches[:, 0], stretches[:, 1]))
 
 
 def _has_room(fit: Fit, at: int, side: int) -> bool:
     """Return whether the standard deviation of a parameter is known, and its bound is farther away."""
-    sd, free = math.sqrt(max(float(fit.local.covariance[at, at]), 0.0)), fit.problem.free[at]
+    sd, free = math.sqrt(max(float(fit.local.covariance[at, at]), 0.0)), fit.posterior.space.free[at]
     return 0.0 < sd < math.inf and abs((free.low, free.high)[side] - float(fit.theta[at])) > FIRST * sd
 
 
@@ -67,15 +67,15 @@ def _predict_falls(fit: Fit, asked: Sequence[tuple[int, int]]) -> Array:
         return np.zeros(0)
     cross = np.array([(-1.0, 1.0)[side] * fit.local.covariance[:, i] for i, side in asked])
     sds = np.sqrt([fit.local.covariance[i, i] for i, _ in asked])
-    points = fit.problem.clip(fit.theta + FIRST * cross / sds[:, None])
-    falls = fit.log_likelihood + float(fit.problem.log_prior(fit.theta)) - fit.problem.log_posteriors(points)
+    points = fit.posterior.space.clip(fit.theta + FIRST * cross / sds[:, None])
+    falls = fit.log_likelihood + float(fit.posterior.space.log_prior(fit.theta)) - fit.posterior.log_density(points)
     return np.where(np.isfinite(falls), falls, math.inf)
 
 
 def _measure_half(fit: Fit, at: int, side: int) -> float:
     """Return the factor for one half of the interval of one parameter."""
     sd, sign = math.sqrt(max(float(fit.local.covariance[at, at]), 0.0)), (-1.0, 1.0)[side]
-    free = fit.problem.free[at]
+    free = fit.posterior.space.free[at]
     most = abs((free.low, free.high)[side] - float(fit.theta[at]))
     near, far = (0.0, 0.0), FIRST * sd
     fall, begin = _fall_at(fit, at, sign * far, fit.theta)
@@ -104,11 +104,11 @@ def _fall_at(fit: Fit, at: int, shift: float, begin: Array) -> tuple[float, Arra
     The others begin at `begin`, or at their expectation under the normal approximation.
     """
     value = float(fit.theta[at]) + shift
-    held = hold_free(fit.problem, at, fit.problem.free[at].value(value))
+    held = hold_free(fit.posterior, at, fit.posterior.space.free[at].value(value))
     cross = fit.local.covariance[:, at]
-    starts = held.clip(np.delete(np.array([begin, fit.theta + shift * cross / cross[at]]), at, axis=1))
-    found = maximise(held, starts[int(np.argmax(held.log_likelihoods(starts)))], rounds=ROUNDS, tolerance=0.1)
+    starts = held.space.clip(np.delete(np.array([begin, fit.theta + shift * cross / cross[at]]), at, axis=1))
+    found = maximise(held, starts[int(np.argmax(held.log_likelihood(starts)))], rounds=ROUNDS, tolerance=0.1)
     theta = np.insert(found.theta, at, value)
-    height = found.log_likelihood + float(fit.problem.log_prior(theta))
-    best = fit.log_likelihood + float(fit.problem.log_prior(fit.theta))
+    height = found.log_likelihood + float(fit.posterior.space.log_prior(theta))
+    best = fit.log_likelihood + float(fit.posterior.space.log_prior(fit.theta))
     return max(best - height, 0.0) if math.isfinite(height) else math.inf, theta

@@ -8,23 +8,26 @@ from dataclasses import replace
 import numpy as np
 
 from lostmotion.inference.fit import MANY, Fit, maximise
-from lostmotion.likelihood.problem import RANDOM, Problem
+from lostmotion.likelihood.posterior import Posterior
+from lostmotion.likelihood.space import RANDOM
 
 
 def has_usual_random_force(fit: Fit) -> bool:
     """Return whether the random force is at most three times the usual noise of the drive (`locate.quiet`)."""
-    most = _compute_excess(fit.problem)
-    return all(at <= f.mean + most for f, at in zip(fit.problem.free, fit.theta, strict=True) if f.parameter == RANDOM)
+    most = _compute_excess(fit.posterior)
+    return all(
+        at <= f.mean + most for f, at in zip(fit.posterior.space.free, fit.theta, strict=True) if f.parameter == RANDOM
+    )
 
 
-def _compute_excess(problem: Problem) -> float:
+def _compute_excess(posterior: Posterior) -> float:
     """Return the largest usual excess of the log intensity of the random force over its prior mean."""
-    return 2.0 * math.log(problem.settings.locate.quiet)
+    return 2.0 * math.log(posterior.settings.locate.quiet)
 
 
 def reduces_random_force(fit: Fit, over: Fit, share: float) -> bool:
     """Return whether the random force of a fit is lower than that of another one by more than a share."""
-    mine, other = (v.theta[v.problem.keys.index(RANDOM)] for v in (fit, over))
+    mine, other = (v.theta[v.posterior.space.keys.index(RANDOM)] for v in (fit, over))
     return bool(mine < other + math.log(1.0 - share))
 
 
@@ -33,12 +36,12 @@ def compute_random_force_gain(fit: Fit) -> float:
 
     If each recording has its own random force, all of them are limited together.
     """
-    problem, theta, frees = fit.problem, fit.theta.copy(), list(fit.problem.free)
+    posterior, theta, frees = fit.posterior, fit.theta.copy(), list(fit.posterior.space.free)
     for i, free in enumerate(frees):
-        cap = free.mean + _compute_excess(problem)
+        cap = free.mean + _compute_excess(posterior)
         if free.parameter == RANDOM and theta[i] > cap:
             theta[i], frees[i] = cap, replace(free, high=cap, start=cap)
     if np.array_equal(theta, fit.theta):
         return 0.0
-    capped = maximise(replace(problem, free=tuple(frees)), theta, rounds=6 if len(theta) > MANY else 40)
+    capped = maximise(posterior.over(frees), theta, rounds=6 if len(theta) > MANY else 40)
     return float(np.maximum(fit.log_likelihood - capped.log_likelihood, 0.0))

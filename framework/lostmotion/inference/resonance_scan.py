@@ -16,7 +16,7 @@ import numpy as np
 from lostmotion.inference.candidates import compute_slopes, run_score_test
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.natural import compute_range, compute_size, find_term, sort_slots
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.system import Slot
 from lostmotion.quantities import FREQUENCY
 
@@ -27,39 +27,39 @@ MOST_SAMPLES = 3000
 
 def scan_resonances(fit: Fit) -> dict[str, list[dict[str, float]]]:
     """Return for each idle law with a resonance the shape with the largest gain by score tests, if that is large."""
-    idle = [key for key in fit.problem.system.keys if key not in fit.problem.active]
-    keys = [key for key in idle if find_term(fit.problem, key)[0].states and _list_resonances(fit.problem, key)]
+    idle = [key for key in fit.posterior.system.keys if key not in fit.posterior.active]
+    keys = [key for key in idle if find_term(fit.posterior, key)[0].states and _list_resonances(fit.posterior, key)]
     if not keys:
         return {}
-    first = fit.problem.observations[0]
-    part = replace(fit, problem=fit.problem.on((first.part(0, min(first.samples, MOST_SAMPLES)),)))
+    first = fit.posterior.observations[0]
+    part = replace(fit, posterior=fit.posterior.on((first.part(0, min(first.samples, MOST_SAMPLES)),)))
     slopes, found = compute_slopes(part), {}
     for key in keys:
-        shapes = _list_shapes(part.problem, key)
+        shapes = _list_shapes(part.posterior, key)
         hint = run_score_test(part, slopes, key, shapes)
-        if hint.gain > fit.problem.settings.select.shape_gain:
+        if hint.gain > fit.posterior.settings.select.shape_gain:
             found[key] = [{name: hint.start[name] for name in shapes[0]}]
     return found
 
 
-def _list_resonances(problem: Problem, key: str) -> list[Slot]:
+def _list_resonances(posterior: Posterior, key: str) -> list[Slot]:
     """Return the shapes of a law that are frequencies with a scan."""
-    return [s for s in sort_slots(problem, key)[1] if s.param.dimension == FREQUENCY and s.param.scan]
+    return [s for s in sort_slots(posterior, key)[1] if s.param.dimension == FREQUENCY and s.param.scan]
 
 
-def _list_shapes(problem: Problem, key: str) -> list[Mapping[str, float]]:
+def _list_shapes(posterior: Posterior, key: str) -> list[Mapping[str, float]]:
     """Return each frequency over its range, with the other shapes at their typical values.
 
     A mode with a third or three times the typical damping keeps most of its gain.
     """
-    fine = {s.key for s in _list_resonances(problem, key)}
-    shapes = sort_slots(problem, key)[1]
-    grids = [_make_grid(s, problem) if s.key in fine else [compute_size(s.param, problem.scales)] for s in shapes]
+    fine = {s.key for s in _list_resonances(posterior, key)}
+    shapes = sort_slots(posterior, key)[1]
+    grids = [_make_grid(s, posterior) if s.key in fine else [compute_size(s.param, posterior.scales)] for s in shapes]
     return [dict(zip((s.key for s in shapes), values, strict=True)) for values in itertools.product(*grids)]
 
 
-def _make_grid(slot: Slot, problem: Problem) -> list[float]:
+def _make_grid(slot: Slot, posterior: Posterior) -> list[float]:
     """Return the frequencies (Hz) that are tried."""
-    low, high = compute_range(slot.param, problem.scales)
+    low, high = compute_range(slot.param, posterior.scales)
     values: list[float] = np.geomspace(low, high, math.ceil(math.log(high / low) / APART) + 1).tolist()
     return values

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from lostmotion.inference.fit import ROUGHLY, Fit, maximise
 
 SETTLED, MOST_STEPS = 3.0, 48
@@ -16,9 +14,9 @@ def settle_steps(fit: Fit) -> Fit:
     An integration error is a random force to the filter: with little noise, a law with a kink loses hundreds by it, and
     a smooth force that imitates the law does not.
     """
-    while 2 * fit.problem.nsub <= MOST_STEPS:
-        finer = replace(fit.problem, nsub=2 * fit.problem.nsub)
-        if abs(finer.log_posterior(fit.theta) - fit.problem.log_posterior(fit.theta)) < SETTLED:
+    while 2 * fit.posterior.dynamics.nsub <= MOST_STEPS:
+        finer = fit.posterior.stepped(2 * fit.posterior.dynamics.nsub)
+        if abs(finer.log_density(fit.theta) - fit.posterior.log_density(fit.theta)) < SETTLED:
             return fit
         better = maximise(finer, fit.theta, tolerance=ROUGHLY)
         if better.status == "diverged":

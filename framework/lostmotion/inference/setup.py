@@ -24,9 +24,9 @@ from lostmotion.likelihood.noise_levels import (
     make_own_levels,
 )
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import Problem, Scales
-from lostmotion.likelihood.space import OFFSET, RANDOM, FreeParameter, list_keys
-from lostmotion.likelihood.steps import choose_engine
+from lostmotion.likelihood.posterior import Posterior
+from lostmotion.likelihood.space import OFFSET, RANDOM, FreeParameter, ParameterSpace, Scales, list_keys
+from lostmotion.likelihood.steps import run_system
 from lostmotion.likelihood.system import Slot, System
 from lostmotion.noises import NOISE
 from lostmotion.quantities import quantity_of, unit_of
@@ -209,15 +209,15 @@ def _check_bounds(system: System, name: str, low: float, high: float) -> None:
         raise CaseError(f"{name} ({param.meaning}) is {found}, expected {wanted}: correct it in the case")
 
 
-def make_problem(
+def make_posterior(
     system: System,
     case: CaseFile,
     observations: tuple[Observation, ...],
     *,
     jobs: int = 2,
     settings: Settings = DEFAULT,
-) -> Problem:
-    """Return the problem of a case on the given recordings, with no term active, noise levels shared.
+) -> Posterior:
+    """Return the posterior of a case on the given recordings, with no term active, noise levels shared.
 
     The zero of each loose sensor is free in each recording.
     """
@@ -225,83 +225,82 @@ def make_problem(
     scales = compute_scales(system, observations, known)
     names = [observation.name for observation in observations]
     frees = [f for name, prior in case.estimate.items() for f in make_case_parameters(system.slot(name), prior, names)]
-    engine = choose_engine(system)
-    problem = Problem(system, observations, scales, known, tuple(frees), jobs=jobs, engine=engine, settings=settings)
-    scales = replace(scales, usual=compute_usual_level(problem, find_fastest_rate(problem, problem.start)))
-    problem = replace(
-        problem, scales=scales, free=(*frees, *_make_offsets(problem, None), *make_noise_levels(observations, scales))
-    )
-    return choose_steps(problem, problem.start)
+    space = ParameterSpace(tuple(frees))
+    posterior = Posterior(space, observations, run_system(system), scales, known, jobs=jobs, settings=settings)
+    scales = replace(scales, usual=compute_usual_level(posterior, find_fastest_rate(posterior, posterior.space.start)))
+    levels = (*_make_offsets(posterior, None), *make_noise_levels(observations, scales))
+    posterior = replace(posterior, scales=scales).over((*frees, *levels))
+    return choose_steps(posterior, posterior.space.start)
 
 
-def find_fastest_rate(problem: Problem, theta: Array) -> float:
+def find_fastest_rate(posterior: Posterior, theta: Array) -> float:
     """Return the fastest rate (1/s) of the linearised motion over the region that the recording covers."""
-    system, scales, observation = problem.system, problem.scales, problem.observations[0]
+    system, scales, observation = posterior.system, posterior.scales, posterior.observations[0]
     grid = np.linspace(-1.5, 1.5, 7)
     speeds = np.tile([-1.0, 0.03, 1.0], len(grid))
     states = system.spread_states(np.repeat(grid, 3) * scales.length, speeds * scales.velocity)
     middle = np.repeat(np.mean(observation.inputs, axis=0)[None], len(states), axis=0)
-    alike = all(f.recording is None or not f.physical for f in problem.free)
-    fulls = [problem.full(theta, i) for i in range(1 if alike else len(problem.observations))]
-    dt, active = observation.dt, problem.active
+    alike = all(f.recording is None or not f.physical for f in posterior.space.free)
+    fulls = [posterior.recordings[i].full(theta) for i in range(1 if alike else len(posterior.observations))]
+    dt, active = observation.dt, posterior.active
     return max(1.0 / scales.time, *(system.find_fastest_rate(full, active, states, middle, dt) for full in fulls))
 
 
-def choose_steps(problem: Problem, theta: Array, *, accuracy: float = COARSE) -> Problem:
-    """Return the problem with the number of steps between samples for the stiffness along the recorded motion."""
-    rate = find_fastest_rate(problem, theta)
-    dt, held = max(t.dt for t in problem.observations), all(t.held for t in problem.observations)
-    steps = problem.system.count_substeps(rate, dt, accuracy, active=problem.active, held=held)
-    return replace(problem, nsub=max(steps, count_steps_for_sticking(problem, theta, creep=CREEP * accuracy / COARSE)))
+def choose_steps(posterior: Posterior, theta: Array, *, accuracy: float = COARSE) -> Posterior:
+    """Return the posterior with the number of steps between samples for the stiffness along the recorded motion."""
+    rate = find_fastest_rate(posterior, theta)
+    dt, held = max(t.dt for t in posterior.observations), all(t.held for t in posterior.observations)
+    steps = posterior.system.count_substeps(rate, dt, accuracy, active=posterior.active, held=held)
+    return posterior.stepped(max(steps, count_steps_for_sticking(posterior, theta, creep=CREEP * accuracy / COARSE)))
 
 
-def search_maximum(problem: Problem, rng: np.random.Generator, *, points: int = 48, finalists: int = 4) -> Fit:
+def search_maximum(posterior: Posterior, rng: np.random.Generator, *, points: int = 48, finalists: int = 4) -> Fit:
     """Return the best fit of several starts: a Latin hypercube on the beginnings of recordings, then all samples."""
-    beginning = cut_beginnings(problem)
-    tried = _draw_starts(problem, beginning, rng, points)
+    beginning = cut_beginnings(posterior)
+    tried = _draw_starts(posterior, beginning, rng, points)
     single = replace(beginning, jobs=1)
     fits = each(
-        lambda i: refit_without_position(maximise(single, tried.starts[i])), tried.best(finalists), problem.jobs
+        lambda i: refit_without_position(maximise(single, tried.starts[i])), tried.best(finalists), posterior.jobs
     )
     ranked = sorted(fits, key=lambda f: -f.local.log_posterior)
     chosen = _select_finalists(ranked)
-    return max((_extend_to_whole(problem, f) for f in chosen), key=lambda f: f.local.log_posterior)
+    return max((_extend_to_whole(posterior, f) for f in chosen), key=lambda f: f.local.log_posterior)
 
 
-def _extend_to_whole(problem: Problem, short: Fit, hopeless: float = -math.inf) -> Fit:
+def _extend_to_whole(posterior: Posterior, short: Fit, hopeless: float = -math.inf) -> Fit:
     """Return the fit of whole recordings, started from a fit of their beginnings."""
-    begun = zip(problem.observations, short.problem.observations, strict=True)
-    whole = choose_steps(problem.on(tuple(replace(t, begun=b.begun) for t, b in begun)), short.theta)
+    begun = zip(posterior.observations, short.posterior.observations, strict=True)
+    whole = choose_steps(posterior.on(tuple(replace(t, begun=b.begun) for t, b in begun)), short.theta)
     return refit_without_position(maximise(whole, raise_random_force(whole, short.theta, 3.0), hopeless=hopeless))
 
 
-def cut_beginnings(problem: Problem) -> Problem:
-    """Return the problem on the beginnings of its recordings, about `BEGINNING` samples of one or twice that of all."""
-    several = len(problem.observations) > 1
-    samples = max(2 * BEGINNING // len(problem.observations), FEWEST) if several else BEGINNING
-    return problem.on(tuple(t.part(0, min(t.samples, samples)) for t in problem.observations))
+def cut_beginnings(posterior: Posterior) -> Posterior:
+    """Return the posterior on the beginnings of recordings, about `BEGINNING` samples of one or twice that of all."""
+    several = len(posterior.observations) > 1
+    samples = max(2 * BEGINNING // len(posterior.observations), FEWEST) if several else BEGINNING
+    return posterior.on(tuple(t.part(0, min(t.samples, samples)) for t in posterior.observations))
 
 
-def _draw_starts(problem: Problem, beginning: Problem, rng: np.random.Generator, points: int) -> StartingPoints:
+def _draw_starts(posterior: Posterior, beginning: Posterior, rng: np.random.Generator, points: int) -> StartingPoints:
     """Return a Latin hypercube over the priors, scored with the best of three random forces.
 
     A parameter with a value for each recording starts at the same value in all of them.
     """
-    names = list(dict.fromkeys(f.parameter for f in problem.free if f.physical))
-    starts = np.repeat(problem.start[None], points, axis=0)
+    names = list(dict.fromkeys(f.parameter for f in posterior.space.free if f.physical))
+    starts = np.repeat(posterior.space.start[None], points, axis=0)
     cube = np.full((points, len(names)), 0.5)
     if names:
         rows = rng.permuted(np.tile(np.arange(points - 1)[:, None], (1, len(names))), axis=0)
         cube[1:] = (rows + rng.random(rows.shape)) / (points - 1)
-        for i, f in enumerate(problem.free):
+        for i, f in enumerate(posterior.space.free):
             if f.parameter in names:
                 starts[1:, i] = [f.quantile(float(share)) for share in cube[1:, names.index(f.parameter)]]
-    random = [f.parameter == RANDOM for f in problem.free]
+    random = [f.parameter == RANDOM for f in posterior.space.free]
     scores = np.full(points, -np.inf)
     for share in LEVELS_TRIED:
-        starts[:, random] = compute_random_level(problem.observations, problem.scales, share)
-        scores = np.maximum(scores, beginning.log_likelihoods(problem.clip(starts)))
-    starts[:, random] = problem.start[random]
+        starts[:, random] = compute_random_level(posterior.observations, posterior.scales, share)
+        scores = np.maximum(scores, beginning.log_likelihood(posterior.space.clip(starts)))
+    starts[:, random] = posterior.space.start[random]
     return StartingPoints(cube, starts, scores)
 
 
@@ -316,38 +315,38 @@ def _select_finalists(fits: list[Fit]) -> list[Fit]:
 
 
 def find_modes(
-    problem: Problem, rng: np.random.Generator, *, points: int = 96, finalists: int = 8, sensor: SensorSpec = SHARED
+    posterior: Posterior, rng: np.random.Generator, *, points: int = 96, finalists: int = 8, sensor: SensorSpec = SHARED
 ) -> list[Fit]:
     """Return the distinct maxima of the posterior on all recordings, best first by log evidence.
 
     It searches more widely than `search_maximum`, fits each mode of the beginnings within `SLACK` of the best on the
-    whole recordings, and keeps those within `mode.within` in log evidence. All are maxima of one problem, with the
+    whole recordings, and keeps those within `mode.within` in log evidence. All are maxima of one posterior, with the
     steps between samples of the stiffest of them. Parameters that the `sensor` has for each recording are split before
     the modes are compared: with a noise level that fits none of the recordings, distances between modes are not
     meaningful.
     """
-    beginning = cut_beginnings(problem)
-    tried = _draw_starts(problem, beginning, rng, points)
+    beginning = cut_beginnings(posterior)
+    tried = _draw_starts(posterior, beginning, rng, points)
     single = replace(beginning, jobs=1)
     peaks = each(
-        lambda i: refit_without_position(maximise(single, tried.starts[i])), tried.peaks(finalists), problem.jobs
+        lambda i: refit_without_position(maximise(single, tried.starts[i])), tried.peaks(finalists), posterior.jobs
     )
     short = select_modes(peaks, SLACK)
     whole: list[Fit] = []
     for fit in short:
         hopeless = max((f.local.log_posterior for f in whole), default=-math.inf) - 2.0 * SLACK
-        whole.append(_extend_to_whole(problem, fit, hopeless))
-    hills = select_modes([separate_levels(fit, sensor) for fit in whole], SLACK) or [maximise(problem)]
-    return _unify_modes(hills, max((f.problem for f in hills), key=lambda p: p.nsub))
+        whole.append(_extend_to_whole(posterior, fit, hopeless))
+    hills = select_modes([separate_levels(fit, sensor) for fit in whole], SLACK) or [maximise(posterior)]
+    return _unify_modes(hills, max((f.posterior for f in hills), key=lambda p: p.dynamics.nsub))
 
 
-def _unify_modes(fits: list[Fit], problem: Problem) -> list[Fit]:
-    """Return the maxima of `problem` that begin at those of the fits, each mode once, best first."""
-    again = [f if f.problem.nsub == problem.nsub else maximise(problem, f.theta) for f in fits]
-    hills = [replace(f, problem=problem) for f in select_modes(again, SLACK)] or again
+def _unify_modes(fits: list[Fit], posterior: Posterior) -> list[Fit]:
+    """Return the maxima of `posterior` that begin at those of the fits, each mode once, best first."""
+    again = [f if f.posterior.dynamics.nsub == posterior.dynamics.nsub else maximise(posterior, f.theta) for f in fits]
+    hills = [replace(f, posterior=posterior) for f in select_modes(again, SLACK)] or again
     top = max(f.log_evidence for f in hills)
     return sorted(
-        (f for f in hills if f.log_evidence >= top - problem.settings.mode.within), key=lambda f: -f.log_evidence
+        (f for f in hills if f.log_evidence >= top - posterior.settings.mode.within), key=lambda f: -f.log_evidence
     )
 
 
@@ -356,23 +355,23 @@ def separate_levels(fit: Fit, sensor: SensorSpec) -> Fit:
 
     It begins at the fit with shared levels. Where nothing is to be split, or all is split already, it is that fit.
     """
-    problem = restart(fit)
-    own = sensor.noise == "each" and len(problem.observations) > 1 and RANDOM in problem.keys
-    zeros = () if any(f.level == OFFSET for f in problem.free) else _make_offsets(problem, sensor.offset)
+    posterior = restart(fit)
+    own = sensor.noise == "each" and len(posterior.observations) > 1 and RANDOM in posterior.space.keys
+    zeros = () if any(f.level == OFFSET for f in posterior.space.free) else _make_offsets(posterior, sensor.offset)
     if not own and not zeros:
         return fit
-    kept = tuple(f for f in problem.free if f.level not in (RANDOM, NOISE))
-    levels = tuple(f for f in problem.free if f.level in (RANDOM, NOISE))
+    kept = tuple(f for f in posterior.space.free if f.level not in (RANDOM, NOISE))
+    levels = tuple(f for f in posterior.space.free if f.level in (RANDOM, NOISE))
     if own:
-        levels = make_own_levels(problem, float(fit.theta[problem.keys.index(RANDOM)]))
-    apart = replace(problem, free=(*kept, *zeros, *levels))
-    return maximise(apart, apart.start)
+        levels = make_own_levels(posterior, float(fit.theta[posterior.space.keys.index(RANDOM)]))
+    apart = posterior.over((*kept, *zeros, *levels))
+    return maximise(apart, apart.space.start)
 
 
-def _make_offsets(problem: Problem, prior: Prior | None) -> tuple[FreeParameter, ...]:
+def _make_offsets(posterior: Posterior, prior: Prior | None) -> tuple[FreeParameter, ...]:
     """Return the offset of each sensor in each recording whose zero is unknown: of all, or of loose ones."""
-    motion, first = problem.system.model.motion, problem.observations[0]
-    names = [observation.name for observation in problem.observations]
+    motion, first = posterior.system.model.motion, posterior.observations[0]
+    names = [observation.name for observation in posterior.observations]
     return tuple(
         _make_free(
             key,
@@ -388,13 +387,13 @@ def _make_offsets(problem: Problem, prior: Prior | None) -> tuple[FreeParameter,
 
 def polish_fit(fit: Fit) -> Fit:
     """Return the fit with finer integration steps."""
-    problem = choose_steps(fit.problem, fit.theta, accuracy=FINE)
-    finer = maximise(replace(problem, nsub=max(problem.nsub, fit.problem.nsub)), fit.theta)
+    posterior = choose_steps(fit.posterior, fit.theta, accuracy=FINE)
+    finer = maximise(posterior.stepped(max(posterior.dynamics.nsub, fit.posterior.dynamics.nsub)), fit.theta)
     return finer if finer.status in ("converged", "rough") else fit
 
 
 def polish_modes(fits: list[Fit]) -> list[Fit]:
-    """Return the modes with finer integration steps, all of one problem, best first by log evidence."""
+    """Return the modes with finer integration steps, all of one posterior, best first by log evidence."""
     return _unify_modes(
-        fits, max((choose_steps(f.problem, f.theta, accuracy=FINE) for f in fits), key=lambda p: p.nsub)
+        fits, max((choose_steps(f.posterior, f.theta, accuracy=FINE) for f in fits), key=lambda p: p.dynamics.nsub)
     )

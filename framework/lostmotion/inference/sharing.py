@@ -25,7 +25,7 @@ from lostmotion.inference.learned import LearnedTerm
 from lostmotion.inference.setup import separate_levels
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.space import FreeParameter, list_keys
 from lostmotion.results import Interval
 from lostmotion.results.shared_values import PowerOfLevel
@@ -124,16 +124,16 @@ def compare_recordings(fit: Fit) -> SharedValues | None:
     Each recording has noise levels of its own. Learned curves are shared and refitted; values are also compared without
     them, since a curve may imitate a difference, and the alternative with the larger evidence is returned.
     """
-    if len(fit.problem.observations) < 2:
+    if len(fit.posterior.observations) < 2:
         return None
     compared = _fit_beginnings(fit)
     courses = [_release_parameters(separate_levels(compared, SensorSpec()))]
-    if curves := list_curves(fit.problem):
-        plain = compared.problem
+    if curves := list_curves(fit.posterior):
+        plain = compared.posterior
         for key in curves:
             plain = plain.remove_term(key, fit.values)
         bare, evidence = _release_parameters(
-            separate_levels(maximise(plain, raise_random_force(plain, plain.start, RAISED)), SensorSpec())
+            separate_levels(maximise(plain, raise_random_force(plain, plain.space.start, RAISED)), SensorSpec())
         )
         courses.append((replace(bare, dropped=curves), evidence))
     return max(courses, key=lambda course: course[1])[0]
@@ -141,8 +141,8 @@ def compare_recordings(fit: Fit) -> SharedValues | None:
 
 def _release_parameters(shared: Fit) -> tuple[SharedValues, float]:
     """Return the comparison of recordings, and the log evidence of the fit with the differing parameters released."""
-    base, limits = shared, shared.problem.settings.shared
-    observations, tested = base.problem.observations, _list_tested(base.problem)
+    base, limits = shared, shared.posterior.settings.shared
+    observations, tested = base.posterior.observations, _list_tested(base.posterior)
     levels = measure_levels(observations, limits.spread)
     found: dict[str, ComparedParameter] = {}
     released: list[str] = []
@@ -164,26 +164,26 @@ def _release_parameters(shared: Fit) -> tuple[SharedValues, float]:
     return SharedValues(names, levels, values, tuple(released), failed, gain=gain), base.log_evidence
 
 
-def list_curves(problem: Problem) -> tuple[str, ...]:
-    """Return the keys of the learned curves that act in a problem."""
-    terms = zip(problem.system.keys, problem.system.terms, strict=True)
-    return tuple(key for key, term in terms if isinstance(term, LearnedTerm) and key in problem.active)
+def list_curves(posterior: Posterior) -> tuple[str, ...]:
+    """Return the keys of the learned curves that act in a posterior."""
+    terms = zip(posterior.system.keys, posterior.system.terms, strict=True)
+    return tuple(key for key, term in terms if isinstance(term, LearnedTerm) and key in posterior.active)
 
 
 def _fit_beginnings(fit: Fit) -> Fit:
-    """Return the fit on the beginnings of its recordings, as a problem that starts at its maximum."""
-    problem = restart(fit)
-    samples = SAMPLES if len(problem.free) <= MANY else FEWER
-    most = max(samples // len(problem.observations), 1)
-    if all(o.samples <= most for o in problem.observations):
-        return replace(fit, problem=problem)
-    return maximise(problem.on(tuple(o.part(0, min(o.samples, most)) for o in problem.observations)), rounds=ROUNDS)
+    """Return the fit on the beginnings of its recordings, as a posterior that starts at its maximum."""
+    posterior = restart(fit)
+    samples = SAMPLES if len(posterior.space.free) <= MANY else FEWER
+    most = max(samples // len(posterior.observations), 1)
+    if all(o.samples <= most for o in posterior.observations):
+        return replace(fit, posterior=posterior)
+    return maximise(posterior.on(tuple(o.part(0, min(o.samples, most)) for o in posterior.observations)), rounds=ROUNDS)
 
 
-def _list_tested(problem: Problem) -> tuple[str, ...]:
+def _list_tested(posterior: Posterior) -> tuple[str, ...]:
     """Return the names of the parameters that are compared: no noise levels, no coefficients of learned curves."""
-    curves = list_curves(problem)
-    names = [f.parameter for f in problem.free if f.physical]
+    curves = list_curves(posterior)
+    names = [f.parameter for f in posterior.space.free if f.physical]
     return tuple(dict.fromkeys(name for name in names if name.rpartition(".")[0] not in curves))
 
 
@@ -199,7 +199,7 @@ def measure_levels(observations: Sequence[Observation], spread: float = DEFAULT.
 
 def _fit_each_separately(base: Fit, keys: Sequence[str]) -> list[SeparateFit]:
     """Return the fits in which one parameter after the other has a value for each recording."""
-    single, jobs = replace(base, problem=replace(base.problem, jobs=1)), base.problem.jobs
+    single, jobs = replace(base, posterior=replace(base.posterior, jobs=1)), base.posterior.jobs
     found = each(lambda key: fit_separately(single, key), keys, jobs)
     return [one for one in found if one is not None]
 
@@ -209,17 +209,17 @@ def fit_separately(base: Fit, key: str) -> SeparateFit | None:
 
     None where it diverges. Where the case has a value for each recording already, it is the base itself.
     """
-    problem = restart(base)
-    index = next(i for i, f in enumerate(problem.free) if f.parameter == key)
-    free, names = problem.free[index], [observation.name for observation in problem.observations]
+    posterior = restart(base)
+    index = next(i for i, f in enumerate(posterior.space.free) if f.parameter == key)
+    free, names = posterior.space.free[index], [observation.name for observation in posterior.observations]
     fit = base
     if free.recording is None:
         own = [replace(free, key=name) for name in list_keys(key, names)]
-        split = replace(problem, free=(*problem.free[:index], *own, *problem.free[index + 1 :]))
+        split = posterior.over((*posterior.space.free[:index], *own, *posterior.space.free[index + 1 :]))
         fit = maximise(split, rounds=ROUNDS)
         if fit.status == "diverged":
             return None
-    columns = [fit.problem.keys.index(name) for name in list_keys(key, names)]
+    columns = [fit.posterior.space.keys.index(name) for name in list_keys(key, names)]
     return SeparateFit(
         key,
         fit,
@@ -235,9 +235,9 @@ def compute_covariance(fit: Fit, columns: Sequence[int]) -> Array:
 
     It is the sandwich, with scores summed over blocks of each recording, and in no direction less than the usual one.
     """
-    slopes = compute_sensitivity(fit.problem, fit.theta, fit.local.steps)
+    slopes = compute_sensitivity(fit.posterior, fit.theta, fit.local.steps)
     usual = fit.local.covariance
-    sandwich = usual @ _compute_scatter(slopes.scores(), fit.problem.observations) @ usual
+    sandwich = usual @ _compute_scatter(slopes.scores(), fit.posterior.observations) @ usual
     kept = np.ix_(columns, columns)
     return widen_covariance(usual[kept], sandwich[kept])
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.posterior import Posterior
 
 LONG = 12_000
 """From this many samples on, of all recordings together, a search uses stretches of them first."""
@@ -11,12 +11,12 @@ STRETCHES, SOUGHT = 4, 8_000
 """The number of stretches of each recording, evenly spread over it, and the samples of all stretches together."""
 
 
-def cut_stretches(problem: Problem) -> Problem:
-    """Return the problem on stretches of its recordings, or unchanged where they are not long."""
-    if problem.samples <= LONG:
-        return problem
-    parts = [part for o in problem.observations for part in list_stretches(o, SOUGHT / problem.samples)]
-    return problem.on(tuple(parts))
+def cut_stretches(posterior: Posterior) -> Posterior:
+    """Return the posterior on stretches of its recordings, or unchanged where they are not long."""
+    if posterior.samples <= LONG:
+        return posterior
+    parts = [part for o in posterior.observations for part in list_stretches(o, SOUGHT / posterior.samples)]
+    return posterior.on(tuple(parts))
 
 
 def list_stretches(observation: Observation, share: float) -> list[Observation]:

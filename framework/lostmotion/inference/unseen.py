@@ -14,7 +14,8 @@ from lostmotion.inference.fit import Fit, LocalExpansion, maximise
 from lostmotion.inference.mixture import compute_nodes, compute_root
 from lostmotion.likelihood.initial import shows_place
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import RANDOM, Problem
+from lostmotion.likelihood.posterior import Posterior
+from lostmotion.likelihood.space import RANDOM
 
 WIDER = 3.0
 """A motion begins within this many standard deviations of its smoothed initial state: the recording is used twice then,
@@ -47,12 +48,12 @@ def smooth_body_position(fit: Fit, observation: Observation) -> BodyPosition:
     The level of the random force, which lets a position drift, is integrated on a grid; the position is linearised in
     the other parameters within their deviations. Infinite deviations where every smoother diverges.
     """
-    problem = fit.problem.on((observation,))
-    first = problem.system.model.first_body[0]
+    posterior = fit.posterior.on((observation,))
+    first = posterior.system.model.first_body[0]
     nodes = compute_nodes(fit)
     means, variances, weights = [], [], []
     for node in nodes:
-        seen = problem.smooth(node.local.theta)
+        seen = posterior.filters[0].smooth(node.local.theta)
         if seen.innovations.finite.all():
             means.append(seen.states[:, first])
             variances.append(np.maximum(seen.covariance[:, first, first], 0.0))
@@ -65,27 +66,27 @@ def smooth_body_position(fit: Fit, observation: Observation) -> BodyPosition:
     return BodyPosition(
         mean,
         np.sqrt(
-            variance + _compute_parameter_variance(problem, nodes[int(np.argmax([n.weight for n in nodes]))].local)
+            variance + _compute_parameter_variance(posterior, nodes[int(np.argmax([n.weight for n in nodes]))].local)
         ),
     )
 
 
-def _compute_parameter_variance(problem: Problem, local: LocalExpansion) -> Array:
+def _compute_parameter_variance(posterior: Posterior, local: LocalExpansion) -> Array:
     """Return the variance (samples,) that unknown parameters add to the position at one level of the random force."""
-    first = problem.system.model.first_body[0]
-    at = problem.smooth(local.theta).states[:, first]
+    first = posterior.system.model.first_body[0]
+    at = posterior.filters[0].smooth(local.theta).states[:, first]
     total = np.zeros_like(at)
-    held = np.array([key == RANDOM for key in problem.keys])
+    held = np.array([key == RANDOM for key in posterior.space.keys])
     for way in compute_root(local.covariance).T:
-        seen = problem.smooth(problem.clip(local.theta + np.where(held, 0.0, way)))
+        seen = posterior.filters[0].smooth(posterior.space.clip(local.theta + np.where(held, 0.0, way)))
         if seen.innovations.finite.all():
             total += (seen.states[:, first] - at) ** 2
     return total
 
 
-def lacks_position(problem: Problem) -> bool:
+def lacks_position(posterior: Posterior) -> bool:
     """Return whether there is a recording in which no sensor shows a position."""
-    return not all(shows_place(observation) for observation in problem.observations)
+    return not all(shows_place(observation) for observation in posterior.observations)
 
 
 def refit_without_position(fit: Fit) -> Fit:
@@ -93,7 +94,7 @@ def refit_without_position(fit: Fit) -> Fit:
 
     Other fits are returned unchanged.
     """
-    if not lacks_position(fit.problem) or fit.status == "diverged":
+    if not lacks_position(fit.posterior) or fit.status == "diverged":
         return fit
     return reduce_random_force(refit_start(reduce_random_force(refit_start_in_play(fit))))
 
@@ -106,16 +107,16 @@ def refit_start(fit: Fit) -> Fit:
     to its first sample, and the filter begins there (an iterated smoother: Bell, SIAM J. Optimization 4 (1994)
     626-636).
     """
-    if not lacks_position(fit.problem):
+    if not lacks_position(fit.posterior):
         return fit
     for _ in range(AGAIN):
         observations, far = [], 0.0
-        for i, observation in enumerate(fit.problem.observations):
+        for i, observation in enumerate(fit.posterior.observations):
             found, moved = _smooth_start(fit, observation, i)
             observations.append(found)
             far = max(far, moved)
-        problem = fit.problem.on(tuple(observations))
-        better = maximise(problem, fit.theta)
+        posterior = fit.posterior.on(tuple(observations))
+        better = maximise(posterior, fit.theta)
         if better.status == "diverged" or better.local.log_posterior < fit.local.log_posterior - GAINED:
             return fit
         fit = better
@@ -131,9 +132,9 @@ def refit_start_in_play(fit: Fit) -> Fit:
     local maximum. Other fits are only smoothed back (`refit_start`).
     """
     near = refit_start(fit)
-    if near.status == "diverged" or not lacks_position(fit.problem):
+    if near.status == "diverged" or not lacks_position(fit.posterior):
         return near
-    if not any(place.play for place in fit.problem.system.model.places):
+    if not any(place.play for place in fit.posterior.system.model.places):
         return near
     found = _find_start(near, _list_starts_in_play)
     far = refit_start(maximise(found, near.theta)) if found else near
@@ -158,7 +159,7 @@ def refit_shifted_start(fit: Fit) -> Fit:
 
 def _list_shifted_starts(fit: Fit, index: int) -> list[tuple[Array, Array]]:
     """Return mean and covariance of initial states, one of them shifted by some standard deviations."""
-    begun = fit.problem.observations[index].begun
+    begun = fit.posterior.observations[index].begun
     if begun is None:
         return []
     mean, covariance = begun
@@ -168,13 +169,16 @@ def _list_shifted_starts(fit: Fit, index: int) -> list[tuple[Array, Array]]:
 
 def _list_starts_in_play(fit: Fit, index: int) -> list[tuple[Array, Array]]:
     """Return mean and covariance of initial states all over the motion."""
-    problem, n = fit.problem, len(fit.problem.system.model.states)
-    unit, now = (problem.scales.length, problem.scales.velocity), problem.points(fit.theta[None], index)
+    posterior, n = fit.posterior, len(fit.posterior.system.model.states)
+    unit, now = (
+        (posterior.scales.length, posterior.scales.velocity),
+        posterior.recordings[index].points(fit.theta[None]),
+    )
     mean, covariance = now.mean[0, :n], now.covariance[0, :n, :n].copy()
-    body = list(problem.system.model.first_body)
+    body = list(posterior.system.model.first_body)
     covariance[body], covariance[:, body] = 0.0, 0.0
     covariance[body, body] = [(NARROW * size) ** 2 for size in unit]
-    seen = any(sensor.channel == "velocity" for sensor in problem.observations[index].sensors)
+    seen = any(sensor.channel == "velocity" for sensor in posterior.observations[index].sensors)
     speeds = [mean[body[1]]] if seen else unit[1] * SPEEDS
     pairs = list(itertools.product(unit[0] * PLACES, speeds))
     starts = [mean.copy() for _ in pairs]
@@ -183,14 +187,14 @@ def _list_starts_in_play(fit: Fit, index: int) -> list[tuple[Array, Array]]:
     return [(start, covariance) for start in starts]
 
 
-def _find_start(fit: Fit, starts: Callable[[Fit, int], list[tuple[Array, Array]]]) -> Problem | None:
-    """Return the problem with other initial states that explain the first samples better; None if there are none.
+def _find_start(fit: Fit, starts: Callable[[Fit, int], list[tuple[Array, Array]]]) -> Posterior | None:
+    """Return the posterior with other initial states that explain the first samples better; None if there are none.
 
     `starts` returns those that are tried for a recording in which no sensor shows the position.
     """
-    whole = list(fit.problem.observations)
+    whole = list(fit.posterior.observations)
     openings = [o.part(0, min(OPENING, o.samples)) for o in whole]
-    for i, observation in enumerate(fit.problem.observations):
+    for i, observation in enumerate(fit.posterior.observations):
         if shows_place(observation):
             continue
         trials = [openings[i], *(replace(openings[i], begun=begun) for begun in starts(fit, i))]
@@ -198,13 +202,13 @@ def _find_start(fit: Fit, starts: Callable[[Fit, int], list[tuple[Array, Array]]
         best = int(np.argmax(scores))
         if scores[best] > scores[0] + GAINED:
             openings[i], whole[i] = trials[best], replace(observation, begun=trials[best].begun)
-    changed = any(a is not b for a, b in zip(whole, fit.problem.observations, strict=True))
-    return fit.problem.on(tuple(whole)) if changed else None
+    changed = any(a is not b for a, b in zip(whole, fit.posterior.observations, strict=True))
+    return fit.posterior.on(tuple(whole)) if changed else None
 
 
 def _score_openings(fit: Fit, openings: Sequence[Observation]) -> float:
     """Return the log-likelihood of the first samples of all recordings; minus infinity where it diverges."""
-    score = float(fit.problem.on(tuple(openings)).log_likelihoods(fit.theta[None])[0])
+    score = float(fit.posterior.on(tuple(openings)).log_likelihood(fit.theta))
     return score if math.isfinite(score) else -math.inf
 
 
@@ -212,10 +216,14 @@ def _smooth_start(fit: Fit, observation: Observation, index: int) -> tuple[Obser
     """Return an observation with its smoothed initial states, and their change in standard deviations."""
     if shows_place(observation):
         return observation, 0.0
-    problem, n = fit.problem, len(fit.problem.system.model.states)
-    wide = problem.on(tuple(replace(o, begun=None) for o in problem.observations)).points(fit.theta[None], index)
-    before = problem.begun(fit.theta, index)[:n]
-    seen = problem.smooth(fit.theta, index)
+    posterior, n = fit.posterior, len(fit.posterior.system.model.states)
+    wide = (
+        posterior.on(tuple(replace(o, begun=None) for o in posterior.observations))
+        .recordings[index]
+        .points(fit.theta[None])
+    )
+    before = posterior.recordings[index].points(fit.theta[None]).mean[0, :n]
+    seen = posterior.filters[index].smooth(fit.theta)
     mean, covariance = seen.states[0, :n], seen.covariance[0, :n, :n]
     if not (np.isfinite(mean).all() and np.isfinite(covariance).all()):
         return observation, 0.0
@@ -238,10 +246,10 @@ def reduce_random_force(fit: Fit) -> Fit:
     An accelerometer sees the random force of the moment. So a large one explains any readings, at any parameters, and a
     search stops at one of many maxima there.
     """
-    if fit.problem.running.random != "held":
+    if fit.posterior.dynamics.random != "held":
         return fit
-    at = [i for i, f in enumerate(fit.problem.free) if f.parameter == RANDOM]
-    usual = fit.problem.scales.usual
+    at = [i for i, f in enumerate(fit.posterior.space.free) if f.parameter == RANDOM]
+    usual = fit.posterior.scales.usual
     for _ in range(AGAIN):
         levels = [usual + more for more in COOLER if usual + more < min(fit.theta[at]) - 1.0]
         if not levels:
@@ -249,7 +257,7 @@ def reduce_random_force(fit: Fit) -> Fit:
         starts = [fit.theta.copy() for _ in levels]
         for start, level in zip(starts, levels, strict=True):
             start[at] = level
-        best = max((maximise(fit.problem, s) for s in starts), key=lambda f: f.local.log_posterior)
+        best = max((maximise(fit.posterior, s) for s in starts), key=lambda f: f.local.log_posterior)
         if not best.local.log_posterior > fit.local.log_posterior + GAINED:
             return fit
         fit = best

@@ -1,5 +1,5 @@
-"""The likelihood of recordings: sensors, free parameters, and the engines that filter many parameter points at once.
+"""The likelihood of recordings: sensors, free parameters, and systems that run at many points at once.
 
 `Sensor` and `Observation` describe what was measured, `ParameterSpace` what is estimated and `System` the model with
-its terms. An `Engine` returns innovations. `Problem` combines them into the posterior density for fits and samplers.
+its terms. A `RunningSystem` returns innovations. `Posterior` combines them into the density for fits and samplers.
 """

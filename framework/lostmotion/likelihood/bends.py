@@ -17,8 +17,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from lostmotion.contracts import Array, SensorTerm, Values
-from lostmotion.likelihood.engine import Innovations, Points
+from lostmotion.likelihood.innovations import Innovations
 from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.points import Points
 from lostmotion.likelihood.sensors import FLATTEST, Sensor, SensorChange
 
 if TYPE_CHECKING:

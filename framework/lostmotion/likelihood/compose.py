@@ -37,7 +37,7 @@ _LAW = types.void(windows.BLOCK, windows.BLOCK, types.intp)
 
 @dataclass(frozen=True)
 class Functions:
-    """The functions of a model as an engine calls them: addresses of compiled ones, or plain Python.
+    """The functions of a model as a filter calls them: addresses of compiled ones, or plain Python.
 
     `derive(block, wires, lanes)` writes the derivatives of the states, `observe` then the channels.
     """

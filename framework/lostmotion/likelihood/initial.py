@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 
 from lostmotion.contracts import Array, SensorTerm
-from lostmotion.likelihood.engine import RunningSystem
 from lostmotion.likelihood.observation import Observation, find_static_equilibrium
+from lostmotion.likelihood.running import RunningSystem
 from lostmotion.likelihood.space import Scales
 from lostmotion.quantities import quantity_of
 

@@ -1,4 +1,4 @@
-"""The engine that computes many points in lock-step, in the vector registers of one core."""
+"""Machines written as equations: many points in lock-step, in the vector registers of one core."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from lostmotion.contracts import Array
 from lostmotion.kernels.inputs import DRAWN, DRIVES, SOURCES
 from lostmotion.kernels.vector import STRIDE
-from lostmotion.likelihood.engine import Innovations, KeepingEngine, Kept, Points, RunningSystem
+from lostmotion.likelihood.innovations import Innovations, join_innovations
 from lostmotion.likelihood.kernel_calls import (
     count_lanes,
     make_block,
@@ -24,14 +24,15 @@ from lostmotion.likelihood.kernel_calls import (
 )
 from lostmotion.likelihood.kernels import build_filter
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.point_groups import join_innovations
+from lostmotion.likelihood.points import Points
+from lostmotion.likelihood.running import Kept, RunningSystem
 from lostmotion.likelihood.work import add_work
 
 _NONE = (np.zeros((1, 1)), np.zeros((1, 1, 1)), np.zeros((1, 1)), np.zeros((1, 1, 1)), np.zeros((1, 1, 1)))
 
 
 @dataclass(frozen=True)
-class Lanes(KeepingEngine):
+class Lanes(RunningSystem):
     """Filters up to 32 points at once in vector lanes; `compiled=False` runs the same source as plain Python.
 
     Norgaard, Poulsen, Ravn, Automatica 36 (2000) 1627-1638, with steps halved where a force bends.
@@ -39,46 +40,40 @@ class Lanes(KeepingEngine):
 
     compiled: bool = True
 
-    def filter_and_keep(
-        self, running: RunningSystem, observation: Observation, points: Points, kept: Kept | None
-    ) -> Innovations:
+    def filter_and_keep(self, observation: Observation, points: Points, kept: Kept | None) -> Innovations:
         """Return one-step errors and their variances; write what a smoother needs of the first point into `kept`.
 
         Points whose first is kept take the steps of that one, for differences between them.
         """
         if kept is None:
-            return self._filter(running, observation, points, _NONE)
+            return self._filter(observation, points, _NONE)
         most, parts = STRIDE - 1, []
         for begin in range(1, max(len(points), 2), most):
             rows = np.r_[0, begin : min(begin + most, len(points))]
-            found = self._filter(running, observation, points.select(rows), kept if begin == 1 else _NONE, led=True)
+            found = self._filter(observation, points.select(rows), kept if begin == 1 else _NONE, led=True)
             parts.append(found if begin == 1 else found[1:])
         return parts[0] if len(parts) == 1 else join_innovations(parts)
 
-    def _filter(
-        self, running: RunningSystem, observation: Observation, points: Points, kept: Kept, *, led: bool = False
-    ) -> Innovations:
+    def _filter(self, observation: Observation, points: Points, kept: Kept, *, led: bool = False) -> Innovations:
         shape = (len(points), observation.samples, len(observation.sensors))
         errors, variances, reached = np.zeros(shape), np.ones(shape), np.zeros(len(points), dtype=np.int64)
         for number, rows in enumerate(_group_points(points)):
             written = (errors[rows], variances[rows], reached[rows])
             wanted = kept if number == 0 else _NONE
-            self._run_filter(running, observation, points.select(rows), written, wanted, led=led)
+            self._run_filter(observation, points.select(rows), written, wanted, led=led)
             if not isinstance(rows, slice):
                 errors[rows], variances[rows], reached[rows] = written
         return Innovations.of(errors, variances, reached)
 
-    def simulate(
-        self, running: RunningSystem, points: Points, start: Array, steps: int, kicks: Array | None = None
-    ) -> Array:
+    def simulate(self, points: Points, start: Array, steps: int, kicks: Array | None = None) -> Array:
         """Return the states (points, steps, n) of free runs from `start` (points, n), NaN after a divergence."""
-        states = np.empty((len(points), steps, running.states))
+        states = np.empty((len(points), steps, self.states))
         for number, drive in enumerate(points.drives):
             rows = np.flatnonzero(points.which == number)
             if len(rows):
-                packed = running.system.pack(points.params[rows], drive.dt / running.nsub, drive.harmonic)
+                packed = self.pack(points.params[rows], drive)
                 found = run_freely(
-                    running.system, running.active, packed, start[rows], drive, running.nsub, points.first[rows],
+                    self.system, self.active, packed, start[rows], drive, self.nsub, points.first[rows],
                     steps, kicks=None if kicks is None else kicks[rows], compiled=self.compiled,
                 )  # fmt: skip
                 states[rows] = found[0]
@@ -86,7 +81,6 @@ class Lanes(KeepingEngine):
 
     def _run_filter(
         self,
-        running: RunningSystem,
         observation: Observation,
         points: Points,
         written: tuple[Array, Array, NDArray[np.int64]],
@@ -95,15 +89,15 @@ class Lanes(KeepingEngine):
         led: bool,
     ) -> None:
         """Run the filter at up to `STRIDE` points, and write into the given arrays."""
-        system, n = running.system, running.states + running.forces
+        system, n = self.system, self.states + self.forces
         drives = [drive.pad_inputs(len(system.model.inputs)) for drive in points.drives]
-        harmonic, dt, nsub = drives[0].harmonic, observation.dt, count_fine_steps(running.nsub)
-        numbers = _list_sensor_numbers(observation, running, points)
-        forces = tuple(running.states + i for i in range(running.forces))
+        harmonic, dt, nsub = drives[0].harmonic, observation.dt, count_fine_steps(self.nsub)
+        numbers = _list_sensor_numbers(observation, self, points)
+        forces = tuple(self.states + i for i in range(self.forces))
         packed = system.pack(points.params, dt / nsub, harmonic)
         packed[:, system.blueprint.rows.pace - system.blueprint.rows.params] = points.pace
-        wires = make_model_wires(system, running.active, forces, compiled=self.compiled)
-        noise, wires[SOURCES], wires[DRAWN] = _list_noise(running, points, dt)
+        wires = make_model_wires(system, self.active, forces, compiled=self.compiled)
+        noise, wires[SOURCES], wires[DRAWN] = _list_noise(self, points, dt)
         used = np.unique(points.which)
         inputs = drives[used[0]].cubics if len(used) == 1 else np.concatenate([drives[i].cubics for i in used])
         wires[DRIVES] = len(used)
@@ -112,7 +106,7 @@ class Lanes(KeepingEngine):
         sensing = points.noise
         levels = np.stack([sensing.white, sensing.clock, points.gain, points.offset, points.lag], axis=2)
         kinds = np.concatenate([sensing.shown[..., None], sensing.transition, sensing.driving, sensing.first], axis=2)
-        mean, covariance = _compute_start(running, points)
+        mean, covariance = _compute_start(self, points)
         kernels = build_filter(n, self.compiled)
         many = sensing.shown.shape[1]
         blocks = (
@@ -131,7 +125,7 @@ class Lanes(KeepingEngine):
         padded = _pad_arrays(written, lanes)
         failed = kernels["run_filter"](
             (made.derive, made.observe), blocks, wires, inputs, which, np.ascontiguousarray(readings),
-            numbers, find_input_variance(running, observation), dt, nsub, padded, kept, led, lanes,
+            numbers, find_input_variance(self, observation), dt, nsub, padded, kept, led, lanes,
         )  # fmt: skip
         add_work(len(points) * observation.samples * nsub * n)
         require_no_failure(failed, system, blocks[0], wires)

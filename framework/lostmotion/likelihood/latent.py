@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.likelihood.problem import PACE, RANDOM, FreeParameter, Problem
+from lostmotion.likelihood.posterior import Posterior
+from lostmotion.likelihood.space import PACE, RANDOM, FreeParameter
 
 SHARES = (1e-3, 3e-3, 1e-2, 3e-2, 1e-1, 3e-1)
 PACES = (4.0, 12.0, 40.0)
@@ -51,55 +52,55 @@ class LatentForce:
         return self.states[:, self.body[1]]
 
 
-def smooth_latent_force(problem: Problem, theta: Array, index: int = 0) -> LatentForce:
+def smooth_latent_force(posterior: Posterior, theta: Array, index: int = 0) -> LatentForce:
     """Return the latent force of recording `index` at fixed parameters: an Ornstein-Uhlenbeck force, smoothed.
 
     Alvarez, Luengo, Lawrence (2009); Rogers, Friis, MSSP 2022 (arXiv 2109.10681). It shows on what a missing force
     depends. It is not used to name the force, because the base parameters absorb the part of a force that correlates
     with them.
     """
-    single = problem.on((problem.observations[index],))
-    step = single.observations[0].dt / problem.scales.time
+    single = posterior.on((posterior.observations[index],))
+    step = single.observations[0].dt / posterior.scales.time
     grid = [(s, p) for p in PACES if p == min(PACES) or p * step < FASTEST for s in SHARES]
     forced, thetas = _add_force(single, theta, grid)
-    heights = forced.log_likelihoods(thetas)
+    heights = forced.log_likelihood(thetas)
     best = int(np.argmax(heights))
-    seen = forced.smooth(thetas[best])
+    seen = forced.filters[0].smooth(thetas[best])
     base = min(h for (s, _), h in zip(grid, heights, strict=True) if s == SHARES[0])
     sd = np.sqrt(np.maximum(seen.covariance[:, -1, -1], 0.0))
     share, pace = grid[best]
     gain = float(heights[best] - base)
-    full, places = single.full(theta), problem.system.model.places
-    levers = {place.name: problem.system.lever(full, place) for place in places}
-    time, body = problem.scales.time / pace, problem.system.model.first_body
+    full, places = single.recordings[0].full(theta), posterior.system.model.places
+    levers = {place.name: posterior.system.lever(full, place) for place in places}
+    time, body = posterior.scales.time / pace, posterior.system.model.first_body
     return LatentForce(seen.states[:, -1], sd, seen.states[:, :-1], share, time, gain, levers, body)
 
 
-def smooth_expected_force(problem: Problem, theta: Array, index: int = 0) -> tuple[Array, Array]:
+def smooth_expected_force(posterior: Posterior, theta: Array, index: int = 0) -> tuple[Array, Array]:
     """Return the smoothed states (samples, n) of a recording, and the expected random force (samples,).
 
     It is proportional to the gradient of the log-likelihood with respect to an added force. So a missing law correlates
     with it, even where the base parameters absorb most of the law.
     """
-    single = problem.on((problem.observations[index],))
-    pace = problem.scales.time / problem.observations[index].dt
-    intensity = problem.random_force(theta, index)
-    share = math.sqrt(0.5 * intensity * pace / problem.scales.time) / problem.scales.force
+    single = posterior.on((posterior.observations[index],))
+    pace = posterior.scales.time / posterior.observations[index].dt
+    intensity = posterior.recordings[index].random_force(theta)
+    share = math.sqrt(0.5 * intensity * pace / posterior.scales.time) / posterior.scales.force
     forced, thetas = _add_force(single, theta, [(share, pace)])
-    states = forced.smooth(thetas[0]).states
+    states = forced.filters[0].smooth(thetas[0]).states
     return states[:, :-1], states[:, -1]
 
 
-def _add_force(problem: Problem, theta: Array, grid: list[tuple[float, float]]) -> tuple[Problem, Array]:
-    """Return the problem and coordinates (points, n) with latent forces of given shares of the drive and rates."""
-    kept = [i for i, f in enumerate(problem.free) if f.parameter not in (RANDOM, PACE)]
-    frees = (*(problem.free[i] for i in kept), make_fixed(RANDOM), make_fixed(PACE))
+def _add_force(posterior: Posterior, theta: Array, grid: list[tuple[float, float]]) -> tuple[Posterior, Array]:
+    """Return the posterior and coordinates (points, n) with latent forces of given shares of the drive and rates."""
+    kept = [i for i, f in enumerate(posterior.space.free) if f.parameter not in (RANDOM, PACE)]
+    frees = (*(posterior.space.free[i] for i in kept), make_fixed(RANDOM), make_fixed(PACE))
     rows = []
     for share, relative in grid:
-        pace = relative / problem.scales.time
-        intensity = 2.0 * (share * problem.scales.force) ** 2 / pace
+        pace = relative / posterior.scales.time
+        intensity = 2.0 * (share * posterior.scales.force) ** 2 / pace
         rows.append(np.append(theta[kept], [math.log(intensity), math.log(pace)]))
-    return replace(problem, free=frees), np.array(rows)
+    return posterior.over(frees), np.array(rows)
 
 
 def make_fixed(key: str) -> FreeParameter:

@@ -9,11 +9,13 @@ from dataclasses import replace
 import numpy as np
 
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import USUAL, Problem, Scales
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.sensor_noise import make_levels, make_sensor_scales
-from lostmotion.likelihood.space import RANDOM, FreeParameter, list_keys
+from lostmotion.likelihood.space import RANDOM, FreeParameter, Scales, list_keys
 from lostmotion.noises import White
 
+USUAL = 1e-3
+"""The usual noise of a measured excitation as a share of the drive, which is no missing mechanism."""
 LEVELS_TRIED = (0.3, 0.05, 0.008)
 """Random forces, as shares of the drive, at which starting points are compared: with a large one the filter follows the
 readings at any parameters, a small one separates good parameters from bad ones."""
@@ -24,32 +26,32 @@ linearisation, and intervals from long recordings become too narrow (over 24 rec
 with 0.3)."""
 
 
-def compute_usual_level(problem: Problem, rate: float) -> float:
+def compute_usual_level(posterior: Posterior, rate: float) -> float:
     """Return the log intensity (N^2 s) of the random force that the usual noise of a measured excitation makes.
 
     The noise of a base motion enters through the stiffness of the joint, with `rate` (1/s) the fastest rate of the
     motion.
     """
-    system, observation = problem.system, problem.observations[0]
-    size = USUAL * _find_common_drive(problem)
+    system, observation = posterior.system, posterior.observations[0]
+    size = USUAL * _find_common_drive(posterior)
     if system.model.inputs[observation.lead] == "base_position":
-        inertia = system.own_inertia(problem.known, system.model.first_place)
+        inertia = system.own_inertia(posterior.known, system.model.first_place)
         size = USUAL * math.sqrt(2.0) * float(np.std(observation.excitation)) * inertia * rate**2
     return math.log(max(size, 1e-300) ** 2 * observation.dt)
 
 
-def compare_drive(problem: Problem, index: int) -> float:
+def compare_drive(posterior: Posterior, index: int) -> float:
     """Return the log intensity of the drive of one recording over the common one, to which the usual level refers."""
-    observation, first = problem.observations[index], problem.observations[0]
-    own, common = _find_drive(observation), _find_common_drive(problem)
-    if problem.system.model.inputs[first.lead] != "force":
+    observation, first = posterior.observations[index], posterior.observations[0]
+    own, common = _find_drive(observation), _find_common_drive(posterior)
+    if posterior.system.model.inputs[first.lead] != "force":
         own, common = observation.travel, first.travel
     return math.log(((own / common) ** 2 or 1.0) * observation.dt / first.dt) if common else 0.0
 
 
-def _find_common_drive(problem: Problem) -> float:
+def _find_common_drive(posterior: Posterior) -> float:
     """Return the amplitude of the drive to which the noise is proportional, for all recordings together."""
-    return max([problem.scales.force, *(t.hit_peak for t in problem.observations)])
+    return max([posterior.scales.force, *(t.hit_peak for t in posterior.observations)])
 
 
 def _find_drive(observation: Observation) -> float:
@@ -80,18 +82,18 @@ def make_noise_levels(observations: Sequence[Observation], scales: Scales) -> tu
     return tuple(frees)
 
 
-def make_own_levels(problem: Problem, random: float) -> tuple[FreeParameter, ...]:
+def make_own_levels(posterior: Posterior, random: float) -> tuple[FreeParameter, ...]:
     """Return random force and measurement noise of each recording, from a fit with one `random` for all.
 
     The noise of a measured excitation is proportional to its amplitude, so the usual value, the start and the bounds
     follow the drive of each recording. Only the start depends on the fit.
     """
-    observations, scales = problem.observations, problem.scales
+    observations, scales = posterior.observations, posterior.scales
     names = [observation.name for observation in observations]
     most = max(compute_random_level(observations, scales, LEVELS_TRIED[0]), scales.usual + 2.0) + 6.0
     frees: list[FreeParameter] = []
     for i, forced in enumerate(list_keys(RANDOM, names)):
-        more = compare_drive(problem, i)
+        more = compare_drive(posterior, i)
         usual, high = scales.usual + more, most + more
         start = min(max(random + more, usual + LEAST), high)
         frees.append(FreeParameter(forced, "1", start, usual + LEAST, high, mean=usual, sd=4.0))

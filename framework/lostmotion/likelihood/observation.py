@@ -45,7 +45,7 @@ FEWEST_PERIODS, LINE = 4, 0.75
 
 @dataclass(frozen=True)
 class Observation:
-    """One recording as an engine sees it: `inputs` (samples, inputs) and `readings` (samples, sensors), every `dt` s.
+    """One recording as a filter sees it: `inputs` (samples, inputs) and `readings` (samples, sensors), every `dt` s.
 
     A reading that is NaN was not taken. `begin` is its first sample in the recording; `held` says that the inputs are
     constant between the samples; `harmonic` is the drive of the whole recording. `driven` are the names of the inputs

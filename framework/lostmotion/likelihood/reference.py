@@ -1,4 +1,4 @@
-"""The engine that computes one point after the other in plain NumPy; other engines are tested against it."""
+"""One point after the other in plain NumPy: the slow twin, against which lanes are tested."""
 
 from __future__ import annotations
 
@@ -15,55 +15,55 @@ from lostmotion.kernels.crossing import BEND_LIMIT, PACED_LIMIT, PACED_SHARE, ST
 from lostmotion.kernels.filter import INNER_POINT, INNER_WEIGHT, OUTER_POINT, OUTER_WEIGHT, UNREAD_VARIANCE
 from lostmotion.kernels.smooth import SURE
 from lostmotion.likelihood.drive import Drive
-from lostmotion.likelihood.engine import Engine, Innovations, Points, RunningSystem, Smoothed
+from lostmotion.likelihood.innovations import Innovations, Smoothed
 from lostmotion.likelihood.lanes import count_fine_steps, find_input_variance
 from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.points import Points
+from lostmotion.likelihood.running import Kept, RunningSystem
 from lostmotion.likelihood.system import System
 
 GAUSS = (0.5 - math.sqrt(1.0 / 12.0), 0.5 + math.sqrt(1.0 / 12.0))
 
 
 @dataclass(frozen=True)
-class Reference(Engine):
+class Reference(RunningSystem):
     """The same filter as `lanes`, written with matrices and the Python functions of model and terms."""
 
-    def filter(self, running: RunningSystem, observation: Observation, points: Points) -> Innovations:
-        """Return one-step errors and their variances, (points, samples, sensors)."""
-        runs = [_Run.of(running, observation, points.select(slice(i, i + 1))) for i in range(len(points))]
+    def filter_and_keep(self, observation: Observation, points: Points, kept: Kept | None) -> Innovations:
+        """Return one-step errors and variances; write what a smoother needs of the first point into `kept`."""
+        runs = [_Run.of(self, observation, points.select(slice(i, i + 1))) for i in range(len(points))]
         reached = np.array([run.filter() for run in runs], dtype=np.int64)
+        if kept is not None:
+            runs[0].keep(kept)
         return Innovations.of(np.array([r.errors for r in runs]), np.array([r.variances for r in runs]), reached)
 
-    def smooth(self, running: RunningSystem, observation: Observation, points: Points) -> Smoothed:
+    def smooth(self, observation: Observation, points: Points) -> Smoothed:
         """Return filtered and smoothed states of one point, and their covariances (Rauch, Tung, Striebel 1965)."""
-        run = _Run.of(running, observation, points)
-        reached = np.array([run.filter()], dtype=np.int64)
-        seen, ahead, steps = run.seen, run.ahead, run.steps
-        states, covs = [seen[-1][0]], [seen[-1][1]]
-        sure = np.diag((SURE * np.max([np.abs(y) for y, _ in seen], axis=0)) ** 2 + 1e-300)
-        for (y, cov), (mean, before), step in zip(seen[-2::-1], ahead[:0:-1], steps[::-1], strict=True):
-            gain = np.linalg.solve(before + sure, step @ cov).T
-            covs.append(cov + gain @ (covs[-1] - before) @ gain.T)
-            states.append(y + gain @ (states[-1] - mean))
-        filtered, covariance = (np.array([pair[i] for pair in seen]) for i in (0, 1))
-        innovations = Innovations.of(run.errors[None], run.variances[None], reached)
-        return Smoothed(filtered, covariance, np.array(states[::-1]), np.array(covs[::-1]), innovations)
+        kept = self.make_kept(observation.samples)
+        innovations = self.filter_and_keep(observation, points, kept)
+        filtered, covariance, ahead, before, across = kept
+        states, covs = filtered.copy(), covariance.copy()
+        sure = np.diag((SURE * np.max(np.abs(filtered), axis=0)) ** 2 + 1e-300)
+        for k in range(observation.samples - 2, -1, -1):
+            gain = np.linalg.solve(before[k + 1] + sure, across[k] @ covariance[k]).T
+            covs[k] += gain @ (covs[k + 1] - before[k + 1]) @ gain.T
+            states[k] += gain @ (states[k + 1] - ahead[k + 1])
+        return Smoothed(filtered, covariance, states, covs, innovations)
 
-    def simulate(
-        self, running: RunningSystem, points: Points, start: Array, steps: int, kicks: Array | None = None
-    ) -> Array:
+    def simulate(self, points: Points, start: Array, steps: int, kicks: Array | None = None) -> Array:
         """Return the states (points, steps, n) of free runs by RK4, NaN after a divergence."""
-        states = np.full((len(points), steps, running.states), np.nan)
+        states = np.full((len(points), steps, self.states), np.nan)
         for i in range(len(points)):
-            machine = _Machine.of(running, points.select(slice(i, i + 1)), running.nsub)
-            y, h = start[i].astype(float), machine.drive.dt / running.nsub
+            machine = _Machine.of(self, points.select(slice(i, i + 1)), self.nsub)
+            y, h = start[i].astype(float), machine.drive.dt / self.nsub
             for k in range(steps):
                 if kicks is not None and k:
                     y = y + kicks[i, k]
                 states[i, k] = y
                 if k == steps - 1 or not np.isfinite(y).all():
                     break
-                for j in range(running.nsub):
-                    y = machine.take_step(y, (int(points.first[i]) + k, j / running.nsub, 1.0 / running.nsub), h)
+                for j in range(self.nsub):
+                    y = machine.take_step(y, (int(points.first[i]) + k, j / self.nsub, 1.0 / self.nsub), h)
         states[~np.isfinite(states).all(axis=2)] = np.nan
         return states
 
@@ -224,6 +224,13 @@ class _Run:
                 self._add_input_variance(k)
                 self._cross_sample(k)
         return self.observation.samples
+
+    def keep(self, kept: Kept) -> None:
+        """Write what a smoother needs into arrays, as far as the filter came."""
+        for array, values in zip(
+            kept, (*zip(*self.seen, strict=True), *zip(*self.ahead, strict=True), self.steps), strict=True
+        ):
+            array[: len(values)] = values
 
     def _redraw_forces(self) -> None:
         """Reset the forces that are held over a sample to their prior."""

@@ -1,4 +1,4 @@
-"""The engine of machines that can only be stepped: many points at once, in plain NumPy.
+"""Machines that can only be stepped: many points at once, in plain NumPy.
 
 Each sample costs one call of `step` (two if terms act) for all points and all directions of the state together. Random
 forces are held over each sample. Source: Norgaard, Poulsen, Ravn, Automatica 36 (2000) 1627-1638, with differences
@@ -17,9 +17,11 @@ from lostmotion.contracts import Array
 from lostmotion.errors import ContractError
 from lostmotion.kernels.crossing import TINY
 from lostmotion.kernels.filter import UNREAD_VARIANCE
-from lostmotion.likelihood.engine import Engine, Innovations, KeepingEngine, Kept, Points, RunningSystem
+from lostmotion.likelihood.innovations import Innovations
 from lostmotion.likelihood.lanes import Lanes
 from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.points import Points
+from lostmotion.likelihood.running import Kept, RunningSystem
 from lostmotion.likelihood.sensors import Sensor
 from lostmotion.likelihood.stepped import MachineRows, SteppedSystem, cross_inputs
 from lostmotion.likelihood.system import System
@@ -32,47 +34,43 @@ REACH = 3.0**0.5
 
 
 @dataclass(frozen=True)
-class Steps(KeepingEngine):
+class Steps(RunningSystem):
     """Filters many points at once by steps of a `Dynamics`."""
 
     def count_together(self, points: int, jobs: int) -> int:
         """Return how many points are filtered in one call: more of them cost little more, and no second core helps."""
         return min(points, TOGETHER)
 
-    def filter_and_keep(
-        self, running: RunningSystem, observation: Observation, points: Points, kept: Kept | None
-    ) -> Innovations:
+    def filter_and_keep(self, observation: Observation, points: Points, kept: Kept | None) -> Innovations:
         """Return one-step errors and variances; write what a smoother needs of the first point into `kept`."""
-        run = _Filter.of(running, observation, points)
+        run = _Filter.of(self, observation, points)
         with np.errstate(all="ignore"):  # a point that diverges is marked
             run.run(kept)
-        add_work(len(points) * observation.samples * running.nsub * run.size)
+        add_work(len(points) * observation.samples * self.nsub * run.size)
         return Innovations.of(run.errors, run.variances, run.reached)
 
-    def simulate(
-        self, running: RunningSystem, points: Points, start: Array, steps: int, kicks: Array | None = None
-    ) -> Array:
+    def simulate(self, points: Points, start: Array, steps: int, kicks: Array | None = None) -> Array:
         """Return the states (points, steps, n) of free runs from `start` (points, n), NaN after a divergence."""
-        system, states = _require_steps(running), np.empty((len(points), steps, running.states))
+        system, states = _require_steps(self), np.empty((len(points), steps, self.states))
         for number, drive in enumerate(points.drives):
             rows = np.flatnonzero(points.which == number)
             if len(rows):
-                packed = system.pack(points.params[rows], drive.dt / running.nsub, drive.harmonic)
+                packed = self.pack(points.params[rows], drive)
                 pushed = None if kicks is None else kicks[rows]
                 states[rows], _ = system.run_freely(
-                    running.active, packed, start[rows], drive, running.nsub, points.first[rows], steps, kicks=pushed
+                    self.active, packed, start[rows], drive, self.nsub, points.first[rows], steps, kicks=pushed
                 )
         return states
 
 
-def choose_engine(system: System) -> Engine:
-    """Return the engine of a system: compiled lanes for equations, or steps."""
-    return Steps() if isinstance(system, SteppedSystem) else Lanes()
+def run_system(system: System) -> RunningSystem:
+    """Return a system without active terms, ready to run: in compiled lanes if it has equations, else by steps."""
+    return Steps(system) if isinstance(system, SteppedSystem) else Lanes(system)
 
 
 def _require_steps(running: RunningSystem) -> SteppedSystem:
     if not isinstance(running.system, SteppedSystem):
-        raise ContractError(f"{running.system.model.name} has no step: use the engine `Lanes`")
+        raise ContractError(f"{running.system.model.name} has no step: use `Lanes`")
     return running.system
 
 

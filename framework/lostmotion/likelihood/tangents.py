@@ -25,9 +25,10 @@ from lostmotion.likelihood.bends import (
     list_corrections,
     rescale_innovations,
 )
-from lostmotion.likelihood.engine import Innovations, KeepingEngine, Points, join_points, make_kept
+from lostmotion.likelihood.innovations import Innovations
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.points import Points, join_points
+from lostmotion.likelihood.posterior import Posterior
 
 REACH = 1e-3
 """Differences of channels are taken over this share of the deviation of a state."""
@@ -52,12 +53,12 @@ class BentSensors:
 class Tangents:
     """The filter of one recording at one point: filtered `states` (samples, n), transitions, gains and variances.
 
-    `problem` has this recording alone; `full` is its parameter vector. `slopes` (samples, sensors, states + noise
+    `posterior` has this recording alone; `full` is its parameter vector. `slopes` (samples, sensors, states + noise
     states) are the derivatives of the readings, `spread` (samples, sensors) the variances of the errors. `noise` are
     transition, driving noise and first covariance of the noise states, (states, states) each.
     """
 
-    problem: Problem
+    posterior: Posterior
     full: Array
     states: Array
     steps: Array
@@ -71,7 +72,7 @@ class Tangents:
     @property
     def observation(self) -> Observation:
         """The recording."""
-        return self.problem.observations[0]
+        return self.posterior.observations[0]
 
     def respond_to_forces(self, rates: Array, channels: Array) -> Array:
         """Return the derivatives (count, samples * sensors) of errors over forces.
@@ -79,7 +80,7 @@ class Tangents:
         `rates` (count, samples, model and term states) are the accelerations that each force of unit size gives, and
         `channels` (count, samples, channels) what it adds to the channels at once.
         """
-        columns = [self.problem.system.channel(s.channel)[0] for s in self.observation.sensors]
+        columns = [self.posterior.system.channel(s.channel)[0] for s in self.observation.sensors]
         wide = np.zeros((len(rates), *self.steps.shape[:2]))
         wide[:, :, : rates.shape[2]] = rates
         seen = np.ascontiguousarray(-channels[:, :, columns] * self.gain)
@@ -91,54 +92,54 @@ class Tangents:
 
     def compute_effects(self, fulls: Array, active: frozenset[str]) -> tuple[Array, Array]:
         """Return derivatives of states (sets, samples, n) and channels along the states, for some parameter vectors."""
-        system, observation = self.problem.system, self.observation
-        packed = system.pack(fulls, observation.dt / self.problem.nsub, observation.harmonic)
+        system, observation = self.posterior.system, self.observation
+        packed = self.posterior.dynamics.pack(fulls, observation)
         return system.compute_each(active, packed, self.states, self.inputs, observation.time)
 
     @cached_property
     def inputs(self) -> Array:
         """The inputs (samples, inputs) that act, with the terms of the drive."""
-        return self.problem.drive_at(self.full, 0).inputs[: len(self.states)]
+        return self.posterior.recordings[0].drive(self.full).inputs[: len(self.states)]
 
     @cached_property
     def here(self) -> tuple[Array, Array]:
         """Derivatives of states (samples, n) and channels (samples, channels) along the states, with all terms."""
-        rates, seen = self.compute_effects(self.full[None], self.problem.active)
+        rates, seen = self.compute_effects(self.full[None], self.posterior.active)
         return rates[0], seen[0]
 
     def respond_to_input(self, change: Array) -> Array:
         """Return the derivative (1, samples * sensors) of errors over a `change` (samples, inputs) of the inputs."""
-        system, observation = self.problem.system, self.observation
-        packed = system.pack(self.full[None], observation.dt / self.problem.nsub, observation.harmonic)
+        system, observation = self.posterior.system, self.observation
+        packed = self.posterior.dynamics.pack(self.full[None], observation)
         moved = self.inputs + UNIT * change
-        rates, seen = system.compute_each(self.problem.active, packed, self.states, moved, observation.time)
+        rates, seen = system.compute_each(self.posterior.active, packed, self.states, moved, observation.time)
         return self.respond_to_forces((rates - self.here[0]) / UNIT, (seen - self.here[1]) / UNIT)
 
     def move(self, place: Place) -> Array:
         """Return relative position and velocity (2, samples) at a place."""
-        n = len(self.problem.system.model.states)
-        lever = self.problem.system.lever(self.full, place)
+        n = len(self.posterior.system.model.states)
+        lever = self.posterior.system.lever(self.full, place)
         return place.move(self.states[:, :n], self.observation.inputs, lever)
 
 
 def linearise_filter(
-    problem: Problem, thetas: Array, index: int = 0, changed: Sequence[Observation] = ()
+    posterior: Posterior, thetas: Array, index: int = 0, changed: Sequence[Observation] = ()
 ) -> tuple[Tangents, Innovations] | None:
     """Return the linearised filter of a recording at the first of some coordinates, and the innovations at all.
 
     `thetas` are (points, n). The innovations of `changed` recordings, with other inputs or readings, at the first point
     come last. None where a sensor is late or changes, or where the filter diverged.
     """
-    single = replace(problem.on((problem.observations[index],)), jobs=1)
+    single = replace(posterior.on((posterior.observations[index],)), jobs=1)
     if single.active & {*single.system.rescaling, *single.system.lagging_terms}:
         return None
-    if not isinstance(single.engine, KeepingEngine) or any(map(any, single.count_delays(thetas))):
+    if any(map(any, single.recordings[0].count_delays(thetas))):
         return None
-    points, others = single.points(thetas), [single.on((other,)) for other in changed]
+    points, others = single.recordings[0].points(thetas), [single.on((other,)).filters[0] for other in changed]
     if np.any(points.lag != 0.0):
         return None
-    views = [single.view(), *(other.view() for other in others)]
-    parts = [points, *(other.points(thetas[:1]) for other in others)]
+    views = [single.filters[0].view(), *(other.view() for other in others)]
+    parts = [points, *(other.recording.points(thetas[:1]) for other in others)]
     seen = np.stack([view.readings for view, part in zip(views, parts, strict=True) for _ in range(len(part))])
     every, single = join_points(parts, views), single.on((views[0],))
     bends = [list_corrections(single.system, single.active, full, views[0].sensors).bends for full in every.params]
@@ -146,20 +147,20 @@ def linearise_filter(
 
 
 def _run_twice(
-    problem: Problem, points: Points, seen: Array, bends: Sequence[tuple[Bend, ...]]
+    posterior: Posterior, points: Points, seen: Array, bends: Sequence[tuple[Bend, ...]]
 ) -> tuple[Tangents, Innovations] | None:
     """Return the same as `_run` for readings `seen` (points, samples, sensors) of nonlinear sensors: see `bends.py`."""
-    view = problem.observations[0]
+    view = posterior.observations[0]
     pairs = [correct_bends(replace(view, readings=own), bent) for own, bent in zip(seen, bends, strict=True)]
     readings, slopes = np.stack([one.readings for one, _ in pairs]), np.stack([slope for _, slope in pairs])
-    if (begun := _run(problem, replace(points, readings=readings))) is None:
+    if (begun := _run(posterior, replace(points, readings=readings))) is None:
         return None
     first, found = begun
     known = found.variances < 2.0 * points.noise.variances(view.sensors)[:, None]
     predicted = readings - found.errors
     wrong = np.stack([compute_sensor_errors(bent, one) for bent, one in zip(bends, predicted, strict=True)])
     readings, slopes = np.where(known, seen - wrong, readings), np.where(known, 1.0, slopes)
-    if (ended := _run(problem, replace(points, readings=readings))) is None:
+    if (ended := _run(posterior, replace(points, readings=readings))) is None:
         return None
     reach = NUDGE * np.nanmax(np.abs(predicted[0]), axis=0, initial=1e-300)
     sides = [compute_sensor_errors(bends[0], predicted[0] + side * reach) for side in (1.0, -1.0)]
@@ -168,20 +169,20 @@ def _run_twice(
     return replace(ended[0], bent=bent), rescale_innovations(ended[1], slopes)
 
 
-def _run(problem: Problem, points: Points) -> tuple[Tangents, Innovations] | None:
+def _run(posterior: Posterior, points: Points) -> tuple[Tangents, Innovations] | None:
     """Return the linearised filter at the first of some points, and the innovations at all; None after a divergence.
 
-    The problem has one recording, as the engine sees it.
+    The posterior has one recording, as a filter sees it.
     """
-    view, full, gain = problem.observations[0], points.params[0], points.gain[0]
-    kept = make_kept(problem.running, view.samples)
-    innovations = problem.engine.filter_and_keep(problem.running, view, points, kept)  # type: ignore[attr-defined]
+    view, full, gain = posterior.observations[0], points.params[0], points.gain[0]
+    kept = posterior.dynamics.make_kept(view.samples)
+    innovations = posterior.dynamics.filter_and_keep(view, points, kept)
     if not innovations.finite[0]:
         return None
     seen, _, before, ahead, steps = kept
-    n, states, shown = problem.running.states, seen.shape[1], points.noise.shown[0]
+    n, states, shown = posterior.dynamics.states, seen.shape[1], points.noise.shown[0]
     slopes = np.zeros((*innovations.errors.shape[1:], states + len(shown)))
-    slopes[:, :, :states] = _compute_slopes(problem, full, before, ahead)
+    slopes[:, :, :states] = _compute_slopes(posterior, full, before, ahead)
     slopes *= gain[:, None]
     ends = np.cumsum([sensor.noise_states for sensor in view.sensors])
     for s, (sensor, end) in enumerate(zip(view.sensors, ends, strict=True)):
@@ -190,21 +191,12 @@ def _run(problem: Problem, points: Points) -> tuple[Tangents, Innovations] | Non
     read = np.isfinite(view.readings if points.readings is None else points.readings[0])
     spread = np.where(read, innovations.variances[0], math.inf)
     noise = (points.noise.transition[0], points.noise.driving[0], points.noise.first[0])
-    return Tangents(problem, full, seen[:, :n], steps, ahead, slopes, spread, noise, gain), innovations
+    return Tangents(posterior, full, seen[:, :n], steps, ahead, slopes, spread, noise, gain), innovations
 
 
-def join_recordings(parts: Sequence[Innovations]) -> Innovations:
-    """Return the innovations (points, readings) of several recordings in a row."""
-    errors, variances = (
-        np.concatenate([getattr(p, name).reshape(len(p), -1) for p in parts], axis=1)
-        for name in ("errors", "variances")
-    )
-    return Innovations(errors, variances, np.all([p.finite for p in parts], axis=0))
-
-
-def _compute_slopes(problem: Problem, full: Array, states: Array, covariance: Array) -> Array:
+def _compute_slopes(posterior: Posterior, full: Array, states: Array, covariance: Array) -> Array:
     """Return the derivatives (samples, sensors, n) of the channels of the sensors over the states of the filter."""
-    running, observation = problem.running, problem.observations[0]
+    running, observation = posterior.dynamics, posterior.observations[0]
     found = np.zeros((len(states), len(observation.sensors), states.shape[1]))
     shown = [running.system.shown(sensor, running.active) for sensor in observation.sensors]
     for s, (_, direct) in enumerate(shown):
@@ -213,8 +205,8 @@ def _compute_slopes(problem: Problem, full: Array, states: Array, covariance: Ar
     others = [(s, channel) for s, (channel, direct) in enumerate(shown) if direct < 0]
     if not others:
         return found
-    packed = running.system.pack(full[None], observation.dt / problem.nsub, observation.harmonic)
-    inputs = problem.drive_at(full, 0).inputs[: len(states)]
+    packed = posterior.dynamics.pack(full[None], observation)
+    inputs = posterior.recordings[0].drive(full).inputs[: len(states)]
     forces = tuple(running.states + i for i in range(running.forces))
     for c in range(states.shape[1]):
         reach = np.sqrt(np.maximum(covariance[:, c, c], 0.0)) + 1e-9 * (1e-300 + np.max(np.abs(states[:, c])))

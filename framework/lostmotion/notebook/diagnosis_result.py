@@ -174,7 +174,7 @@ class DiagnosisResult(DiagnosisAnswer[Diagnosis]):
             return {}
         fit, rng = self.outcome.diagnosis.after, np.random.default_rng(0)
         return predict_readings(
-            fit.problem, mixture.draw_posterior(fit, rng, PREDICTED_DRAWS), (1, PREDICTED_DRAWS), rng
+            fit.posterior, mixture.draw_posterior(fit, rng, PREDICTED_DRAWS), (1, PREDICTED_DRAWS), rng
         )
 
     def report(self, path: str | Path = "report.html") -> Path:

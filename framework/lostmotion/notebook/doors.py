@@ -32,7 +32,7 @@ from lostmotion.notebook.argument_rules import CASE
 from lostmotion.notebook.case import Case
 from lostmotion.notebook.check_result import CheckResult, load_check
 from lostmotion.notebook.diagnosis_result import DiagnosisResult, load_diagnosis
-from lostmotion.notebook.posterior import IdentificationResult, load_identification
+from lostmotion.notebook.identification_result import IdentificationResult, load_identification
 from lostmotion.notebook.recorded import read_recorded_case
 from lostmotion.notebook.robot_objects import RERUN_HINT, RobotResult, load_robot
 from lostmotion.offers import RESULT

@@ -95,9 +95,9 @@ class FittedModel:
 
 def make_fitted_model(outcome: Outcome, machine: FittedMachine) -> FittedModel:
     """Return the model of a diagnosis made in this session, with learned forces if there are any."""
-    problem = outcome.diagnosis.after.problem
-    system = problem.system
-    terms = tuple(t for key, t in zip(system.keys, system.terms, strict=True) if key in problem.active)
+    posterior = outcome.diagnosis.after.posterior
+    system = posterior.system
+    terms = tuple(t for key, t in zip(system.keys, system.terms, strict=True) if key in posterior.active)
     return FittedModel(system.model, terms, machine.values, outcome.diagnosis.shown.sensors)
 
 

@@ -156,14 +156,14 @@ def _choose_time(table: Table, source: str, units: Mapping[str, str]) -> FoundTi
     """Return the time that is found in a table: the best candidate that is even, with its reason."""
     ranked, stated = sorted(_list_candidates(table, units), key=lambda one: one[0]), _find_stated(table, source)
     tried: list[FoundTime] = []
-    problem: DataError | None = None
+    posterior: DataError | None = None
     for _, name, why in ranked:
         try:
             found = find_time(table, source, name, None, units)
             found = replace(found, why=why if found.unit == "s" else why.partition(";")[0])
         except DataError as err:
             if stated is None or not _grows_evenly(table.columns.get(name, np.empty(0))):
-                problem = problem or err
+                posterior = posterior or err
             continue
         tried.append(found)
     if tried:
@@ -171,10 +171,10 @@ def _choose_time(table: Table, source: str, units: Mapping[str, str]) -> FoundTi
         for note in note_stated(table, tried[0].clock):
             raise DataError(f"{source}: {note}: name the time with --time, or give --rate")
         return tried[0]
-    if problem is None and stated is not None:
+    if posterior is None and stated is not None:
         return stated
-    if problem:
-        raise problem
+    if posterior:
+        raise posterior
     return _choose_by_growth(table, source, units)
 
 

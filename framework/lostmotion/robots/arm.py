@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from lostmotion.contracts import DriveTerm, Term
 from lostmotion.kernels.chain import differentiate_errors, filter_chain
 from lostmotion.likelihood.compose import compile_law
-from lostmotion.likelihood.engine import Innovations
+from lostmotion.likelihood.innovations import Innovations
 from lostmotion.likelihood.plan import Law
 from lostmotion.parts import Array, Param, Values
 from lostmotion.quantities import FORCE

@@ -20,7 +20,7 @@ from lostmotion.contracts import Term
 from lostmotion.evidence.expansion import Expansion
 from lostmotion.evidence.heldout import NormalPosterior, average_over_posterior, cut_before
 from lostmotion.evidence.hypothesis import UNKNOWN
-from lostmotion.likelihood.engine import Innovations
+from lostmotion.likelihood.innovations import Innovations
 from lostmotion.parts import Array
 from lostmotion.robots.arm import FilteredLog, TapedArm
 from lostmotion.robots.arm_discrepancy import Choice, Discrepancy

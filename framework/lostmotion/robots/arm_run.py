@@ -17,6 +17,7 @@ from lostmotion.evidence.hypothesis import UNKNOWN
 from lostmotion.kernels.threads import hold_linear_algebra
 from lostmotion.parts import Array
 from lostmotion.provenance import origin_of
+from lostmotion.quantities import unit_of
 from lostmotion.registry import Registry
 from lostmotion.results import Interval
 from lostmotion.results.background import Origin, RecordingFacts
@@ -265,7 +266,7 @@ def _list_values(one: ArmHypothesis, motions: dict[str, str]) -> dict[str, Inter
 def _name_unit(key: str, motions: dict[str, str], unit: str) -> str:
     if not key.endswith(".random_force"):
         return unit
-    return "N m" if motions[key.partition(".")[0]] == "rotation" else "N"
+    return unit_of("force", motions[key.partition(".")[0]])
 
 
 def _list_noise(one: ArmHypothesis, motions: dict[str, str]) -> dict[str, Interval]:

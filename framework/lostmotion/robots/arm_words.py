@@ -12,6 +12,7 @@ from lostmotion.contracts import Term
 from lostmotion.evidence.hypothesis import UNKNOWN
 from lostmotion.evidence.search import compute_probabilities
 from lostmotion.parts import Array
+from lostmotion.quantities import name_force, unit_of
 from lostmotion.results import Interval, attach_unit, percent
 from lostmotion.results.diagnosis import Candidate, Confusion, Mechanism
 from lostmotion.results.robots import Dependence, JointRow
@@ -154,7 +155,7 @@ def _describe_unknown(found: ArmHypothesis, share: float, state: str, motions: M
     joint = max(found.frame.arm.joints, key=lambda j: sum(v for (name, _), v in sizes.items() if name == j))
     over = sorted(((v, o) for (name, o), v in sizes.items() if name == joint), reverse=True)
     depends = tuple(o for v, o in over if v > 0.3 * over[0][0])
-    word, unit = ("torque", "N m") if motions[joint] == "rotation" else ("force", "N")
+    word, unit = name_force(motions[joint]), unit_of("force", motions[joint])
     says = (
         f"A {word} of {over[0][0]:.3g} {unit} (rms) at {joint} that no mechanism of the library explains depends on"
         f" {' and '.join(depends)}."
@@ -236,7 +237,7 @@ def list_joints(
         rows.append(
             JointRow(
                 joint=joint,
-                unit="N m" if motions[joint] == "rotation" else "N",
+                unit=unit_of("force", motions[joint]),
                 torque=float(np.std(arm.log.torque[:, j])),
                 random_before=random[0],
                 random_after=random[1],

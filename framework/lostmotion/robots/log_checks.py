@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lostmotion.parts import Array
+from lostmotion.quantities import name_force
 from lostmotion.results.robots import Check
 from lostmotion.robots.arm import TapedArm
 from lostmotion.robots.arm_preparation import estimate_noise
@@ -252,8 +253,8 @@ def _check_scale(arm: TapedArm, simulator: Simulator, base: _Fit) -> Iterator[Ch
     for j, joint in enumerate(arm.joints):
         slope, agrees = float(base.slope[j]), base.correlation[j] > AGREES
         if agrees and not 0.4 < slope < 2.5:
-            turns = simulator.moves[j] == "rotation"
-            word, small, large = ("torque", "N mm", "kN m") if turns else ("force", "mN", "kN")
+            word = name_force(simulator.moves[j])
+            small, large = ("N mm", "kN m") if word == "torque" else ("mN", "kN")
             hint = (
                 f"{small} or a percentage" if slope > 2.5 else f"{large}, a motor current or a {word} before the gear"
             )

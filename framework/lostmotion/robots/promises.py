@@ -15,7 +15,7 @@ import numpy as np
 from lostmotion.contracts import DriveTerm, Term
 from lostmotion.defaults import INERTIA_CHANGE
 from lostmotion.evidence.expansion import compute_log_evidence
-from lostmotion.likelihood.engine import Innovations
+from lostmotion.likelihood.innovations import Innovations
 from lostmotion.parts import Array
 from lostmotion.robots.arm import Column, FilteredLog, TapedArm, can_act
 from lostmotion.robots.arm_effects import ArmEffect, GearEffect, JointScales, LawEffect, MassEffect, Shape

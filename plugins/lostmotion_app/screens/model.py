@@ -213,7 +213,7 @@ class ModelScreen(PageScreen):
 
     def _make_panels(self, tried: TriedModel) -> list[Any]:
         """Return figures for each sensor: recording and prediction, and their difference."""
-        observation, motion = tried.problem.observations[0], tried.problem.system.model.motion
+        observation, motion = tried.posterior.observations[0], tried.posterior.system.model.motion
         empty, panels, self.curves = np.zeros(0), [], []
         curves = CurvePanels("time (s)")
         for number, sensor in enumerate(observation.sensors):

@@ -14,10 +14,10 @@ import numpy as np
 from scipy.stats import qmc
 
 from lostmotion.contracts import Array
-from lostmotion.identification.moves import Density, Posterior
+from lostmotion.identification.moves import Density, TargetDensity
 from lostmotion.identification.population import Population, place_kernels
 from lostmotion.identification.t_mixture import TMixture
-from lostmotion.likelihood.problem import FreeParameter
+from lostmotion.likelihood.space import ParameterSpace
 
 PRIOR_DRAWS = 4096
 """Draws from the prior."""
@@ -40,25 +40,23 @@ PRIOR_SHARE = 0.1
 class PriorSource:
     """The prior as a source of evenly distributed draws."""
 
-    posterior: Posterior
-    free: tuple[FreeParameter, ...]
+    space: ParameterSpace
 
     def draw(self, count: int, random: Any) -> Array:
         """Return points (count, parameters) from a scrambled Sobol sequence."""
-        shares = qmc.Sobol(len(self.free), rng=random).random(count)
-        return np.array([[f.quantile(float(s)) for f, s in zip(self.free, row, strict=True)] for row in shares])
+        shares = qmc.Sobol(len(self.space.free), rng=random).random(count)
+        return np.array([[f.quantile(float(s)) for f, s in zip(self.space.free, row, strict=True)] for row in shares])
 
     def log_density(self, points: Array) -> Array:
         """Return the log prior density (points,)."""
-        return np.array([self.posterior.log_prior(p) for p in points])
+        return np.asarray(self.space.log_prior(points))
 
 
-def find_mixture(posterior: Posterior, rng: np.random.Generator) -> TMixture:
+def find_mixture(posterior: TargetDensity, rng: np.random.Generator) -> TMixture:
     """Return a mixture of up to `TURNS * NEW` kernels and the prior, fitted to the posterior."""
-    free = tuple(posterior.free)
-    whole = TMixture.of_prior(free)
+    whole = TMixture.of_prior(posterior.space.free)
     population = Population.empty(Density(posterior), whole.size)
-    population.grow(PriorSource(posterior, free), PRIOR_DRAWS, rng)
+    population.grow(PriorSource(posterior.space), PRIOR_DRAWS, rng)
     mixture = _place_kernels(whole, population, rng)
     for _ in range(FIT_ROUNDS):
         share = population.grow(mixture.mix_with(whole, PRIOR_SHARE), FIT_DRAWS, rng)

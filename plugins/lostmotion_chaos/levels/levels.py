@@ -15,7 +15,7 @@ from lostmotion.case.drive_levels import Level
 from lostmotion.contracts import Array, Model
 from lostmotion.errors import CaseError, ContractError, DataError, nearest
 from lostmotion.identification.sampling import ShownCoordinate, Task
-from lostmotion.likelihood.space import FreeParameter
+from lostmotion.likelihood.space import FreeParameter, ParameterSpace
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.vetting import make_plugin
 from lostmotion.quantities import unit_of
@@ -99,10 +99,10 @@ def make_quantifier_task(
     """
     levels = read_or_take_levels(case, registry, rng, settings)
     posterior = make_inversion(case, levels, registry, out, grid or MapGrid(), say=say, limits=settings.levels)
-    shown = tuple(ShownCoordinate(f.key, f.unit, 1.0 if f.log else 0.0) for f in posterior.free)
+    shown = tuple(ShownCoordinate(f.key, f.unit, 1.0 if f.log else 0.0) for f in posterior.space.free)
     mixture = find_mixture(posterior, rng)
     points = mixture.draw(FIRST_DRAWS, rng)
-    log_densities = posterior.log_likelihoods(points) + np.array([posterior.log_prior(p) for p in points])
+    log_densities = posterior.log_likelihood(points) + posterior.space.log_prior(points)
     if not np.isfinite(log_densities).any():
         raise DataError("no parameters within the priors explain these levels: check amplitudes, units and priors")
     return Task(posterior, mixture, shown, points[int(np.argmax(log_densities))], compute_digest(posterior))
@@ -133,7 +133,7 @@ def make_inversion(
         atlases.append(Atlas.of(found, limits))
     which = {k: i for i, group in enumerate(wanted.groups) for k in group}
     order = tuple(which[k] for k in range(len(levels)))
-    return Inversion(levels, tuple(atlases), order, wanted.laws, wanted.free, limits)
+    return Inversion(levels, tuple(atlases), order, wanted.laws, ParameterSpace(wanted.free), limits)
 
 
 def make_level_numbers(case: CaseFile, levels: tuple[Level, ...], registry: Registry) -> LevelNumbers:
@@ -305,10 +305,12 @@ def _explain_mismatch(found: Map, wanted: LevelNumbers, group: Sequence[int]) ->
 def compute_digest(posterior: Inversion) -> str:
     """Return a text that changes with the levels, the priors and the maps."""
     maps = tuple(atlas.provenance for atlas in posterior.atlases)
-    parts = (posterior.levels, posterior.free, maps, posterior.limits)
+    parts = (posterior.levels, posterior.space.free, maps, posterior.limits)
     return hashlib.sha256(repr(parts).encode()).hexdigest()
 
 
 def compute_derived(posterior: Inversion, points: Array) -> dict[str, Array]:
     """Return the dimensionless numbers (count,) of draws (count, parameters) that are not free parameters."""
-    return {k: v for k, v in posterior.compute_numbers(points).items() if k not in {f.key for f in posterior.free}}
+    return {
+        k: v for k, v in posterior.compute_numbers(points).items() if k not in {f.key for f in posterior.space.free}
+    }

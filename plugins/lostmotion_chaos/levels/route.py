@@ -50,7 +50,7 @@ def prepare_quantifiers(
     origin = make_origin(case, order, {"maps": [asdict(grid)["maps"]]}, inputs)
 
     def complete(found: SampledPosterior) -> Identification:
-        points = compute_coordinates(posterior.free, found.draws)
+        points = compute_coordinates(posterior.space.free, found.draws)
         some = points[:: max(1, len(points) // PREDICTION_DRAWS)]
         expected = predict_levels(posterior, some, np.random.default_rng(order.seed))
         result = make_result(found, QUANTIFIERS, case, origin)

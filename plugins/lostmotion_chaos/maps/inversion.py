@@ -22,7 +22,7 @@ import numpy as np
 
 from lostmotion.case.drive_levels import Level, Measured
 from lostmotion.contracts import Array
-from lostmotion.likelihood.space import FreeParameter
+from lostmotion.likelihood.space import ParameterSpace
 from lostmotion.results.identification import ExpectedRange
 from lostmotion.settings import DEFAULT, LevelSettings
 from lostmotion_chaos.maps.atlas import CHAOTIC, MISSING, PERIODIC, Atlas, Places
@@ -49,7 +49,7 @@ MISREAD_DENSITY = 0.5
 
 @dataclass(frozen=True, eq=False)
 class Inversion:
-    """The posterior of the `free` parameters given `levels`; level k uses the map `atlases[which[k]]`.
+    """The posterior of the parameters of `space` given `levels`; level k uses the map `atlases[which[k]]`.
 
     `laws` give each dimensionless number at each level from the free parameters. `limits` say which motions of a map
     count as weak chaos.
@@ -59,14 +59,10 @@ class Inversion:
     atlases: tuple[Atlas, ...]
     which: tuple[int, ...]
     laws: tuple[Mapping[str, NumberLaw], ...]
-    free: tuple[FreeParameter, ...]
+    space: ParameterSpace
     limits: LevelSettings = DEFAULT.levels
 
-    def log_prior(self, theta: Array) -> float:
-        """Return the log prior density at the coordinates `theta`."""
-        return sum(f.log_prior(float(c)) for f, c in zip(self.free, theta, strict=True))
-
-    def log_likelihoods(self, points: Array) -> Array:
+    def log_likelihood(self, points: Array) -> Array:
         """Return the log-likelihoods (count,) at coordinates (count, parameters); -inf outside of the maps."""
         logs, total = self._compute_logs(points), np.zeros(len(points))
         with np.errstate(divide="ignore"):
@@ -89,7 +85,7 @@ class Inversion:
     def _compute_logs(self, points: Array) -> Array:
         """Return the logarithms (parameters, count) of the parameters at coordinates."""
         with np.errstate(divide="ignore", invalid="ignore"):
-            return np.stack([points[:, i] if f.log else np.log(points[:, i]) for i, f in enumerate(self.free)])
+            return np.stack([points[:, i] if f.log else np.log(points[:, i]) for i, f in enumerate(self.space.free)])
 
     @cached_property
     def _tables(self) -> tuple[tuple[list[int], Array, Array], ...]:

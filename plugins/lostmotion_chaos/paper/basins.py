@@ -6,10 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.contracts import Array
+from lostmotion.results import join_names
 from lostmotion_chaos.paper.cases import CASES, PaperCase
 from lostmotion_chaos.paper.drawings import Basin, BasinsDrawing, Visits, VisitsDrawing
 from lostmotion_chaos.paper.lab import LONGEST, Lab, find_return_period
-from lostmotion_chaos.paper.outcome import PaperOutcome, join_words
+from lostmotion_chaos.paper.outcome import PaperOutcome
 
 APART = 1e-3
 """Distance, as a share of x0, beyond which two orbits are different."""
@@ -68,7 +69,7 @@ def basins(lab: Lab) -> PaperOutcome:
         found.append(Basin(*places, index, labels))
         numbers[f"case{k}_attractors"] = float(len(back))
         numbers[f"case{k}_chaos"] = sum(s for p, s in zip(back, shares, strict=True) if not p)
-        words.append(f"Case {k} ends on {join_words(labels)}")
+        words.append(f"Case {k} ends on {join_names(labels) or 'none'}")
     says = f"{'; '.join(words)}. The exponent depends on the start as well as on the parameters."
     return PaperOutcome("beyond the paper", says, numbers, BasinsDrawing(tuple(found)))
 

@@ -57,8 +57,3 @@ def judge_claims(*claims: bool) -> Verdict:
     if all(claims):
         return "reproduced"
     return "reproduced in part" if any(claims) else "not reproduced"
-
-
-def join_words(items: list[str]) -> str:
-    """Return the items as text: "a, b and c"; "none" if there is no item."""
-    return items[0] if len(items) == 1 else ", ".join(items[:-1]) + " and " + items[-1] if items else "none"

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.contracts import Array
+from lostmotion.results import join_names
 from lostmotion_chaos.paper.cases import CASES
 from lostmotion_chaos.paper.drawings import (
     BranchesDrawing,
@@ -17,7 +18,7 @@ from lostmotion_chaos.paper.drawings import (
     SharedPlaneDrawing,
 )
 from lostmotion_chaos.paper.lab import Lab
-from lostmotion_chaos.paper.outcome import PaperOutcome, join_words, judge_claims
+from lostmotion_chaos.paper.outcome import PaperOutcome, judge_claims
 
 LOW, HIGH = 1.0, 10.0
 """The range of 1/alpha in Fig. 6."""
@@ -109,7 +110,7 @@ def fig6(lab: Lab) -> PaperOutcome:
     mixed = float(np.mean((sweep.share > 0.0) & (sweep.share < 1.0)))
     at = np.abs(sweep.inverse - 2.0) < 0.06
     near_two = float(np.nanmean(sweep.exponents[at]))
-    spans = join_words([f"{a:.2f} to {b:.2f}" for a, b in found if b - a > 0.1])
+    spans = join_names([f"{a:.2f} to {b:.2f}" for a, b in found if b - a > 0.1]) or "none"
     near_four = float(np.nanmax(sweep.exponents[np.abs(sweep.inverse - 4.1) < 0.06]))
     says = (
         f"Chaos occurs in separate windows of 1/alpha, as the paper says: {spans}; near 2.0 the exponent is "

@@ -17,12 +17,14 @@ from lostmotion.inference.candidates import join_term
 from lostmotion.inference.fit import Fit, maximise, raise_random_force, restart
 from lostmotion.inference.natural import find_term
 from lostmotion.inference.random_force import compute_random_force_gain
-from lostmotion.inference.setup import choose_steps, make_problem, polish_fit, search_maximum, split_heldout
+from lostmotion.inference.setup import choose_steps, make_posterior, polish_fit, search_maximum, split_heldout
 from lostmotion.inference.unseen import refit_without_position
 from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.predict import Horizon
-from lostmotion.likelihood.problem import NOISE, RANDOM, Problem
+from lostmotion.likelihood.space import RANDOM
 from lostmotion.likelihood.system import System, key_of
+from lostmotion.noises import NOISE
 from lostmotion.preparation.prepare import Prepared
 from lostmotion.results import Interval
 from lostmotion.results.diagnosis import Diagnosis, HeldOutScores, Mechanism
@@ -68,17 +70,17 @@ def compute_bound(
 ) -> LikelihoodBound:
     """Return the result of the true model of a case, with its held-out error if there is a diagnosis."""
     _, held = split_heldout(prepared.observations)
-    problem = _pose_at_truth(prepared, machine)
-    system = problem.system
+    posterior = _pose_at_truth(prepared, machine)
+    system = posterior.system
     effects = [add_library_names(effect, machine) for effect in effects]
     keys = [find_key(system, effect.mechanism, effect.at) for effect in effects]
     status = [_find_status(effect, key) for effect, key in zip(effects, keys, strict=True)]
     acting = {key: effect.parameters for key, effect in zip(keys, effects, strict=True) if key}
-    nominal = search_maximum(problem, np.random.default_rng(0))
+    nominal = search_maximum(posterior, np.random.default_rng(0))
 
     def fit_best(terms: Mapping[str, Mapping[str, float]]) -> Fit:
         """Return the better of the fits that start at the truth and at the best nominal model."""
-        fits = [_fit_terms(problem, terms), _fit_terms(restart(nominal), terms) if terms else nominal]
+        fits = [_fit_terms(posterior, terms), _fit_terms(restart(nominal), terms) if terms else nominal]
         return max(fits, key=lambda f: f.local.log_posterior)
 
     full = fit_best(acting)
@@ -91,7 +93,7 @@ def compute_bound(
     known = all(key or effect.mechanism == "random_force" for key, effect in zip(keys, effects, strict=True))
     if said is None or not known:
         return LikelihoodBound(tuple(gains), tuple(status))
-    margin = _measure_margin(full, problem, said.found) if acting else math.nan
+    margin = _measure_margin(full, posterior, said.found) if acting else math.nan
     error = _predict_heldout(polish_fit(full), prepared, held, said.fit)
     return LikelihoodBound(tuple(gains), tuple(status), error, margin)
 
@@ -102,10 +104,10 @@ def compute_lead(prepared: Prepared, machine: SealedMachine, effect: Effect, oth
     Both are fitted to the data that a diagnosis fits. Where the other law is a part of the first one, the lead is the
     gain of what it lacks.
     """
-    problem = _pose_at_truth(prepared, machine)
+    posterior = _pose_at_truth(prepared, machine)
     laws = (add_library_names(effect, machine), other)
-    keys = [(find_key(problem.system, law.mechanism, law.at), law) for law in laws]
-    fits = (_fit_terms(problem, {key: law.parameters}) if key else None for key, law in keys)
+    keys = [(find_key(posterior.system, law.mechanism, law.at), law) for law in laws]
+    fits = (_fit_terms(posterior, {key: law.parameters}) if key else None for key, law in keys)
     first, second = (refit_without_position(fit) if fit else None for fit in fits)
     return first.log_likelihood - second.log_likelihood if first and second else math.nan
 
@@ -144,13 +146,13 @@ def _split_wave(size: float, phase: float) -> dict[str, float]:
     return {"cosine": size * math.cos(phase), "sine": -size * math.sin(phase)}
 
 
-def _measure_margin(full: Fit, problem: Problem, found: Sequence[Mechanism]) -> float:
+def _measure_margin(full: Fit, posterior: Posterior, found: Sequence[Mechanism]) -> float:
     """Return the log-likelihood of the true model minus that of a model with the found mechanisms instead."""
-    keys = {find_key(problem.system, entry.mechanism, entry.at): entry for entry in found}
-    if None in keys or set(keys) == set(full.problem.active):
+    keys = {find_key(posterior.system, entry.mechanism, entry.at): entry for entry in found}
+    if None in keys or set(keys) == set(full.posterior.active):
         return math.nan
     medians = {key: {n: i.median for n, i in entry.parameters.items()} for key, entry in keys.items() if key}
-    return float(full.log_likelihood - _fit_terms(problem, medians).log_likelihood)
+    return float(full.log_likelihood - _fit_terms(posterior, medians).log_likelihood)
 
 
 def find_key(system: System, mechanism: str, at: str) -> str | None:
@@ -172,20 +174,20 @@ def _gain_without_term(fit: Fit, effect: Effect) -> float:
     return compute_random_force_gain(fit) if effect.mechanism == "random_force" else math.nan
 
 
-def _pose_at_truth(prepared: Prepared, machine: SealedMachine) -> Problem:
-    """Return the problem of the fitted data, with the true values and the usual noise as its start."""
+def _pose_at_truth(prepared: Prepared, machine: SealedMachine) -> Posterior:
+    """Return the posterior of the fitted data, with the true values and the usual noise as its start."""
     train, _ = split_heldout(prepared.observations)
-    problem = make_problem(System(prepared.model, prepared.terms), prepared.case, train, jobs=1)
+    posterior = make_posterior(System(prepared.model, prepared.terms), prepared.case, train, jobs=1)
     free = []
-    for f in problem.free:
+    for f in posterior.space.free:
         if f.level == NOISE:
             free.append(replace(f, start=_clip(math.log(machine.measurement_noise), f.low, f.high)))
         elif f.parameter == RANDOM:
-            free.append(replace(f, start=_clip(problem.scales.usual, f.low, f.high)))
+            free.append(replace(f, start=_clip(posterior.scales.usual, f.low, f.high)))
         else:
             free.append(replace(f, start=f.coordinate(machine.values[f.parameter])))
-    begun = replace(problem, free=tuple(free))
-    return choose_steps(begun, begun.start)
+    begun = posterior.over(free)
+    return choose_steps(begun, begun.space.start)
 
 
 def _clip(value: float, low: float, high: float) -> float:
@@ -193,20 +195,20 @@ def _clip(value: float, low: float, high: float) -> float:
     return min(max(value, low), high)
 
 
-def _fit_terms(problem: Problem, acting: Mapping[str, Mapping[str, float]]) -> Fit:
+def _fit_terms(posterior: Posterior, acting: Mapping[str, Mapping[str, float]]) -> Fit:
     """Return the best fit with these terms, started at the truth with several levels of the random force."""
     for key, parameters in acting.items():
-        problem = _add_term(problem, key, parameters)
-    fits = [maximise(problem, raise_random_force(problem, problem.start, by)) for by in WARM_STARTS]
+        posterior = _add_term(posterior, key, parameters)
+    fits = [maximise(posterior, raise_random_force(posterior, posterior.space.start, by)) for by in WARM_STARTS]
     best = max(fits, key=lambda f: f.local.log_posterior)
-    again = maximise(restart(best), raise_random_force(problem, best.theta, 1.0))
+    again = maximise(restart(best), raise_random_force(posterior, best.theta, 1.0))
     return max((best, again), key=lambda f: f.local.log_posterior)
 
 
-def _add_term(problem: Problem, key: str, truth: Mapping[str, float]) -> Problem:
-    """Return the problem with one more term, started at its true parameters where they are known."""
-    _, slots = find_term(problem, key)
-    return join_term(problem, key, {s.key: truth[s.param.name] for s in slots if s.param.name in truth})
+def _add_term(posterior: Posterior, key: str, truth: Mapping[str, float]) -> Posterior:
+    """Return the posterior with one more term, started at its true parameters where they are known."""
+    _, slots = find_term(posterior, key)
+    return join_term(posterior, key, {s.key: truth[s.param.name] for s in slots if s.param.name in truth})
 
 
 def _predict_heldout(fit: Fit, prepared: Prepared, held: Sequence[Observation], said: HeldOutScores) -> float:

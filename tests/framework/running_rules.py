@@ -1,4 +1,4 @@
-"""Rules for engines: agreement with plain matrices, and independence of points and calls.
+"""Rules for running systems: agreement with plain matrices, and independence of points and calls.
 
 Each rule returns what is wrong, or an empty text. The rules use a small machine with a gap, sticking friction and a
 Maxwell element, with channels of each kind: a state, a nonlinear function of the states, and an acceleration, which
@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import cache
@@ -19,9 +19,11 @@ import numpy as np
 
 from lostmotion.contracts import Array, Interface, Model, Param, Term, Values
 from lostmotion.likelihood.drive import Drive
-from lostmotion.likelihood.engine import Engine, Innovations, Points, Random, RunningSystem, SensorNoises
+from lostmotion.likelihood.innovations import Innovations
 from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.points import Points, SensorNoises
 from lostmotion.likelihood.reference import Reference
+from lostmotion.likelihood.running import Random, RunningSystem
 from lostmotion.likelihood.sensors import Sensor
 from lostmotion.likelihood.system import System
 from lostmotion.noises import AR1, Noise, NoiseBlock, NoiseParameter, SensorScales, White
@@ -164,6 +166,7 @@ SENSORS = {
 RANDOM: tuple[Random, ...] = ("white", "held", "latent")
 VALUES = {"m": 1.0, "c": 1.5, "k": 900.0, "x0": 0.05, "stick.size": 0.4, "creep.stiffness": 20.0}
 
+Run = Callable[..., RunningSystem]
 Arguments = tuple[RunningSystem, Observation, Points]
 
 
@@ -175,7 +178,7 @@ def _system() -> System:
 def make_arguments(
     sensors: tuple[Sensor, ...], random: Random = "white", count: int = 2, lag: float = 0.0
 ) -> Arguments:
-    """Return the arguments of an engine: readings with gaps, and points near the true values.
+    """Return a slow system with the arguments of a filter: readings with gaps, and points near the true values.
 
     The sensors are delayed by `lag` samples.
     """
@@ -188,7 +191,7 @@ def make_arguments(
     z = np.stack(columns, axis=1)
     z[9] = np.nan
     z[20, 0] = np.nan
-    running = RunningSystem(system, system.everything, SUBSTEPS, random)
+    running = Reference(system, system.everything, SUBSTEPS, random)
     scale = np.nanstd(z, axis=0) * np.ones((count, 1))
     near = full * (1.0 + 0.05 * rng.standard_normal((count, len(full))))
     zero = np.zeros(count, dtype=np.int64)
@@ -215,6 +218,16 @@ def _make_noise(sensors: tuple[Sensor, ...], scale: Array) -> SensorNoises:
     return SensorNoises.of(blocks)
 
 
+def _make(run: Run, slow: RunningSystem) -> RunningSystem:
+    """Return the same system, made by another class."""
+    return run(slow.system, slow.active, slow.nsub, slow.random)
+
+
+def _filter(run: Run, given: Arguments) -> Innovations:
+    slow, observation, points = given
+    return _make(run, slow).filter(observation, points)
+
+
 def _list_cases() -> Iterator[tuple[str, Arguments]]:
     for (what, sensors), random in itertools.product(SENSORS.items(), RANDOM):
         yield f"{what}, with a random force of the kind {random}", make_arguments(sensors, random)
@@ -234,10 +247,10 @@ def _are_equal(one: Any, other: Any) -> bool:
     return all(np.array_equal(getattr(one, n), getattr(other, n), equal_nan=True) for n in names)
 
 
-def filter_agrees_with_matrices(engine: Engine) -> str:
-    """Return the one-step errors and variances that the engine `reference` returns, for sensors of every kind."""
+def filter_agrees_with_matrices(run: Run) -> str:
+    """Return the one-step errors and variances that `Reference` returns, for sensors of every kind."""
     for what, given in _list_cases():
-        found, wanted = engine.filter(*given), Reference().filter(*given)
+        found, wanted = _filter(run, given), given[0].filter(*given[1:])
         if found.errors.shape != wanted.errors.shape or found.variances.shape != wanted.errors.shape:
             return f"for {what} it returned {found.errors.shape}, where {wanted.errors.shape} is expected"
         if not (difference := _largest_difference(found, wanted)) < TOLERANCE:
@@ -245,12 +258,12 @@ def filter_agrees_with_matrices(engine: Engine) -> str:
     return ""
 
 
-def smoother_agrees_with_matrices(engine: Engine) -> str:
-    """Return filtered and smoothed states, with their covariances, as the engine `reference` does."""
+def smoother_agrees_with_matrices(run: Run) -> str:
+    """Return filtered and smoothed states, with their covariances, as `Reference` does."""
     for what, given in _list_cases():
-        running, observation, points = given
-        one = (running, observation, points.select(slice(0, 1)))
-        found, wanted = engine.smooth(*one), Reference().smooth(*one)
+        slow, observation, points = given
+        first = points.select(slice(0, 1))
+        found, wanted = (one.smooth(observation, first) for one in (_make(run, slow), slow))
         pairs = ((found.filtered, wanted.filtered, wanted.filtered_covariance),)
         for mine, theirs, covariance in (*pairs, (found.states, wanted.states, wanted.covariance)):
             sd = np.sqrt(np.diagonal(covariance, axis1=1, axis2=2)).max(axis=0)
@@ -261,69 +274,72 @@ def smoother_agrees_with_matrices(engine: Engine) -> str:
     return ""
 
 
-def free_run_agrees_with_matrices(engine: Engine) -> str:
-    """Return the free motion by RK4 with the given steps from the start of each run, as `reference` does."""
-    running, _, points = make_arguments(SENSORS["a state"], count=3)
+def free_run_agrees_with_matrices(run: Run) -> str:
+    """Return the free motion by RK4 with the given steps from the start of each run, as `Reference` does."""
+    slow, _, points = make_arguments(SENSORS["a state"], count=3)
     points = replace(points, first=np.array([0, 4, 9]))
     start = np.tile([0.06, -0.1, 0.0], (3, 1))
     kicks = 0.01 * np.random.default_rng(4).standard_normal((3, 20, 3))
     for what, more in (("free motion", None), ("motion with kicks", kicks)):
-        found, wanted = (e.simulate(running, points, start, 20, more) for e in (engine, Reference()))
+        found, wanted = (one.simulate(points, start, 20, more) for one in (_make(run, slow), slow))
         if found.shape != wanted.shape or not np.allclose(found, wanted, rtol=1e-9, atol=1e-12):
             return f"its {what} differs from that of the matrices"
     return ""
 
 
-def points_do_not_know_each_other(engine: Engine) -> str:
+def points_do_not_know_each_other(run: Run) -> str:
     """Make the result of a point independent of the number and order of points, to the last bit."""
     for sensors, random in ((SENSORS["a state"], "white"), (SENSORS["a nonlinear channel"], "held")):
-        running, observation, points = make_arguments(sensors, random, MANY)  # type: ignore[arg-type]
-        together = engine.filter(running, observation, points)
-        turned = engine.filter(running, observation, points.select(slice(None, None, -1)))
+        slow, observation, points = make_arguments(sensors, random, MANY)  # type: ignore[arg-type]
+        running = _make(run, slow)
+        together = running.filter(observation, points)
+        turned = running.filter(observation, points.select(slice(None, None, -1)))
         if not _are_equal(together, turned[::-1]):
             return "the order of the points changes their results"
         for i in (0, MANY - 1):
-            if not _are_equal(together[i : i + 1], engine.filter(running, observation, points.select(slice(i, i + 1)))):
+            if not _are_equal(together[i : i + 1], running.filter(observation, points.select(slice(i, i + 1)))):
                 return "the result of a point alone differs from its result among others"
     return ""
 
 
-def missing_readings_add_nothing(engine: Engine) -> str:
+def missing_readings_add_nothing(run: Run) -> str:
     """For a reading that is NaN, return the error 0 and the variance 1 / (2 pi), and continue."""
-    running, observation, points = make_arguments(SENSORS["several sensors, two of them with noise of their own"])
-    found, lost = engine.filter(running, observation, points), np.isnan(observation.readings)
+    slow, observation, points = make_arguments(SENSORS["several sensors, two of them with noise of their own"])
+    running = _make(run, slow)
+    found, lost = running.filter(observation, points), np.isnan(observation.readings)
     if np.any(found.errors[:, lost] != 0.0) or not np.allclose(found.variances[:, lost], 0.5 / math.pi, rtol=1e-12):
         return "a missing reading changes the likelihood"
     nothing = replace(observation, readings=np.full(observation.readings.shape, np.nan))
-    empty = engine.filter(running, nothing, points)
+    empty = running.filter(nothing, points)
     good = empty.finite.all() and np.allclose(np.asarray(empty.log_likelihood), 0.0)
     return "" if good else "a recording without readings has a likelihood other than one"
 
 
-def divergence_is_a_status(engine: Engine) -> str:
+def divergence_is_a_status(run: Run) -> str:
     """For a point that diverges, return `finite` false for this point only, and raise no error."""
-    running, observation, points = make_arguments(SENSORS["a state"], count=3)
+    slow, observation, points = make_arguments(SENSORS["a state"], count=3)
+    running = _make(run, slow)
     wild = points.params.copy()
     wild[1, :2] = 1e-30, math.nan
     with np.errstate(all="ignore"):
-        found = engine.filter(running, observation, replace(points, params=wild))
-        wanted = engine.filter(running, observation, points)
-        run = engine.simulate(running, replace(points, params=wild), np.tile([0.06, 0.0, 0.0], (3, 1)), 5)
+        found = running.filter(observation, replace(points, params=wild))
+        wanted = running.filter(observation, points)
+        free = running.simulate(replace(points, params=wild), np.tile([0.06, 0.0, 0.0], (3, 1)), 5)
     if list(found.finite) != [True, False, True]:
         return f"the second of three points diverges, and `finite` is {list(found.finite)}"
-    if np.isfinite(np.asarray(found.log_likelihood)[1]) or np.isfinite(run[1, -1]).any():
+    if np.isfinite(np.asarray(found.log_likelihood)[1]) or np.isfinite(free[1, -1]).any():
         return "a point that diverges has a finite likelihood or motion"
     return "" if _are_equal(found[[0, 2]], wanted[[0, 2]]) else "a point that diverges changes the results of others"
 
 
-def threads_do_not_disturb_each_other(engine: Engine) -> str:
+def threads_do_not_disturb_each_other(run: Run) -> str:
     """Store nothing between calls: parallel calls from several threads must give the same results as single calls."""
     given = [make_arguments(sensors, count=count) for sensors, count in itertools.product(SENSORS.values(), (1, 5))]
-    alone = [engine.filter(*g) for g in given]
+    alone = [_filter(run, g) for g in given]
     with ThreadPoolExecutor(4) as pool:
         for _ in range(3):
             if not all(
-                _are_equal(a, b) for a, b in zip(alone, pool.map(lambda g: engine.filter(*g), given), strict=True)
+                _are_equal(a, b) for a, b in zip(alone, pool.map(lambda g: _filter(run, g), given), strict=True)
             ):
                 return "parallel calls from several threads gave other numbers"
     return ""

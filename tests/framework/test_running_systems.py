@@ -1,64 +1,65 @@
-"""A wrong engine breaks the rule that was written for it; the two of the framework break none."""
+"""A wrong running system breaks the rule that was written for it; those of the framework break none."""
 
 import time
 from dataclasses import dataclass, replace
+from functools import partial
 
-import engine_rules as rules
 import numpy as np
 import pytest
+import running_rules as rules
 
 from lostmotion.likelihood.lanes import Lanes
 from lostmotion.likelihood.reference import Reference
 
-SLOW = [pytest.param(Lanes(compiled=False), marks=pytest.mark.slow, id="twin"),
-        pytest.param(Reference(), marks=pytest.mark.slow, id="reference")]  # fmt: skip
+SLOW = [pytest.param(partial(Lanes, compiled=False), marks=pytest.mark.slow, id="twin"),
+        pytest.param(Reference, marks=pytest.mark.slow, id="reference")]  # fmt: skip
 
 
-def judge(rule, engine):
-    """Return what a rule finds; an exception of the engine is a finding too."""
+def judge(rule, run):
+    """Return what a rule finds; an exception is a finding too."""
     try:
-        return rule(engine)
+        return rule(run)
     except Exception as err:
         return repr(err)
 
 
 @pytest.mark.parametrize("rule", rules.RULES, ids=lambda rule: rule.__name__)
-@pytest.mark.parametrize("engine", [pytest.param(Lanes(), id="lanes"), *SLOW])
-def test_the_engines_of_the_framework_break_no_rule(engine, rule):
-    assert judge(rule, engine) == ""
+@pytest.mark.parametrize("run", [pytest.param(Lanes, id="lanes"), *SLOW])
+def test_the_running_systems_of_the_framework_break_no_rule(run, rule):
+    assert judge(rule, run) == ""
 
 
 @dataclass(frozen=True)
 class Short(Lanes):
     """Steps too long: the gap is seen too late."""
 
-    def filter(self, dynamics, observation, points):
-        return super().filter(replace(dynamics, nsub=1), observation, points)
+    def filter(self, observation, points):
+        return Lanes(self.system, self.active, 1, self.random).filter(observation, points)
 
 
 @dataclass(frozen=True)
 class Deaf(Lanes):
     """Takes a held random force for a white one, which an accelerometer does not see."""
 
-    def filter(self, dynamics, observation, points):
-        known = replace(dynamics, random="white") if dynamics.random == "held" else dynamics
-        return super().filter(known, observation, points)
+    def filter(self, observation, points):
+        random = "white" if self.random == "held" else self.random
+        return Lanes(self.system, self.active, self.nsub, random).filter(observation, points)
 
 
 @dataclass(frozen=True)
 class Ungauged(Lanes):
     """Forgets the gain of the sensors."""
 
-    def filter(self, dynamics, observation, points):
-        return super().filter(dynamics, observation, replace(points, gain=np.ones(points.gain.shape)))
+    def filter(self, observation, points):
+        return super().filter(observation, replace(points, gain=np.ones(points.gain.shape)))
 
 
 @dataclass(frozen=True)
 class Causal(Lanes):
     """Returns what is known after each sample for what is known after all."""
 
-    def smooth(self, dynamics, observation, points):
-        found = super().smooth(dynamics, observation, points)
+    def smooth(self, observation, points):
+        found = super().smooth(observation, points)
         return replace(found, states=found.filtered, covariance=found.filtered_covariance)
 
 
@@ -66,33 +67,33 @@ class Causal(Lanes):
 class Punctual(Lanes):
     """Begins each free run at the first sample of the drive."""
 
-    def simulate(self, dynamics, points, start, steps, kicks=None):
-        return super().simulate(dynamics, replace(points, first=np.zeros_like(points.first)), start, steps, kicks)
+    def simulate(self, points, start, steps, kicks=None):
+        return super().simulate(replace(points, first=np.zeros_like(points.first)), start, steps, kicks)
 
 
 @dataclass(frozen=True)
 class Sociable(Lanes):
     """Lets the gain of each point feel that of its neighbour, in the last digits."""
 
-    def filter(self, dynamics, observation, points):
+    def filter(self, observation, points):
         gain = points.gain * (1.0 + 1e-12 * np.roll(points.gain, 1, axis=0))
-        return super().filter(dynamics, observation, replace(points, gain=gain))
+        return super().filter(observation, replace(points, gain=gain))
 
 
 @dataclass(frozen=True)
 class Filling(Lanes):
     """Reads what was not read as zero."""
 
-    def filter(self, dynamics, observation, points):
-        return super().filter(dynamics, replace(observation, readings=np.nan_to_num(observation.readings)), points)
+    def filter(self, observation, points):
+        return super().filter(replace(observation, readings=np.nan_to_num(observation.readings)), points)
 
 
 @dataclass(frozen=True)
 class Raising(Lanes):
     """Raises where a point leaves all numbers."""
 
-    def filter(self, dynamics, observation, points):
-        found = super().filter(dynamics, observation, points)
+    def filter(self, observation, points):
+        found = super().filter(observation, points)
         if not found.finite.all():
             raise FloatingPointError("diverged")
         return found
@@ -102,8 +103,8 @@ class Raising(Lanes):
 class Lasting(Lanes):
     """Calls all points finite."""
 
-    def filter(self, dynamics, observation, points):
-        found = super().filter(dynamics, observation, points)
+    def filter(self, observation, points):
+        found = super().filter(observation, points)
         return replace(found, finite=np.ones_like(found.finite))
 
 
@@ -114,10 +115,10 @@ _KEPT = {}
 class Sharing(Lanes):
     """Keeps the points of a call where the next one finds them."""
 
-    def filter(self, dynamics, observation, points):
+    def filter(self, observation, points):
         _KEPT["points"] = points
         time.sleep(0.02)
-        return super().filter(dynamics, observation, _KEPT["points"])
+        return super().filter(observation, _KEPT["points"])
 
 
 WRONG = [
@@ -134,10 +135,10 @@ WRONG = [
 ]
 
 
-@pytest.mark.parametrize(("engine", "rule"), WRONG, ids=[engine.__name__ for engine, _ in WRONG])
-def test_a_wrong_engine_breaks_its_rule(engine, rule):
-    assert judge(rule, engine()) != ""
+@pytest.mark.parametrize(("run", "rule"), WRONG, ids=[run.__name__ for run, _ in WRONG])
+def test_a_wrong_running_system_breaks_its_rule(run, rule):
+    assert judge(rule, run) != ""
 
 
-def test_every_rule_is_broken_by_some_wrong_engine():
+def test_every_rule_is_broken_by_some_wrong_system():
     assert {rule for _, rule in WRONG} == set(rules.RULES)
