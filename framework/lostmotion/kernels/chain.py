@@ -28,6 +28,8 @@ _MANY = np.polynomial.hermite_e.hermegauss(14)
 FEW, FEW_SHARES = _FEW[0], _FEW[1] / _FEW[1].sum()
 MANY, MANY_SHARES = _MANY[0], _MANY[1] / _MANY[1].sum()
 """Nodes and weights of Gauss-Hermite quadrature: far from zero velocity, where laws are smooth, and near it."""
+STEEP = 0.01
+"""A law takes the fine steps while it slows its joint down by more than this share within a sample."""
 RUNAWAY = 1e6
 """A velocity (SI) that no machine reaches: the filter has diverged."""
 _RT2, _RT2PI = math.sqrt(2.0), math.sqrt(2.0 * math.pi)
@@ -109,9 +111,9 @@ def filter_chain(  # type: ignore[no-untyped-def]
     """Write one-step errors and their variances, (samples, readings); return the number of samples that were filtered.
 
     `z` (samples, readings) may hold NaN, `picks` are the states that are read. A sample has `coarse` steps, or
-    `fine` ones while a law may change its sign; `inverses` (2, samples, n, n) are those of M + hs / 2 KV for the two
-    lengths hs of a step. `h` already holds - Kv v0. `tau` (samples, n) acts over the sample
-    that follows, `S` (n,) is the intensity of the random force (N m)^2 s and `R` (readings,) the variance of readings.
+    `fine` ones while a law is steep or may change its sign; `inverses` (2, samples, n, n) are those of M + hs / 2 KV
+    for the two lengths hs of a step. `h` already holds - Kv v0. `tau` (samples, n) acts over the sample that follows,
+    `S` (n,) is the intensity of the random force (N m)^2 s and `R` (readings,) the variance of readings.
     `motors` (n,) is the position of the motor of a joint in the state, or -1; `gears` (n, 5) holds half of its play,
     stiffness, damping, one over its inertia, and its viscous damping. Laws have a joint, an address, and numbers; the
     time of the first sample is `begin` (s). Where `moves` has a row for each sample, `states`, `gains`,
@@ -130,7 +132,7 @@ def filter_chain(  # type: ignore[no-untyped-def]
     active = np.zeros(n, dtype=np.bool_)
     for a in range(len(joints)):
         active[joints[a]] = True
-    past = np.zeros(n)
+    past, bends = np.zeros(n), np.zeros(n)
     for k in range(N):
         for i in range(m):
             if z[k, i] != z[k, i]:
@@ -167,7 +169,7 @@ def filter_chain(  # type: ignore[no-untyped-def]
         if fine > coarse:
             for i in range(n):
                 c = n + i if motors[i] < 0 else motors[i] + 1
-                if active[i] and abs(x[c]) < 6.0 * math.sqrt(P[c, c]) + 2.0 * abs(x[c] - past[i]):
+                if active[i] and (bends[i] > STEEP or abs(x[c]) < 2.0 * abs(x[c] - past[i])):
                     steps, W = fine, inverses[1]
                 past[i] = x[c]
         hs = dt / steps
@@ -311,6 +313,7 @@ def filter_chain(  # type: ignore[no-untyped-def]
                 else:
                     g[w + 1] = hs * ease
                     g[w] = 0.5 * hs * g[w + 1]
+                bends[i] = abs(slope) * ease * dt
                 inner = slant * slant * P[b, b] + 2.0 * slant * slope * P[b, c] + slope * slope * P[c, c] + left
                 for a in range(L):
                     x[a] += g[a] * mean
