@@ -1,4 +1,4 @@
-"""Friction with a soft onset: the mean force of a step is that of the exact motion, and dry friction where it is short."""
+"""Friction with a soft onset: the mean force of a step is that of the exact motion."""
 
 import math
 

@@ -1,8 +1,8 @@
 """Arms with two joints under a digital controller: fourth-order Runge-Kutta with steps of 10 us, by their Lagrangian.
 
-The motion shares no code with the framework and none with a simulator. Dry friction is a smooth step, usually
-over a speed that no encoder resolves; play is a contact with a spring and a damper; a link and its motor are two bodies where there is a
-gear between them.
+The motion shares no code with the framework and none with a simulator. Dry friction is a smooth step, usually over a
+speed that no encoder resolves; play is a contact with a spring and a damper; a link and its motor are two bodies where
+there is a gear between them.
 """
 
 from __future__ import annotations
@@ -31,7 +31,8 @@ def _pair(value: float) -> Array:
 class Arm:
     """Two links in a vertical plane, and what acts at their joints; arrays are (2,), in SI units.
 
-    `onset` is the speed (rad/s) over which dry friction changes its sign. `play` is half of the play, negative where there is no gear between motor and link; a gear without play is flexible.
+    `onset` is the speed (rad/s) over which dry friction changes its sign. `play` is half of the play, negative where
+    there is no gear between motor and link; a gear without play is flexible.
     `delay` (s) and `gain` change the commanded torque. `payload` (kg) is carried at `reach` (m) on the second link.
     """
 
