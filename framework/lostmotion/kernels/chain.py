@@ -184,10 +184,8 @@ def filter_chain(  # type: ignore[no-untyped-def]
                     Y[i, j] -= Kq[k, i, j]
                     Y[i, n + j] -= KV[k, i, j] + 0.5 * hs * Kq[k, i, j]
                 y[i] = r
-            for a in range(L):
-                for b in range(L):
-                    A[a, b] = 0.0
-                f[a] = 0.0
+            A[:] = 0.0
+            f[:] = 0.0
             for i in range(n):
                 w = motors[i]
                 if w < 0:

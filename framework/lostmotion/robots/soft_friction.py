@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from lostmotion.contracts import Term
+from lostmotion.defaults import DRY_FRICTION
 from lostmotion.parts import Array, Param, Values
 from lostmotion.quantities import FORCE, SPEED
 
@@ -21,7 +22,7 @@ class SoftFriction(Term):
 
     at: str = ""
     name: ClassVar[str] = "soft_friction"
-    extends: ClassVar[tuple[str, ...]] = ("coulomb_friction",)
+    extends: ClassVar[tuple[str, ...]] = (DRY_FRICTION,)
     physics: ClassVar[str] = (
         "Friction with a soft onset opposes the motion: it reaches {force}, and three quarters of it at {velocity}"
     )
