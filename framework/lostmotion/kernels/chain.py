@@ -12,95 +12,17 @@ States are the positions (n,), the velocities (n,), then position and velocity o
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numba
 import numpy as np
 
-from lostmotion.kernels import vector
+from lostmotion.kernels.joint_laws import average_laws, clip_moments
 from lostmotion.kernels.vector import STRIDE
 
-pointer: Any = vector.pointer
-call: Any = vector.call
-
-_FEW = np.polynomial.hermite_e.hermegauss(3)
-_MANY = np.polynomial.hermite_e.hermegauss(14)
-FEW, FEW_SHARES = _FEW[0], _FEW[1] / _FEW[1].sum()
-MANY, MANY_SHARES = _MANY[0], _MANY[1] / _MANY[1].sum()
-"""Nodes and weights of Gauss-Hermite quadrature: far from zero velocity, where laws are smooth, and near it."""
 STEEP = 0.01
 """A law takes the fine steps while it slows its joint down by more than this share within a sample."""
 RUNAWAY = 1e6
 """A velocity (SI) that no machine reaches: the filter has diverged."""
-_RT2, _RT2PI = math.sqrt(2.0), math.sqrt(2.0 * math.pi)
-
-
-@numba.njit(cache=True, nogil=True, error_model="numpy")
-def clip_moments(m, s, c):  # type: ignore[no-untyped-def]
-    """Return mean, slope and remaining variance of clip(d, -c, c) for d of mean `m` and standard deviation `s`."""
-    a, b = (-c - m) / s, (c - m) / s
-    if a > 8.0:
-        return -c, 0.0, 0.0
-    if b < -8.0:
-        return c, 0.0, 0.0
-    below, above = 0.5 * math.erfc(-a / _RT2), 0.5 * math.erfc(b / _RT2)
-    fa = math.exp(-0.5 * a * a) / _RT2PI if abs(a) < 30.0 else 0.0
-    fb = math.exp(-0.5 * b * b) / _RT2PI if abs(b) < 30.0 else 0.0
-    p = 1.0 - below - above
-    mean = c * (above - below) + m * p + s * (fa - fb)
-    square = c * c * (below + above) + (m * m + s * s) * p + 2.0 * m * s * (fa - fb) + s * s * (a * fa - b * fb)
-    return mean, p, max(square - mean * mean - p * p * s * s, 0.0)
-
-
-@numba.njit(cache=True, nogil=True, error_model="numpy")
-def _average_laws(t, q, v, sq, sv, j, mobility, step, joints, addresses, firsts, widths, needs, numbers, own, desk):  # type: ignore[no-untyped-def]
-    """Return the mean force of the laws of a joint, its slopes over position and velocity, and its variance."""
-    spread = 6.0 * sv
-    near = abs(v) < spread + 1e-9
-    for a in range(len(joints)):
-        if joints[a] == j:  # the width of the line of dry friction: a force times the mobility
-            for b in range(widths[a]):
-                if needs[firsts[a] + b] == 1 and abs(v) < spread + 3.0 * mobility * abs(numbers[firsts[a]]):
-                    near = True
-    count = len(MANY) if near else len(FEW)
-    lanes = count + 2
-    for o in range(lanes):
-        node = 0.0
-        if o < count:
-            node = MANY[o] if near else FEW[o]
-        desk[0, o], desk[2, o], desk[3, o] = t, v + sv * node, 0.0
-        desk[1, o] = q + (sq if o == count else (-sq if o == count + 1 else 0.0))
-    mean, square, slope, slant = 0.0, 0.0, 0.0, 0.0
-    total = desk[4]
-    for o in range(lanes):
-        total[o] = 0.0
-    for a in range(len(joints)):
-        if joints[a] != j:
-            continue
-        for b in range(widths[a]):
-            kind = needs[firsts[a] + b]
-            number = numbers[firsts[a] + b]
-            if kind == 1:
-                number = mobility
-            elif kind == 2:
-                number = step
-            elif kind == 3:
-                number = step / mobility
-            for o in range(lanes):
-                own[b, o] = number
-        if call(addresses[a], pointer(own), pointer(desk), lanes) != 0:
-            return math.nan, 0.0, 0.0, 0.0
-        for o in range(lanes):
-            total[o] += desk[3, o]
-    for o in range(count):
-        share = MANY_SHARES[o] if near else FEW_SHARES[o]
-        node = MANY[o] if near else FEW[o]
-        mean += share * total[o]
-        square += share * total[o] * total[o]
-        slope += share * node * total[o]
-    slope /= sv
-    slant = (total[count] - total[count + 1]) / (2.0 * sq)
-    return mean, slant, slope, max(square - mean * mean - slope * slope * sv * sv, 0.0)
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
@@ -132,7 +54,7 @@ def filter_chain(  # type: ignore[no-untyped-def]
     active = np.zeros(n, dtype=np.bool_)
     for a in range(len(joints)):
         active[joints[a]] = True
-    past, bends = np.zeros(n), np.zeros(n)
+    past, bends, eases = np.zeros(n), np.zeros(n), np.zeros(n)
     for k in range(N):
         for i in range(m):
             if z[k, i] != z[k, i]:
@@ -207,7 +129,26 @@ def filter_chain(  # type: ignore[no-untyped-def]
                 A[w + 1, i] = hs * light * a1
                 A[w + 1, w + 1] = 1.0 - hs * light * (drag + a2)
                 A[w + 1, n + i] = hs * light * a2
-                up[i] = stiff * stiff * left
+                up[i], eases[i] = stiff * stiff * left, 0.5 * hs * loss * share
+            for i in range(n):  # the damping of a gear acts in the middle of the step, not at its beginning
+                w = motors[i]
+                if w < 0 or eases[i] == 0.0:
+                    continue
+                light = gears[i, 3]
+                ease = eases[i] / (1.0 + eases[i] * (light + W[k, i, i]))
+                apart = f[w + 1]
+                for b in range(L):
+                    d[b] = A[w + 1, b] / hs
+                d[w + 1] -= 1.0 / hs
+                for j in range(n):
+                    apart -= W[k, i, j] * y[j]
+                    for b in range(L):
+                        d[b] -= W[k, i, j] * Y[j, b]
+                y[i] += ease * apart
+                f[w + 1] -= light * ease * apart
+                for b in range(L):
+                    Y[i, b] += ease * d[b]
+                    A[w + 1, b] -= hs * light * ease * d[b]
             for i in range(n):
                 for j in range(n):
                     r = W[k, i, j]
@@ -299,7 +240,7 @@ def filter_chain(  # type: ignore[no-untyped-def]
                 b, c = (i, n + i) if w < 0 else (w, w + 1)
                 ease = W[k, i, i] if w < 0 else gears[i, 3]
                 sq, sv = math.sqrt(max(P[b, b], 1e-24)), math.sqrt(max(P[c, c], 1e-24))
-                mean, slant, slope, left = _average_laws(
+                mean, slant, slope, left = average_laws(
                     begin + (k + (s + 0.5) / steps) * dt, x[b] - 0.5 * hs * x[c], x[c], sq, sv, i, hs * ease, hs,
                     joints, addresses, firsts, widths, needs, numbers, own, desk)  # fmt: skip
                 for a in range(L):
@@ -381,20 +322,3 @@ def differentiate_errors(picks, gains, moves, pushes, joints, columns, shifts, f
         for a in range(L):
             for b in range(count):
                 D[a, b] = T[a, b]
-
-
-@numba.njit(cache=True, nogil=True, error_model="numpy")
-def evaluate_law(address, numbers, t, q, v, found):  # type: ignore[no-untyped-def]
-    """Write the force of a law with all its `numbers` at times, positions and velocities (samples,) into `found`."""
-    own, desk = np.zeros((16, STRIDE)), np.zeros((8, STRIDE))
-    for first in range(0, len(t), STRIDE):
-        lanes = min(STRIDE, len(t) - first)
-        for o in range(lanes):
-            desk[0, o], desk[1, o], desk[2, o] = t[first + o], q[first + o], v[first + o]
-            for a in range(len(numbers)):
-                own[a, o] = numbers[a]
-        if call(address, pointer(own), pointer(desk), lanes) != 0:
-            return False
-        for o in range(lanes):
-            found[first + o] = desk[3, o]
-    return True

@@ -16,7 +16,7 @@ import numpy as np
 from lostmotion.contracts import DriveTerm, Term
 from lostmotion.defaults import RARE_IN_JOINTS
 from lostmotion.inference.penalties import compute_own_penalty
-from lostmotion.kernels.chain import evaluate_law
+from lostmotion.kernels.joint_laws import evaluate_law
 from lostmotion.likelihood.compose import compile_law
 from lostmotion.parts import Array, Param
 from lostmotion.quantities import INERTIA, LENGTH, NUMBER, STIFFNESS, TIME, Dimension
