@@ -39,14 +39,15 @@ def filter_chain(  # type: ignore[no-untyped-def]
     `motors` (n,) is the position of the motor of a joint in the state, or -1; `gears` (n, 5) holds half of its play,
     stiffness, damping, one over its inertia, and its viscous damping. Laws have a joint, an address, and numbers; the
     time of the first sample is `begin` (s). Where `moves` has a row for each sample, `states`, `gains`,
-    `accelerations`, and the transitions `moves` (samples, L, L) and `pushes` (samples, L, n) are written too.
+    `accelerations` (samples, 2n) of links and of what the drives turn, and the transitions `moves` (samples, L, L) and
+    `pushes` (samples, L, 2n) by torques of the drives and on the links are written too.
     """
     N, m = z.shape
     n = Kq.shape[1]
     L = len(x0)
     keep = len(moves) == N
     x, P = x0.copy(), P0.copy()
-    A, T, F, E = np.zeros((L, L)), np.zeros((L, L)), np.zeros((L, L)), np.zeros((L, n))
+    A, T, F, E = np.zeros((L, L)), np.zeros((L, L)), np.zeros((L, L)), np.zeros((L, 2 * n))
     Y, y, g, d, f, up = np.zeros((n, L)), np.zeros(n), np.zeros(L), np.zeros(L), np.zeros(L), np.zeros(L)
     own, desk, noise = np.zeros((16, STRIDE)), np.zeros((8, STRIDE)), np.zeros((n, n))
     places = np.concatenate((np.arange(n), np.arange(2 * n, L, 2)))
@@ -55,6 +56,7 @@ def filter_chain(  # type: ignore[no-untyped-def]
     for a in range(len(joints)):
         active[joints[a]] = True
     past, bends, eases = np.zeros(n), np.zeros(n), np.zeros(n)
+    shares, turns = np.zeros((n, 2 * n)), np.zeros((n, 2 * n))
     for k in range(N):
         for i in range(m):
             if z[k, i] != z[k, i]:
@@ -87,6 +89,7 @@ def filter_chain(  # type: ignore[no-untyped-def]
                 F[a, a] = 1.0
             for i in range(n):
                 accelerations[k, i] = -x[n + i] / dt
+                accelerations[k, n + i] = accelerations[k, i] if motors[i] < 0 else -x[motors[i] + 1] / dt
         steps, W = coarse, inverses[0]
         if fine > coarse:
             for i in range(n):
@@ -130,6 +133,15 @@ def filter_chain(  # type: ignore[no-untyped-def]
                 A[w + 1, w + 1] = 1.0 - hs * light * (drag + a2)
                 A[w + 1, n + i] = hs * light * a2
                 up[i], eases[i] = stiff * stiff * left, 0.5 * hs * loss * share
+            if keep:  # what torques of drives and forces on links give to links, and to motors
+                shares[:] = 0.0
+                turns[:] = 0.0
+                for i in range(n):
+                    shares[i, n + i] = 1.0
+                    if motors[i] < 0:
+                        shares[i, i] = 1.0
+                    else:
+                        turns[i, i] = gears[i, 3]
             for i in range(n):  # the damping of a gear acts in the middle of the step, not at its beginning
                 w = motors[i]
                 if w < 0 or eases[i] == 0.0:
@@ -149,6 +161,13 @@ def filter_chain(  # type: ignore[no-untyped-def]
                 for b in range(L):
                     Y[i, b] += ease * d[b]
                     A[w + 1, b] -= hs * light * ease * d[b]
+                if keep:
+                    for c in range(2 * n):
+                        push = turns[i, c]
+                        for j in range(n):
+                            push -= W[k, i, j] * shares[j, c]
+                        shares[i, c] += ease * push
+                        turns[i, c] -= light * ease * push
             for i in range(n):
                 for j in range(n):
                     r = W[k, i, j]
@@ -215,13 +234,14 @@ def filter_chain(  # type: ignore[no-untyped-def]
                     P[w, w + 1] += 0.5 * more * hs
                     P[w + 1, w] += 0.5 * more * hs
                     force = up[i] * hs * hs
-                    if keep:
-                        E[w + 1, i] += hs * light
-                        E[w, i] += 0.5 * hs * hs * light
-                elif keep:
-                    for a in range(n):
-                        E[n + a, i] += hs * W[k, a, i]
-                        E[a, i] += 0.5 * hs * hs * W[k, a, i]
+                if keep:
+                    for c in range(2 * n):
+                        if w >= 0:
+                            E[w + 1, c] += hs * turns[i, c]
+                            E[w, c] += 0.5 * hs * hs * turns[i, c]
+                        for a in range(n):
+                            E[n + a, c] += hs * W[k, a, i] * shares[i, c]
+                            E[a, c] += 0.5 * hs * hs * W[k, a, i] * shares[i, c]
                 for a in range(n):
                     r = W[k, a, i] * force
                     for b in range(n):
@@ -266,16 +286,16 @@ def filter_chain(  # type: ignore[no-untyped-def]
                     for a in range(L):
                         for j in range(L):
                             F[a, j] += g[a] * d[j]
-                    for j in range(n):
-                        d[j] = slant * E[b, j] + slope * E[c, j]
-                    for a in range(L):
-                        for j in range(n):
-                            E[a, j] += g[a] * d[j]
+                    for j in range(2 * n):
+                        push = slant * E[b, j] + slope * E[c, j]
+                        for a in range(L):
+                            E[a, j] += g[a] * push
         if keep:
             moves[k] = F
             pushes[k] = E
             for i in range(n):
                 accelerations[k, i] += x[n + i] / dt
+                accelerations[k, n + i] += (x[n + i] if motors[i] < 0 else x[motors[i] + 1]) / dt
     return N
 
 
@@ -283,13 +303,13 @@ def filter_chain(  # type: ignore[no-untyped-def]
 def differentiate_errors(picks, gains, moves, pushes, joints, columns, shifts, found):  # type: ignore[no-untyped-def]
     """Write the derivatives of one-step errors with respect to coefficients of forces into `found`.
 
-    `columns` (count, samples) are the forces of unit coefficients at the joint `joints[c]` (at all joints where it is
-    negative: then row c + j of `columns` is the force at joint j, and only the first row counts). `shifts`
+    `columns` (count, samples) are the forces of unit coefficients by the drive of the joint `joints[c]` (on all links
+    where it is negative: then row c + j of `columns` is the force at joint j, and only the first row counts). `shifts`
     (count, readings) are shifts of the readings by a unit coefficient. `found` is (count, samples, readings). The gains
     of the filter are held: they do not depend on forces as long as the laws are linear.
     """
     N, m, L = gains.shape
-    n = pushes.shape[2]
+    n = pushes.shape[2] // 2
     count = len(joints)
     D, T = np.zeros((L, count)), np.zeros((L, count))
     e = np.zeros(count)
@@ -318,7 +338,7 @@ def differentiate_errors(picks, gains, moves, pushes, joints, columns, shifts, f
                     T[a, b] += pushes[k, a, j] * columns[b, k]
                 elif j == -1:
                     for i in range(n):
-                        T[a, b] += pushes[k, a, i] * columns[b + i, k]
+                        T[a, b] += pushes[k, a, n + i] * columns[b + i, k]
         for a in range(L):
             for b in range(count):
                 D[a, b] = T[a, b]

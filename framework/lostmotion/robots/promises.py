@@ -223,6 +223,6 @@ def _gain_in_one_step(beside: ArmHypothesis, seen: Innovations) -> float:
 
 def relinearise(kept: FilteredLog, joints: int) -> Path:
     """Return the path of a filtered recording."""
-    a = kept.accelerations.copy()
+    a = kept.accelerations[:, :joints].copy()
     a[-1] = a[-2]
     return Path(kept.states[:, :joints], kept.states[:, joints : 2 * joints], a)
