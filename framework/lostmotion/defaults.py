@@ -36,7 +36,9 @@ RARE: Mapping[str, Rarity] = {
 """The prior odds of terms in any machine: those that are not listed are equally common."""
 AT_GROUND = ("offset_force", "hidden_mode", "inertia_change")
 """Terms whose effect is the same at every place of a machine: they are tried at the ground only."""
-SLIDING = ("coulomb_friction", "stribeck_friction")
+DRY_FRICTION = "coulomb_friction"
+"""The law that friction with a soft onset in a joint contains."""
+SLIDING = (DRY_FRICTION, "stribeck_friction")
 """Laws that a simulation of a robot has as dry friction, of one level `force`."""
 RARE_IN_JOINTS: Mapping[str, float] = {
     "bilinear_stiffness": 2.0, "cubic_stiffness": 1.0, "quadratic_stiffness": 1.5,  # a joint rarely has any spring

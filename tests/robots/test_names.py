@@ -49,6 +49,30 @@ def test_a_gear_is_not_refused_for_what_fitted_values_undo(helpers, terms):
     assert abs(_gain_in_one_step(nominal, seen)) < 1.0
 
 
+def test_friction_with_a_soft_onset_at_the_elbow(search_of, helpers):
+    """Without its law, ripple of the friction and a flexible gear were named, or a friction of two directions."""
+    machine = Arm(friction=np.array([0.0, 0.3]), onset=np.array([2e-4, 0.05]))
+    search = search_of(helpers.record(machine), (*NAMES, "directional_friction", "position_dependent_friction"))
+    assert search.best.terms == {"soft_friction@elbow"}
+    assert lead(search)[1] > 0.95
+    assert search.best.values["soft_friction@elbow.force"] == pytest.approx(0.3, rel=0.03)
+    assert search.best.values["soft_friction@elbow.velocity"] == pytest.approx(0.05, rel=0.1)
+
+
+def test_a_sharp_resonance_of_a_gear_is_found(helpers, terms):
+    """Its motor is hardly damped: starts at 5 and 39 kN m/rad alone did not reach 2 kN m/rad, which gains 370 nats."""
+    pytest.importorskip("mujoco", reason="MJCF needs the extra mujoco")
+    from lostmotion_plugins.simulators.mujoco import MujocoSimulator
+
+    machine = Arm(play=np.array([-1.0, 0.0]), stiffness=np.array([5e4, 2e3]), loss=np.array([20.0, 0.2]))
+    simulator, name = MujocoSimulator(), "joint_elasticity@elbow.gear"
+    arm = make_arm(simulator, helpers.record(machine, seed=11, samples=5000))
+    search, start = prepare_search(arm, simulator, terms, {}, SearchOptions(asked=(name,), most=1))
+    search.run(start)
+    assert search.best.terms == {name}
+    assert search.best.values[f"{name}.stiffness"] == pytest.approx(2e3, rel=0.03)
+
+
 def test_nothing_is_named_where_nothing_is_hidden(search_of, helpers):
     search = search_of(helpers.record(Arm(), seed=4), NAMES)
     key, share = lead(search)
@@ -72,7 +96,7 @@ def test_other_effects(search_of, helpers, machine, key):
 
 @pytest.mark.slow
 def test_wrong_centres_of_mass_are_no_missing_physics(helpers, terms):
-    """The centres are wrong by 7 and 8 %, known within 5 %; without their freedom a spring or a payload is named."""
+    """The centres are wrong by 10 %, known within 5 %; without their freedom a payload is named."""
     pytest.importorskip("mujoco", reason="MJCF needs the extra mujoco")
     from lostmotion_plugins.simulators.mujoco import MujocoSimulator
 
@@ -81,7 +105,7 @@ def test_wrong_centres_of_mass_are_no_missing_physics(helpers, terms):
 
         inertial: ClassVar = {}
 
-    log = helpers.record(Arm(centre=np.array([0.214, 0.138])), seed=1)
+    log = helpers.record(Arm(centre=np.array([0.22, 0.165])), seed=1)
     kept, found = [t for t in terms if t.name in (*NAMES, "linear_stiffness")], []
     for simulator in (MujocoSimulator(), Sure()):
         search, start = prepare_search(
@@ -89,4 +113,5 @@ def test_wrong_centres_of_mass_are_no_missing_physics(helpers, terms):
         )
         found.append(lead(search.run(start)))
     assert found[0][0] == "nothing_missing"
-    assert found[1][0] != "nothing_missing"
+    assert found[1][0] == "payload@tip"
+    assert found[1][1] > 0.95

@@ -34,8 +34,11 @@ def test_the_cost_of_a_shift_is_that_of_the_force_that_causes_it(nominal):
     more = np.zeros((frame.arm.log.samples, 2))
     more[:, 1] = 0.05
     force = frame.discrepancy.force(nominal.at[len(frame.own) :])
-    lost = nominal.kept.seen.log_likelihood - frame.run(nominal.at, force=force - more).seen.log_likelihood
-    shift = np.einsum("kai,ki->ka", nominal.kept.pushes, -more[:last])
+    lost = (
+        nominal.kept.seen.log_likelihood
+        - frame.run(nominal.at, force=force - np.hstack([more, 0.0 * more])).seen.log_likelihood
+    )
+    shift = np.einsum("kai,ki->ka", nominal.kept.pushes[:, :, :2], -more[:last])
     assert _weigh_shift(nominal, shift) == pytest.approx(float(lost), rel=1e-6)
 
 

@@ -12,93 +12,17 @@ States are the positions (n,), the velocities (n,), then position and velocity o
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numba
 import numpy as np
 
-from lostmotion.kernels import vector
+from lostmotion.kernels.joint_laws import average_laws, clip_moments
 from lostmotion.kernels.vector import STRIDE
 
-pointer: Any = vector.pointer
-call: Any = vector.call
-
-_FEW = np.polynomial.hermite_e.hermegauss(3)
-_MANY = np.polynomial.hermite_e.hermegauss(14)
-FEW, FEW_SHARES = _FEW[0], _FEW[1] / _FEW[1].sum()
-MANY, MANY_SHARES = _MANY[0], _MANY[1] / _MANY[1].sum()
-"""Nodes and weights of Gauss-Hermite quadrature: far from zero velocity, where laws are smooth, and near it."""
+STEEP = 0.01
+"""A law takes the fine steps while it slows its joint down by more than this share within a sample."""
 RUNAWAY = 1e6
 """A velocity (SI) that no machine reaches: the filter has diverged."""
-_RT2, _RT2PI = math.sqrt(2.0), math.sqrt(2.0 * math.pi)
-
-
-@numba.njit(cache=True, nogil=True, error_model="numpy")
-def clip_moments(m, s, c):  # type: ignore[no-untyped-def]
-    """Return mean, slope and remaining variance of clip(d, -c, c) for d of mean `m` and standard deviation `s`."""
-    a, b = (-c - m) / s, (c - m) / s
-    if a > 8.0:
-        return -c, 0.0, 0.0
-    if b < -8.0:
-        return c, 0.0, 0.0
-    below, above = 0.5 * math.erfc(-a / _RT2), 0.5 * math.erfc(b / _RT2)
-    fa = math.exp(-0.5 * a * a) / _RT2PI if abs(a) < 30.0 else 0.0
-    fb = math.exp(-0.5 * b * b) / _RT2PI if abs(b) < 30.0 else 0.0
-    p = 1.0 - below - above
-    mean = c * (above - below) + m * p + s * (fa - fb)
-    square = c * c * (below + above) + (m * m + s * s) * p + 2.0 * m * s * (fa - fb) + s * s * (a * fa - b * fb)
-    return mean, p, max(square - mean * mean - p * p * s * s, 0.0)
-
-
-@numba.njit(cache=True, nogil=True, error_model="numpy")
-def _average_laws(t, q, v, sq, sv, j, mobility, step, joints, addresses, firsts, widths, needs, numbers, own, desk):  # type: ignore[no-untyped-def]
-    """Return the mean force of the laws of a joint, its slopes over position and velocity, and its variance."""
-    spread = 6.0 * sv
-    near = abs(v) < spread + 1e-9
-    for a in range(len(joints)):
-        if joints[a] == j:  # the width of the line of dry friction: a force times the mobility
-            for b in range(widths[a]):
-                if needs[firsts[a] + b] == 1 and abs(v) < spread + 3.0 * mobility * abs(numbers[firsts[a]]):
-                    near = True
-    count = len(MANY) if near else len(FEW)
-    lanes = count + 2
-    for o in range(lanes):
-        node = 0.0
-        if o < count:
-            node = MANY[o] if near else FEW[o]
-        desk[0, o], desk[2, o], desk[3, o] = t, v + sv * node, 0.0
-        desk[1, o] = q + (sq if o == count else (-sq if o == count + 1 else 0.0))
-    mean, square, slope, slant = 0.0, 0.0, 0.0, 0.0
-    total = desk[4]
-    for o in range(lanes):
-        total[o] = 0.0
-    for a in range(len(joints)):
-        if joints[a] != j:
-            continue
-        for b in range(widths[a]):
-            kind = needs[firsts[a] + b]
-            number = numbers[firsts[a] + b]
-            if kind == 1:
-                number = mobility
-            elif kind == 2:
-                number = step
-            elif kind == 3:
-                number = step / mobility
-            for o in range(lanes):
-                own[b, o] = number
-        if call(addresses[a], pointer(own), pointer(desk), lanes) != 0:
-            return math.nan, 0.0, 0.0, 0.0
-        for o in range(lanes):
-            total[o] += desk[3, o]
-    for o in range(count):
-        share = MANY_SHARES[o] if near else FEW_SHARES[o]
-        node = MANY[o] if near else FEW[o]
-        mean += share * total[o]
-        square += share * total[o] * total[o]
-        slope += share * node * total[o]
-    slope /= sv
-    slant = (total[count] - total[count + 1]) / (2.0 * sq)
-    return mean, slant, slope, max(square - mean * mean - slope * slope * sv * sv, 0.0)
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
@@ -109,20 +33,21 @@ def filter_chain(  # type: ignore[no-untyped-def]
     """Write one-step errors and their variances, (samples, readings); return the number of samples that were filtered.
 
     `z` (samples, readings) may hold NaN, `picks` are the states that are read. A sample has `coarse` steps, or
-    `fine` ones while a law may change its sign; `inverses` (2, samples, n, n) are those of M + hs / 2 KV for the two
-    lengths hs of a step. `h` already holds - Kv v0. `tau` (samples, n) acts over the sample
-    that follows, `S` (n,) is the intensity of the random force (N m)^2 s and `R` (readings,) the variance of readings.
+    `fine` ones while a law is steep or may change its sign; `inverses` (2, samples, n, n) are those of M + hs / 2 KV
+    for the two lengths hs of a step. `h` already holds - Kv v0. `tau` (samples, n) acts over the sample that follows,
+    `S` (n,) is the intensity of the random force (N m)^2 s and `R` (readings,) the variance of readings.
     `motors` (n,) is the position of the motor of a joint in the state, or -1; `gears` (n, 5) holds half of its play,
     stiffness, damping, one over its inertia, and its viscous damping. Laws have a joint, an address, and numbers; the
     time of the first sample is `begin` (s). Where `moves` has a row for each sample, `states`, `gains`,
-    `accelerations`, and the transitions `moves` (samples, L, L) and `pushes` (samples, L, n) are written too.
+    `accelerations` (samples, 2n) of links and of what the drives turn, and the transitions `moves` (samples, L, L) and
+    `pushes` (samples, L, 2n) by torques of the drives and on the links are written too.
     """
     N, m = z.shape
     n = Kq.shape[1]
     L = len(x0)
     keep = len(moves) == N
     x, P = x0.copy(), P0.copy()
-    A, T, F, E = np.zeros((L, L)), np.zeros((L, L)), np.zeros((L, L)), np.zeros((L, n))
+    A, T, F, E = np.zeros((L, L)), np.zeros((L, L)), np.zeros((L, L)), np.zeros((L, 2 * n))
     Y, y, g, d, f, up = np.zeros((n, L)), np.zeros(n), np.zeros(L), np.zeros(L), np.zeros(L), np.zeros(L)
     own, desk, noise = np.zeros((16, STRIDE)), np.zeros((8, STRIDE)), np.zeros((n, n))
     places = np.concatenate((np.arange(n), np.arange(2 * n, L, 2)))
@@ -130,7 +55,8 @@ def filter_chain(  # type: ignore[no-untyped-def]
     active = np.zeros(n, dtype=np.bool_)
     for a in range(len(joints)):
         active[joints[a]] = True
-    past = np.zeros(n)
+    past, bends, eases = np.zeros(n), np.zeros(n), np.zeros(n)
+    shares, turns = np.zeros((n, 2 * n)), np.zeros((n, 2 * n))
     for k in range(N):
         for i in range(m):
             if z[k, i] != z[k, i]:
@@ -163,11 +89,12 @@ def filter_chain(  # type: ignore[no-untyped-def]
                 F[a, a] = 1.0
             for i in range(n):
                 accelerations[k, i] = -x[n + i] / dt
+                accelerations[k, n + i] = accelerations[k, i] if motors[i] < 0 else -x[motors[i] + 1] / dt
         steps, W = coarse, inverses[0]
         if fine > coarse:
             for i in range(n):
                 c = n + i if motors[i] < 0 else motors[i] + 1
-                if active[i] and abs(x[c]) < 6.0 * math.sqrt(P[c, c]) + 2.0 * abs(x[c] - past[i]):
+                if active[i] and (bends[i] > STEEP or abs(x[c]) < 2.0 * abs(x[c] - past[i])):
                     steps, W = fine, inverses[1]
                 past[i] = x[c]
         hs = dt / steps
@@ -182,10 +109,8 @@ def filter_chain(  # type: ignore[no-untyped-def]
                     Y[i, j] -= Kq[k, i, j]
                     Y[i, n + j] -= KV[k, i, j] + 0.5 * hs * Kq[k, i, j]
                 y[i] = r
-            for a in range(L):
-                for b in range(L):
-                    A[a, b] = 0.0
-                f[a] = 0.0
+            A[:] = 0.0
+            f[:] = 0.0
             for i in range(n):
                 w = motors[i]
                 if w < 0:
@@ -207,7 +132,42 @@ def filter_chain(  # type: ignore[no-untyped-def]
                 A[w + 1, i] = hs * light * a1
                 A[w + 1, w + 1] = 1.0 - hs * light * (drag + a2)
                 A[w + 1, n + i] = hs * light * a2
-                up[i] = stiff * stiff * left
+                up[i], eases[i] = stiff * stiff * left, 0.5 * hs * loss * share
+            if keep:  # what torques of drives and forces on links give to links, and to motors
+                shares[:] = 0.0
+                turns[:] = 0.0
+                for i in range(n):
+                    shares[i, n + i] = 1.0
+                    if motors[i] < 0:
+                        shares[i, i] = 1.0
+                    else:
+                        turns[i, i] = gears[i, 3]
+            for i in range(n):  # the damping of a gear acts in the middle of the step, not at its beginning
+                w = motors[i]
+                if w < 0 or eases[i] == 0.0:
+                    continue
+                light = gears[i, 3]
+                ease = eases[i] / (1.0 + eases[i] * (light + W[k, i, i]))
+                apart = f[w + 1]
+                for b in range(L):
+                    d[b] = A[w + 1, b] / hs
+                d[w + 1] -= 1.0 / hs
+                for j in range(n):
+                    apart -= W[k, i, j] * y[j]
+                    for b in range(L):
+                        d[b] -= W[k, i, j] * Y[j, b]
+                y[i] += ease * apart
+                f[w + 1] -= light * ease * apart
+                for b in range(L):
+                    Y[i, b] += ease * d[b]
+                    A[w + 1, b] -= hs * light * ease * d[b]
+                if keep:
+                    for c in range(2 * n):
+                        push = turns[i, c]
+                        for j in range(n):
+                            push -= W[k, i, j] * shares[j, c]
+                        shares[i, c] += ease * push
+                        turns[i, c] -= light * ease * push
             for i in range(n):
                 for j in range(n):
                     r = W[k, i, j]
@@ -274,13 +234,14 @@ def filter_chain(  # type: ignore[no-untyped-def]
                     P[w, w + 1] += 0.5 * more * hs
                     P[w + 1, w] += 0.5 * more * hs
                     force = up[i] * hs * hs
-                    if keep:
-                        E[w + 1, i] += hs * light
-                        E[w, i] += 0.5 * hs * hs * light
-                elif keep:
-                    for a in range(n):
-                        E[n + a, i] += hs * W[k, a, i]
-                        E[a, i] += 0.5 * hs * hs * W[k, a, i]
+                if keep:
+                    for c in range(2 * n):
+                        if w >= 0:
+                            E[w + 1, c] += hs * turns[i, c]
+                            E[w, c] += 0.5 * hs * hs * turns[i, c]
+                        for a in range(n):
+                            E[n + a, c] += hs * W[k, a, i] * shares[i, c]
+                            E[a, c] += 0.5 * hs * hs * W[k, a, i] * shares[i, c]
                 for a in range(n):
                     r = W[k, a, i] * force
                     for b in range(n):
@@ -299,7 +260,7 @@ def filter_chain(  # type: ignore[no-untyped-def]
                 b, c = (i, n + i) if w < 0 else (w, w + 1)
                 ease = W[k, i, i] if w < 0 else gears[i, 3]
                 sq, sv = math.sqrt(max(P[b, b], 1e-24)), math.sqrt(max(P[c, c], 1e-24))
-                mean, slant, slope, left = _average_laws(
+                mean, slant, slope, left = average_laws(
                     begin + (k + (s + 0.5) / steps) * dt, x[b] - 0.5 * hs * x[c], x[c], sq, sv, i, hs * ease, hs,
                     joints, addresses, firsts, widths, needs, numbers, own, desk)  # fmt: skip
                 for a in range(L):
@@ -311,6 +272,7 @@ def filter_chain(  # type: ignore[no-untyped-def]
                 else:
                     g[w + 1] = hs * ease
                     g[w] = 0.5 * hs * g[w + 1]
+                bends[i] = abs(slope) * ease * dt
                 inner = slant * slant * P[b, b] + 2.0 * slant * slope * P[b, c] + slope * slope * P[c, c] + left
                 for a in range(L):
                     x[a] += g[a] * mean
@@ -324,16 +286,16 @@ def filter_chain(  # type: ignore[no-untyped-def]
                     for a in range(L):
                         for j in range(L):
                             F[a, j] += g[a] * d[j]
-                    for j in range(n):
-                        d[j] = slant * E[b, j] + slope * E[c, j]
-                    for a in range(L):
-                        for j in range(n):
-                            E[a, j] += g[a] * d[j]
+                    for j in range(2 * n):
+                        push = slant * E[b, j] + slope * E[c, j]
+                        for a in range(L):
+                            E[a, j] += g[a] * push
         if keep:
             moves[k] = F
             pushes[k] = E
             for i in range(n):
                 accelerations[k, i] += x[n + i] / dt
+                accelerations[k, n + i] += (x[n + i] if motors[i] < 0 else x[motors[i] + 1]) / dt
     return N
 
 
@@ -341,13 +303,13 @@ def filter_chain(  # type: ignore[no-untyped-def]
 def differentiate_errors(picks, gains, moves, pushes, joints, columns, shifts, found):  # type: ignore[no-untyped-def]
     """Write the derivatives of one-step errors with respect to coefficients of forces into `found`.
 
-    `columns` (count, samples) are the forces of unit coefficients at the joint `joints[c]` (at all joints where it is
-    negative: then row c + j of `columns` is the force at joint j, and only the first row counts). `shifts`
+    `columns` (count, samples) are the forces of unit coefficients by the drive of the joint `joints[c]` (on all links
+    where it is negative: then row c + j of `columns` is the force at joint j, and only the first row counts). `shifts`
     (count, readings) are shifts of the readings by a unit coefficient. `found` is (count, samples, readings). The gains
     of the filter are held: they do not depend on forces as long as the laws are linear.
     """
     N, m, L = gains.shape
-    n = pushes.shape[2]
+    n = pushes.shape[2] // 2
     count = len(joints)
     D, T = np.zeros((L, count)), np.zeros((L, count))
     e = np.zeros(count)
@@ -376,24 +338,7 @@ def differentiate_errors(picks, gains, moves, pushes, joints, columns, shifts, f
                     T[a, b] += pushes[k, a, j] * columns[b, k]
                 elif j == -1:
                     for i in range(n):
-                        T[a, b] += pushes[k, a, i] * columns[b + i, k]
+                        T[a, b] += pushes[k, a, n + i] * columns[b + i, k]
         for a in range(L):
             for b in range(count):
                 D[a, b] = T[a, b]
-
-
-@numba.njit(cache=True, nogil=True, error_model="numpy")
-def evaluate_law(address, numbers, t, q, v, found):  # type: ignore[no-untyped-def]
-    """Write the force of a law with all its `numbers` at times, positions and velocities (samples,) into `found`."""
-    own, desk = np.zeros((16, STRIDE)), np.zeros((8, STRIDE))
-    for first in range(0, len(t), STRIDE):
-        lanes = min(STRIDE, len(t) - first)
-        for o in range(lanes):
-            desk[0, o], desk[1, o], desk[2, o] = t[first + o], q[first + o], v[first + o]
-            for a in range(len(numbers)):
-                own[a, o] = numbers[a]
-        if call(address, pointer(own), pointer(desk), lanes) != 0:
-            return False
-        for o in range(lanes):
-            found[first + o] = desk[3, o]
-    return True

@@ -171,8 +171,8 @@ class TapedArm:
         """Return the one-step errors of the log up to sample `last` under values, terms and levels.
 
         `levels` are the intensities of the random forces (n,) in (N m)^2 s, and the variances of the readings. `force`
-        (samples, n) is added to the torques. `readings` replace those of the log; `start` is a first sample, with the
-        mean and covariance of the state there.
+        (samples, n) is added to the torques of the drives; (samples, 2n) has forces on the links as well. `readings`
+        replace those of the log; `start` is a first sample, with the mean and covariance of the state there.
         """
         log, gears = self.log, dict(gears or {})
         laws = [(t, self.joints.index(t.at)) for t in terms if not isinstance(t, DriveTerm)]
@@ -181,19 +181,21 @@ class TapedArm:
         fine = max(coarse, LAW_STEPS) if len(table.joints) else coarse
         inverses, kq, kv, free = self._build(values, tuple(sorted(gears)), (coarse, fine))
         tau = log.drive([t for t in terms if isinstance(t, DriveTerm)], values)
-        tau = tau if force is None else tau + force
+        n = len(self.joints)
+        if force is not None:
+            tau, free = tau + force[:, :n], free - force[:, n:] if force.shape[1] > n else free
         first = 0 if start is None else start[0]
         part = slice(first, last)
         z = (log.readings if readings is None else readings)[part]
         motors, plain = self._place_motors(gears, values)
         mean, cov = self._begin(gears, motors) if start is None else start[1:]
-        samples, n, count, size = len(z), len(self.joints), z.shape[1], len(mean)
+        samples, count, size = len(z), z.shape[1], len(mean)
         errors, variances = np.zeros((samples, count)), np.ones((samples, count))
         kept = samples if keep else 0
         picks = self.pick(gears)
         wide = {
-            "states": (size,), "accelerations": (n,), "gains": (count, size), "moves": (size, size),
-            "pushes": (size, n),
+            "states": (size,), "accelerations": (2 * n,), "gains": (count, size), "moves": (size, size),
+            "pushes": (size, 2 * n),
         }  # fmt: skip
         made = {name: np.zeros((kept, *shape)) for name, shape in wide.items()}
         *_, q0, v0 = self._middle
@@ -294,7 +296,7 @@ CHUNK = 64
 
 @dataclass(frozen=True, eq=False)
 class Column:
-    """The force of a unit coefficient: (samples,) at one joint, or (samples, n) at all joints if `joint` is -1."""
+    """The force of a unit coefficient: (samples,) by one drive, or (samples, n) on all links if `joint` is -1."""
 
     name: str
     joint: int

@@ -97,19 +97,25 @@ class Discrepancy:
         return sum(map(math.log, options)) + (WORSE if choice[-1] else 0.0)
 
     def force(self, coefficients: Array) -> Array:
-        """Return the force (samples, n) of coefficients."""
-        found = np.zeros(self.shape)
+        """Return the forces of coefficients (samples, 2n): those of the drives, then those on the links."""
+        samples, n = self.shape
+        found = np.zeros((samples, 2 * n))
         for c in np.flatnonzero(coefficients):
             column = self.columns[c]
-            part = found if column.joint < 0 else found[:, column.joint]
+            part = found[:, n:] if column.joint < 0 else found[:, column.joint]
             part += coefficients[c] * column.force
         return found
 
     def follow(self, accelerations: Array) -> Discrepancy:
-        """Return the discrepancy with the torques of inertias under other accelerations (samples, n)."""
-        columns = list(self.columns)
+        """Return the discrepancy with the torques of inertias under other accelerations.
+
+        These are (samples, 2n), of links and of what the drives turn: the motor, where a joint has a gear.
+        """
+        columns, n = list(self.columns), self.shape[1]
         for i, part in self.inertias.items():
-            columns[i] = replace(columns[i], force=-part.weigh(accelerations))
+            columns[i] = _make_inertia(
+                columns[i].name, columns[i].joint, part, accelerations[:, :n], accelerations[:, n:]
+            )
         return replace(self, columns=tuple(columns))
 
     def _condition(self, gradient: Array, information: Array, looser: int) -> tuple[float, Array, Array]:
@@ -158,7 +164,9 @@ def make_discrepancy(
     path = arm.tape.path
     parts = _list_inertias(arm, scales, tolerance, estimated, inertial)
     fixed = _list_known(arm, scales, tolerance, estimated)
-    columns = [*(Column(name, -1, -part.weigh(path.a)) for name, part, _ in parts), *(c for c, _ in fixed)]
+    own = {f"{joint}.armature": j for j, joint in enumerate(arm.joints)}
+    inertia = [_make_inertia(name, own.get(name, -1), part, path.a, path.a) for name, part, _ in parts]
+    columns = [*inertia, *(c for c, _ in fixed)]
     widths, forces = [*(width for *_, width in parts), *(w for _, w in fixed)], []
     known = [True] * len(parts) + [c.name in arm.values for c, _ in fixed]
     time = np.asarray(np.arange(len(path.q)) * arm.log.dt, dtype=float)
@@ -173,6 +181,11 @@ def make_discrepancy(
     known += [False] * (len(columns) - len(known))
     inertias = {i: part for i, (_, part, _) in enumerate(parts)}
     return Discrepancy(tuple(columns), np.array(widths), np.array(known), tuple(forces), path.q.shape, inertias)
+
+
+def _make_inertia(name: str, joint: int, part: Part, links: Array, drives: Array) -> Column:
+    """Return the torque of one unit of an inertia of the links, or of the drive of a joint, under accelerations."""
+    return Column(name, joint, -part.weigh(links) if joint < 0 else -part.weigh(drives)[:, joint])
 
 
 def make_none(arm: TapedArm) -> Discrepancy:

@@ -16,12 +16,12 @@ import numpy as np
 from lostmotion.contracts import DriveTerm, Term
 from lostmotion.defaults import RARE_IN_JOINTS
 from lostmotion.inference.penalties import compute_own_penalty
-from lostmotion.kernels.chain import evaluate_law
+from lostmotion.kernels.joint_laws import evaluate_law
 from lostmotion.likelihood.compose import compile_law
 from lostmotion.parts import Array, Param
 from lostmotion.quantities import INERTIA, LENGTH, NUMBER, STIFFNESS, TIME, Dimension
 from lostmotion.robots.arm import Column, TapedArm, make_law
-from lostmotion.robots.gears import AT, BACKLASH, USUAL_DAMPING, Gear, GearLaw
+from lostmotion.robots.gears import AT, BACKLASH, ELASTICITY, USUAL_DAMPING, Gear, GearLaw
 from lostmotion.robots.tape import Path
 
 UNSURE = 1.5
@@ -273,8 +273,9 @@ class GearEffect:
         return ()
 
     def list_starts(self) -> list[dict[str, float]]:
-        """Return values at which the gear is tried."""
-        tried = {"gap": (-1.5, 0.0, 1.5), "stiffness": (-1.0, 1.0), "damping_ratio": (0.0,)}
+        """Return values at which the gear is tried: the resonance of one without play may be sharp."""
+        stiff = tuple(np.linspace(-3.5, 1.0, 10).tolist()) if self.law is ELASTICITY else (-1.0, 1.0)
+        tried = {"gap": (-1.5, 0.0, 1.5), "stiffness": stiff, "damping_ratio": (0.0,)}
         grids = [tried[name] for name in self.law.params]
         return [
             {c.key: math.exp(c.mean + step) for c, step in zip(self.coordinates, steps, strict=True)}

@@ -22,6 +22,7 @@ from lostmotion.robots.arm_effects import ArmEffect, GearEffect, JointScales, La
 from lostmotion.robots.arm_hypothesis import ArmHypothesis
 from lostmotion.robots.gears import ELASTICITY, GEARS
 from lostmotion.robots.pitch_scan import find_pitches
+from lostmotion.robots.soft_friction import SOFT_FRICTION
 from lostmotion.robots.tape import Path
 
 TYPICAL_MASS = 0.1
@@ -71,7 +72,7 @@ def list_effects(
 ) -> list[ArmEffect]:
     """Return all effects of an arm: laws at joints and drives, gears, masses; `plain` is the filtered nominal model."""
     found: list[ArmEffect] = []
-    terms = [term for term in terms if can_act(term)]
+    terms = [*(term for term in terms if can_act(term)), SOFT_FRICTION]
     for j, joint in enumerate(arm.joints):
         pitches = find_pitches(arm, plain, j)
         for term in terms:
@@ -222,6 +223,6 @@ def _gain_in_one_step(beside: ArmHypothesis, seen: Innovations) -> float:
 
 def relinearise(kept: FilteredLog, joints: int) -> Path:
     """Return the path of a filtered recording."""
-    a = kept.accelerations.copy()
+    a = kept.accelerations[:, :joints].copy()
     a[-1] = a[-2]
     return Path(kept.states[:, :joints], kept.states[:, joints : 2 * joints], a)

@@ -83,6 +83,11 @@ def _hide_directional(arm: Arm, j: int, rng: np.random.Generator) -> Truth:
     return Truth("directional_friction", JOINTS[j], values)
 
 
+def _hide_soft(arm: Arm, j: int, rng: np.random.Generator) -> Truth:
+    arm.friction[j], arm.onset[j] = _size(rng, (0.8, 0.3)[j]), rng.uniform(0.03, 0.15)
+    return Truth("soft_friction", JOINTS[j], {"force": float(arm.friction[j]), "velocity": float(arm.onset[j])})
+
+
 def _hide_viscous(arm: Arm, j: int, rng: np.random.Generator) -> Truth:
     more = _size(rng, (0.4, 0.2)[j])
     arm.damping[j] += more
@@ -135,6 +140,7 @@ EFFECTS: Mapping[str, Callable[[Arm, int, np.random.Generator], Truth]] = {
     "cogging": _hide_ripple, "backlash": _hide_play, "joint_elasticity": _hide_flexible,
     "excitation_delay": _hide_delay, "payload": _hide_payload, "directional_friction": _hide_directional,
     "linear_stiffness": _hide_spring, "offset_force": _hide_offset, "excitation_gain": _hide_gain,
+    "soft_friction": _hide_soft,
 }  # fmt: skip
 """What may be hidden."""
 

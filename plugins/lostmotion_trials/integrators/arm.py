@@ -1,8 +1,8 @@
 """Arms with two joints under a digital controller: fourth-order Runge-Kutta with steps of 10 us, by their Lagrangian.
 
-The motion shares no code with the framework and none with a simulator. Dry friction is a smooth step over a speed that
-no encoder resolves; play is a contact with a spring and a damper; a link and its motor are two bodies where there is a
-gear between them.
+The motion shares no code with the framework and none with a simulator. Dry friction is a smooth step, usually over a
+speed that no encoder resolves; play is a contact with a spring and a damper; a link and its motor are two bodies where
+there is a gear between them.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 GRAVITY = 9.81
 STEP = 1e-5
 SLIDING = 2e-4
-"""The speed (rad/s) over which dry friction changes its sign."""
+"""The usual `onset`, which no encoder resolves."""
 
 
 def _pair(value: float) -> Array:
@@ -31,7 +31,8 @@ def _pair(value: float) -> Array:
 class Arm:
     """Two links in a vertical plane, and what acts at their joints; arrays are (2,), in SI units.
 
-    `play` is half of the play, negative where there is no gear between motor and link; a gear without play is flexible.
+    `onset` is the speed (rad/s) over which dry friction changes its sign. `play` is half of the play, negative where
+    there is no gear between motor and link; a gear without play is flexible.
     `delay` (s) and `gain` change the commanded torque. `payload` (kg) is carried at `reach` (m) on the second link.
     """
 
@@ -45,6 +46,7 @@ class Arm:
     excess: Array = field(default_factory=lambda: _pair(0.0))
     stribeck: Array = field(default_factory=lambda: _pair(0.05))
     backward: Array = field(default_factory=lambda: _pair(0.0))
+    onset: Array = field(default_factory=lambda: _pair(SLIDING))
     ripple: Array = field(default_factory=lambda: _pair(0.0))
     order: Array = field(default_factory=lambda: _pair(60.0))
     phase: Array = field(default_factory=lambda: _pair(0.0))
@@ -59,10 +61,10 @@ class Arm:
     reach: float = 0.35
 
     def joint_table(self) -> Array:
-        """Return what acts at each joint, (12, 2)."""
+        """Return what acts at each joint, (13, 2)."""
         rows = (
             self.friction, self.excess, self.stribeck, self.backward, self.ripple, self.order, self.phase, self.spring,
-            self.offset, self.play, self.stiffness, self.loss,
+            self.offset, self.play, self.stiffness, self.loss, self.onset,
         )  # fmt: skip
         return np.array(rows)
 
@@ -163,7 +165,7 @@ def _accelerate(y, torque, length, bodies, table, out):  # type: ignore[no-untyp
         x, w = (y[4 + j], y[6 + j]) if soft else (y[j], y[2 + j])
         level = table[0, j] if w > 0.0 or table[3, j] == 0.0 else table[3, j]
         level += table[1, j] * math.exp(-((w / table[2, j]) ** 2))
-        force = torque[j] - bodies[4, j] * w - level * math.tanh(w / SLIDING)
+        force = torque[j] - bodies[4, j] * w - level * math.tanh(w / table[12, j])
         force += table[4, j] * math.sin(table[5, j] * x + table[6, j]) - table[7, j] * x + table[8, j]
         if soft:
             twist = x - y[j]
