@@ -137,6 +137,11 @@ class JointFrame:
         """The name of each coordinate."""
         return (*self.posterior.space.keys, *(f"channel error {i}" for i in range(len(self.errors))))
 
+    @cached_property
+    def levels(self) -> NDArray[np.bool_]:
+        """Which coordinates (count,) are levels of noise and of random forces."""
+        return np.array([name.startswith("log_") for name in self.names])
+
     def transfer(self, values: Mapping[str, float]) -> Array:
         """Return coordinates (count,) from those of another frame by name; others are at their start."""
         return np.array([values.get(name, first) for name, first in zip(self.names, self.start, strict=True)])

@@ -42,9 +42,8 @@ def _score_piece(found: Hypothesis, observation: Observation, begin: int) -> flo
     def score(step: Array) -> float:
         return _score_point(one, found, found.at + step, first)
 
-    levels = np.array([name.startswith("log_") for name in frame.names])
     low, high = (bound - found.at for bound in frame.bounds)
-    return average_over_posterior(NormalPosterior(found.used, found.precision, levels, low, high), expand, score)
+    return average_over_posterior(NormalPosterior(found.used, found.precision, frame.levels, low, high), expand, score)
 
 
 @dataclass(frozen=True)

@@ -347,10 +347,7 @@ def _climb(frame: JointFrame, expansion: Expansion, step: Array, choice: Choice)
     steps are too short.
     """
     at, steps, value = expansion.at, _tune_steps(frame, expansion), _compute_log_posterior(frame, expansion, choice)
-    levels = np.array([name.startswith("log_") for name in frame.names])
-    low, high = frame.bounds
-    whole = np.array([at + step * np.where(levels, reach, 1.0) for reach in REACHES])
-    whole[:, levels] = np.clip(whole, low, high)[:, levels]
+    whole = np.clip([at + step * np.where(frame.levels, reach, 1.0) for reach in REACHES], *frame.bounds)
     gained = [_add_priors(frame, *one, choice) for one in zip(whole, frame.log_likelihood(whole, choice), strict=True)]
     if max(gained) > value:
         return frame.expand(whole[int(np.argmax(gained))], steps, choice)

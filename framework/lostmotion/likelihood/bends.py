@@ -15,6 +15,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lostmotion.contracts import Array, SensorTerm, Values
 from lostmotion.likelihood.innovations import Innovations
@@ -92,14 +93,24 @@ def correct_twice(
     if not twice:
         return readings, slopes
     found = filter_readings(seen, replace(points.select(twice), readings=readings[twice]))
-    noise = points.noise.variances(seen.sensors)[twice]
-    for k, i in enumerate(twice):
-        known = found.variances[k] < 2.0 * noise[k]
-        predicted = readings[i] - found.errors[k]
-        corrected = seen.readings - compute_sensor_errors(corrections[i].bends, predicted)
-        readings[i] = np.where(known, corrected, readings[i])
-        slopes[i] = np.where(known, 1.0, slopes[i])
+    bends, noise = [corrections[i].bends for i in twice], points.noise.variances(seen.sensors)[twice]
+    again = correct_by_predictions(seen.readings, bends, readings[twice], slopes[twice], found, noise)
+    readings[twice], slopes[twice], _ = again
     return readings, slopes
+
+
+def correct_by_predictions(
+    seen: Array, bends: Sequence[Sequence[Bend]], readings: Array, slopes: Array, found: Innovations, noise: Array
+) -> tuple[Array, Array, NDArray[np.bool_]]:
+    """Return readings corrected by the errors of sensors at predicted values, slopes, and where that was possible.
+
+    These and `readings` and `slopes` of a first pass with innovations `found` are (points, samples, sensors), as `seen`
+    or without points; `bends` are those of each point, and `noise` (points, sensors) is the variance of a reading.
+    Where a prediction is less certain than a reading, the correction of the first pass stays.
+    """
+    known = found.variances < 2.0 * noise[:, None]
+    wrong = [compute_sensor_errors(own, one) for own, one in zip(bends, readings - found.errors, strict=True)]
+    return np.where(known, seen - np.stack(wrong), readings), np.where(known, 1.0, slopes), known
 
 
 def compute_sensor_errors(bends: Sequence[Bend], values: Array) -> Array:

@@ -22,6 +22,7 @@ from lostmotion.likelihood.bends import (
     Bend,
     compute_sensor_errors,
     correct_bends,
+    correct_by_predictions,
     list_corrections,
     rescale_innovations,
 )
@@ -30,8 +31,6 @@ from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.points import Points, join_points
 from lostmotion.likelihood.posterior import Posterior
 
-REACH = 1e-3
-"""Differences of channels are taken over this share of the deviation of a state."""
 UNIT = 1e-4
 """The inputs are changed by this share for their derivatives."""
 
@@ -156,15 +155,13 @@ def _run_twice(
     if (begun := _run(posterior, replace(points, readings=readings))) is None:
         return None
     first, found = begun
-    known = found.variances < 2.0 * points.noise.variances(view.sensors)[:, None]
-    predicted = readings - found.errors
-    wrong = np.stack([compute_sensor_errors(bent, one) for bent, one in zip(bends, predicted, strict=True)])
-    readings, slopes = np.where(known, seen - wrong, readings), np.where(known, 1.0, slopes)
+    predicted, noise = readings[0] - found.errors[0], points.noise.variances(view.sensors)
+    readings, slopes, known = correct_by_predictions(seen, bends, readings, slopes, found, noise)
     if (ended := _run(posterior, replace(points, readings=readings))) is None:
         return None
-    reach = NUDGE * np.nanmax(np.abs(predicted[0]), axis=0, initial=1e-300)
-    sides = [compute_sensor_errors(bends[0], predicted[0] + side * reach) for side in (1.0, -1.0)]
-    rise = np.where(known[0] & np.isfinite(predicted[0]), (sides[0] - sides[1]) / (2.0 * reach), 0.0)
+    reach = NUDGE * np.nanmax(np.abs(predicted), axis=0, initial=1e-300)
+    sides = [compute_sensor_errors(bends[0], predicted + side * reach) for side in (1.0, -1.0)]
+    rise = np.where(known[0] & np.isfinite(predicted), (sides[0] - sides[1]) / (2.0 * reach), 0.0)
     bent = BentSensors(first, rise, np.where(np.isfinite(slopes[0]), slopes[0], 1.0))
     return replace(ended[0], bent=bent), rescale_innovations(ended[1], slopes)
 
