@@ -7,7 +7,7 @@
 `store` condenses a raw run (OUT/SET of `judge.py run`, OUT/oracle of `judge.py oracle`, the folder of a
 `lostmotion prove`, or that of `absent.py` or `check.py`) into `benchmarks/results/NAME.json`. `draw` writes the tables
 of the page between their marks; the build of the documentation draws the figures. `check` fails if a table is not that
-of the results. Reasons of misses are written by hand into `benchmarks/results/reasons.toml`, which `store` leaves alone.
+of the results. Reasons of misses are written by hand into `benchmarks/results/reasons.toml`; `store` leaves them alone.
 """
 
 from __future__ import annotations
@@ -21,7 +21,9 @@ from validation_tables import BLOCKS, find_unused_reasons
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "validation.md"
 MARK = "<!-- figures of benchmarks/validation.py {} -->"
-BLOCK = re.compile(rf"^{MARK.format('(?P<name>[a-z]+)')}\n(?P<text>.*?)^{MARK.format('end')}$", re.MULTILINE | re.DOTALL)
+BLOCK = re.compile(
+    MARK.format(r"(?P<name>(?!end\b)[a-z]+)") + r"\n(?P<text>.*?)^" + MARK.format("end"), re.MULTILINE | re.DOTALL
+)
 
 
 def write_blocks(text: str) -> str:

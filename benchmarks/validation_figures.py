@@ -195,7 +195,9 @@ def draw_times() -> Figure:
     axes.legend(loc="lower right", frameon=False, fontsize=8)
     every = sorted(t for r in newest for t in count_rows(r.rows).seconds)
     above = sum(t > SECONDS[1] for t in every)
-    print(f"Median {np.median(every):.0f} s, largest {every[-1]:.0f} s; {above} of {len(every)} above {SECONDS[1]:g} s.")
+    print(
+        f"Median {np.median(every):.0f} s, largest {every[-1]:.0f} s; {above} of {len(every)} above {SECONDS[1]:g} s."
+    )
     return figure
 
 

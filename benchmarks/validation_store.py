@@ -78,7 +78,9 @@ def condense_judged(run: Path, options: Mapping) -> tuple[dict, list[dict]]:
     codes = sorted({row["commit"] for row in rows})
     code = options.get("code") or codes[0]
     if len(codes) > 1 and not options.get("code"):
-        raise SystemExit(f"{run} has rows of the versions {', '.join(codes)}: give --code to store those of one of them")
+        raise SystemExit(
+            f"{run} has rows of the versions {', '.join(codes)}: give --code to store those of one of them"
+        )
     kind, fresh = rows[0]["set"], int(options.get("fresh") or 0)
     head = {"set": kind, "machines": describe_machines(kind, fresh), "code": code}
     make = f"{JUDGE} make --set {kind} --machines MACHINES" + (f" --fresh {fresh}" if fresh else "")
@@ -115,7 +117,8 @@ def condense_row(row: dict, known: Mapping[str, list], folder: Path | None) -> d
         "drive": truth["drive"],
         "sensor": str(truth["further"].get("sensor", "position")),
         "effects": [
-            condense_effect(e, names, truth, (shares or [None] * len(hidden))[i]) for i, e in enumerate(truth["effects"])
+            condense_effect(effect, names, truth, share)
+            for effect, share in zip(truth["effects"], shares or [None] * len(hidden), strict=True)
         ],
         "shares": shares is not None,
         "names": [
@@ -284,5 +287,3 @@ def list_rates(rates: Iterable[Sequence]) -> Iterator[dict]:
     """Yield a stored row for each rate of a study."""
     for what, hits, of in rates:
         yield {"what": what, "hits": hits, "of": of}
-
-

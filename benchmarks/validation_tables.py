@@ -60,38 +60,51 @@ def write_version(results: Sequence[Result], _: Reasons) -> str:
     commands = dict.fromkeys(f"`{command}`" for r in newest for command in r.commands)
     machines = sum(len(r.rows) for r in newest)
     return (
-        f"The newest results are of version `{newest[0].code}` ({newest[0].committed[:10]}), {machines} machines, run on"
-        f" {newest[0].date}. In a checkout of this version they are repeated by {', '.join(commands)}."
+        f"The newest results are of version `{newest[0].code}`, committed on {newest[0].committed[:10]}: {machines}"
+        f" machines, run on {newest[0].date}. In a checkout of this version they are repeated by {', '.join(commands)}."
     )
 
 
 def write_targets(results: Sequence[Result], _: Reasons) -> str:
     """Return the table of the targets: what the newest version reached."""
     newest = choose_newest(results)
-    rough = [row for r in newest if "imperfect" in r.set for row in r.rows]
     every = [row for r in newest for row in r.rows]
+    rough = [row for r in newest if "imperfect" in r.set for row in r.rows]
     empty = [row for row in every if not row["effects"] and row["status"] == "ok"]
-    own, known, asked = compare_with_oracle(results, newest)
     alarms = estimate_rate(sum(bool(list_false(row)) for row in empty), len(empty))
-    rates = [
-        ("names above 0.95 that are right, imperfect world", count_rows(rough).right, SURE, 1.0),
-        ("machines without a hidden effect that have a name above 0.95", alarms, 0.0, 0.01),
-        ("95 % intervals that hold the truth", count_rows(every).held, 0.93, 0.97),
+    rows = [
+        judge_rate("names above 0.95 that are right, imperfect world", count_rows(rough).right, SURE, 1.0),
+        judge_recall(*compare_with_oracle(results, newest)),
+        judge_rate("machines without a hidden effect that have a name above 0.95", alarms, 0.0, 0.01),
+        judge_rate("95 % intervals that hold the truth", count_rows(every).held, 0.93, 0.97),
+        *(
+            judge_time(*target, count_rows(every).seconds)
+            for target in zip(("median", "largest"), SECONDS, strict=True)
+        ),
     ]
-    rows = [judge_rate(*rate) for rate in rates]
+    return make_table(("what", "result", "target", "state"), rows)
+
+
+def judge_recall(own: int, known: int, asked: int) -> list[str]:
+    """Return the row of the effects that are named, beside those that the oracle names."""
     told = f"{own} beside {known}, of {asked} effects" if asked else "not measured"
     state = ("met" if own >= RECALL * known else "missed") if known else "not tried"
-    rows.insert(1, ["effects named above 0.95, beside those that the oracle names", told, f"at least {RECALL:.0%} of the oracle's", state])
-    times = count_rows(every).seconds
-    for what, pick, limit in (("median", np.median, SECONDS[0]), ("largest", max, SECONDS[1])):
-        said, met = (f"{pick(times):.0f} s", pick(times) <= limit) if times else ("not measured", False)
-        rows.append([f"processor time of a diagnosis, {what}", said, f"at most {limit:g} s", "met" if met else "missed"])
-    return make_table(("what", "result", "target", ""), [[a, b, c.replace("%", " %"), d] for a, b, c, d in rows])
+    aim = f"at least {100.0 * RECALL:.0f} % of the oracle's"
+    return ["effects named above 0.95, beside those that the oracle names", told, aim, state]
+
+
+def judge_time(which: str, limit: float, seconds: Sequence[float]) -> list[str]:
+    """Return the row of the median or the largest processor time."""
+    found = (np.median(seconds) if which == "median" else max(seconds)) if seconds else math.nan
+    state = "met" if found <= limit else "missed" if seconds else "not tried"
+    told = f"{found:.0f} s" if seconds else "not measured"
+    return [f"processor time of a diagnosis, {which}", told, f"at most {limit:g} s", state]
 
 
 def judge_rate(what: str, rate: Rate, low: float, high: float) -> list[str]:
     """Return the row of a target; `open` where the band of the rate does not decide."""
-    aim = f"at least {low:.0%}" if high == 1.0 else f"at most {high:.0%}" if low == 0.0 else f"{low:.0%} to {high:.0%}"
+    ends = [f"{100.0 * one:.0f}" for one in (low, high)]
+    aim = f"at least {ends[0]} %" if high == 1.0 else f"at most {ends[1]} %" if low == 0.0 else f"{' to '.join(ends)} %"
     return [what, format_rate(rate), aim, ArmsTarget(what, low, high, rate).state]
 
 
@@ -113,7 +126,7 @@ def list_set_row(results: Sequence[Result], result: Result) -> list[str]:
 
 
 SET_HEADS = (
-    "machines", "names above 0.95 that are right", "hidden effects named above 0.95", "oracle and diagnosis, same effects",
+    "machines", "names above 0.95 that are right", "hidden effects named above 0.95", "named by oracle and diagnosis",
     "at any probability", "machines with a false name", "intervals that hold", "processor s: median, largest",
 )  # fmt: skip
 
