@@ -61,6 +61,7 @@ def parse_options() -> argparse.Namespace:
     one.add_argument("--machines", type=Path, help="folder of the machines, for the sizes of the hidden effects")
     one.add_argument("--code", help="the version, if the run does not say it; of several, the one to be stored")
     one.add_argument("--seconds", type=Path, help="lines CASE diagnose SECONDS: processor times of arms")
+    one.add_argument("--note", help="what the page says behind the version")
     commands.add_parser("draw")
     commands.add_parser("check")
     return parser.parse_args()

@@ -16,6 +16,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from judge_rows import BINS, SURE
+from lostmotion_trials.blind.score import GAIN_EDGES
 from lostmotion_trials.rates import Rate, estimate_rate
 from validation_results import (
     OUTSIDE,
@@ -30,14 +31,17 @@ from validation_results import (
     read_results,
     split_rows,
 )
-from validation_tables import SECONDS, make_drive_key
+from validation_tables import HELD, SECONDS, make_drive_key
 
 BLUE, RED, GREY, SHADE = "#0072b2", "#d55e00", "#555555", "#e8e8e8"
 WIDTH = 7.2
-SIZES = (0.0, 0.03, 0.06, 0.12, 0.25, math.inf)
-"""Edges of the bins of a hidden force over the force of inertia."""
-AIMED = (93.0, 97.0)
-"""Target of the coverage of 95 % intervals, in per cent."""
+SHARE = "hidden force (rms), share of the force of inertia (%)"
+PANELS = {
+    SHARE: (0.0, 3.0, 6.0, 12.0, 25.0, math.inf),
+    "gain of the true law in log-likelihood": GAIN_EDGES,
+}
+"""Measures of the size of an effect, with the edges of their ranges."""
+TICKS = (0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000)
 
 
 def draw_bands(axes: Axes, places: Sequence[float], rates: Sequence[Rate], *, across: bool = False) -> None:
@@ -59,40 +63,60 @@ def make_note(text: str) -> Figure:
 
 
 def draw_detection() -> Figure:
-    """Return the share of hidden effects that are named above 0.95 over their size, with that of the oracle."""
+    """Return the share of hidden effects that are named above 0.95 over their size, with that of the oracle.
+
+    There is a panel for the share of the force of inertia, and one for the gain in log-likelihood, if any is stored.
+    """
     results = read_results()
-    sized = [(e[1], e[3], row, r) for r in choose_newest(results) for row in r.rows for e in row["effects"]
-             if e[1] is not None and e[5]]  # fmt: skip
-    if not sized:
+    newest = choose_newest(results)
+    panels = [(what, own) for what in PANELS if (own := list_sized(newest, what))]
+    if not panels:
         return make_note("The newest version has no effects of known size.")
-    figure, axes = plt.subplots(figsize=(WIDTH, 3.2))
-    oracle = [(size, names_truth(told[row["key"]])) for size, _, row, r in sized
-              if row["key"] in (told := find_oracle(results, r))]  # fmt: skip
-    if oracle:
-        bins = sort_into_bins(oracle)
-        axes.plot(*zip(*((at, 100.0 * rate.share) for at, rate in bins), strict=True), "s--", color=GREY, linewidth=1,
-                  markersize=4, markerfacecolor="none", label="oracle")  # fmt: skip
-    bins = sort_into_bins([(size, hit) for size, hit, _, _ in sized])
-    draw_bands(axes, [at for at, _ in bins], [rate for _, rate in bins])
-    axes.plot([], [], "o", color=BLUE, markersize=4.5, label="diagnosis, with 95 % band")
-    for hit, at, colour in ((True, 108.0, BLUE), (False, -8.0, RED)):
-        own = [100.0 * size for size, one, _, _ in sized if one is hit]
-        axes.plot(own, np.full(len(own), at), "|", color=colour, markersize=7)
-    axes.set(xscale="log", xlim=(1.5, 80.0), ylim=(-14, 114), yticks=(0, 25, 50, 75, 100))
-    axes.set_xticks([2, 5, 10, 20, 50], ["2", "5", "10", "20", "50"])
-    axes.minorticks_off()
-    axes.set(xlabel="hidden force (rms), share of the force of inertia (%)", ylabel="named above 0.95 (%)")
-    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, frameon=False, fontsize=8)
-    named, known = sum(hit for _, hit, _, _ in sized), sum(hit for _, hit in oracle)
-    print(f"{named} of {len(sized)} effects are named, by the oracle {known} of {len(oracle)}.")
+    figure, several = plt.subplots(1, len(panels), figsize=(WIDTH, 3.2), sharey=True, squeeze=False)
+    for axes, (what, sized) in zip(several.flat, panels, strict=True):
+        answers = [(size, find_oracle(results, r).get(row["key"])) for size, _, row, r in sized]
+        oracle = [(size, names_truth(stated)) for size, stated in answers if stated is not None]
+        draw_sizes(axes, [(size, hit) for size, hit, _, _ in sized], oracle, PANELS[what])
+        axes.set_xlabel(what)
+        named, known = sum(hit for _, hit, _, _ in sized), sum(hit for _, hit in oracle)
+        beside = f", by the oracle {known} of {len(oracle)}" if oracle else ""
+        print(f"{named} of {len(sized)} effects are named{beside}.")
+    several[0, 0].set_ylabel("named above 0.95 (%)")
+    several[0, -1].legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, frameon=False, fontsize=8)
     return figure
 
 
-def sort_into_bins(sized: Sequence[tuple[float, bool]]) -> list[tuple[float, Rate]]:
-    """Return for each range of size with effects its middle in per cent, and the share that is named."""
-    groups = [[one for one in sized if low <= one[0] < high] for low, high in pairwise(SIZES)]
+def list_sized(newest: Sequence[Result], what: str) -> list[tuple[float, bool, dict, Result]]:
+    """Return size, whether it is named above 0.95, row and result of each effect with a name and such a size."""
+    place, scale = (1, 100.0) if what == SHARE else (2, 1.0)
+    every = [(e, row, r) for r in newest for row in r.rows for e in row["effects"] if e[place] and e[5]]
+    return [(scale * e[place], e[3], row, r) for e, row, r in every]
+
+
+def draw_sizes(axes: Axes, sized: Sequence, oracle: Sequence, edges: Sequence[float]) -> None:
+    """Draw the share of effects (size, named) that are named in each range of size, and each single effect."""
+    if oracle:
+        places, rates = zip(*sort_into_bins(oracle, edges), strict=True)
+        style = {"color": GREY, "linewidth": 1, "markersize": 4, "markerfacecolor": "none"}
+        axes.plot(places, [100.0 * rate.share for rate in rates], "s--", label="oracle", **style)
+    draw_bands(axes, *zip(*sort_into_bins(sized, edges), strict=True))
+    axes.plot([], [], "o", color=BLUE, markersize=4.5, label="diagnosis, with 95 % band")
+    for hit, at, colour in ((True, 108.0, BLUE), (False, -8.0, RED)):
+        own = [size for size, one in sized if one is hit]
+        axes.plot(own, np.full(len(own), at), "|", color=colour, markersize=7)
+    axes.set(xscale="log", ylim=(-14, 114), yticks=(0, 25, 50, 75, 100))
+    low, high = axes.get_xlim()
+    axes.set_xlim(low, 1.25 * high)
+    ticks = [tick for tick in TICKS if low <= tick <= 1.25 * high]
+    axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
+    axes.minorticks_off()
+
+
+def sort_into_bins(sized: Sequence[tuple[float, bool]], edges: Sequence[float]) -> list[tuple[float, Rate]]:
+    """Return for each range of size with effects their geometric mean, and the share that is named."""
+    groups = [[one for one in sized if low <= one[0] < high] for low, high in pairwise(edges)]
     return [
-        (100.0 * math.exp(float(np.mean(np.log([s for s, _ in own])))), estimate_rate(sum(h for _, h in own), len(own)))
+        (math.exp(float(np.mean([math.log(size) for size, _ in own]))), estimate_rate(sum(h for _, h in own), len(own)))
         for own in groups
         if own
     ]
@@ -153,7 +177,7 @@ def draw_coverage() -> Figure:
     newest = {r.name for r in choose_newest(results)}
     labels = [f"{r.code}: {r.machines}" for r in results]
     figure, axes = plt.subplots(figsize=(WIDTH, 0.9 + 0.3 * len(results)))
-    axes.axvspan(*AIMED, color=SHADE, zorder=0)
+    axes.axvspan(*(100.0 * end for end in HELD), color=SHADE, zorder=0)
     draw_bands(axes, [-float(i) for i in range(len(results))], [count_rows(r.rows).held for r in results], across=True)
     axes.set_yticks([-float(i) for i in range(len(results))], labels)
     for label, result in zip(axes.get_yticklabels(), results, strict=True):

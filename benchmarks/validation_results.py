@@ -95,10 +95,10 @@ def read_results(folder: Path = RESULTS) -> list[Result]:
 
 
 def read_reasons(folder: Path = RESULTS) -> dict[tuple[str, str], str]:
-    """Return the reasons of misses that were written by hand, by machines and `KEY ANSWER`."""
+    """Return the reasons of misses that were written by hand, by the name of the result and that of the miss."""
     path = folder / "reasons.toml"
     plain = tomllib.loads(path.read_text()) if path.exists() else {}
-    return {(machines, miss): reason for machines, told in plain.items() for miss, reason in told.items()}
+    return {(name, miss): reason for name, told in plain.items() for miss, reason in told.items()}
 
 
 def choose_newest(results: Iterable[Result]) -> list[Result]:

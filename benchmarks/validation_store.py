@@ -28,7 +28,7 @@ def store(run: Path, name: str, options: Mapping[str, str | int | Path | None]) 
     """Return the file of a result after condensing a raw run.
 
     `options` may have `fresh` (the seed offset of the machines), `machines` (their folder, for the sizes of the hidden
-    effects), `code` (the version: only its rows are taken), and `seconds` (a file of processor times of arms).
+    effects), `code` (the version: only its rows are taken), `seconds` (a file of processor times of arms), and `note`.
     """
     file, condense = find_condenser(run)
     head, rows = condense(run, options)
@@ -37,6 +37,7 @@ def store(run: Path, name: str, options: Mapping[str, str | int | Path | None]) 
         raise SystemExit(f"{run} does not say which version of the code made it: give --code COMMIT")
     date = datetime.fromtimestamp(file.stat().st_mtime, UTC).date().isoformat()
     head = {"name": name, **head, "code": code, "committed": find_commit_time(code) or date, "date": date}
+    head |= {"note": options["note"]} if options.get("note") else {}
     path = RESULTS / f"{name}.json"
     write_result(path, head, rows)
     return path
@@ -203,7 +204,8 @@ def format_plan(origin: Mapping, flags: Sequence[str], numbers: Mapping[str, str
 def condense_case(case: dict, machine: dict) -> dict:
     """Return the stored row of a case of a blind trial."""
     sure, parameters, heldout = case.get("sure"), case["parameters"], case.get("heldout") or {}
-    named = sure if sure is not None else [[name, name not in case["false"]] for name in case["named"]]
+    pairs = sure if sure is not None else [(name, name not in case["false"]) for name in case["named"]]
+    named = [(name.partition("@")[0], bool(ok)) for name, ok in pairs]
     effects = []
     for effect in case["effects"]:
         hit, has_name = effect["outcome"] == "hit", effect["mechanism"] not in VAGUE
@@ -216,7 +218,7 @@ def condense_case(case: dict, machine: dict) -> dict:
         "sensor": machine.get("channel", "position"),
         "effects": effects,
         "shares": False,
-        "names": [[name.partition("@")[0], None, True, bool(ok)] for name, ok in named],
+        "names": [[name, None, True, None if name in VAGUE else ok] for name, ok in named],
         "held": [sum(one["inside"] for one in parameters), len(parameters)],
         "missed": [one["name"] for one in parameters if not one["inside"]],
         "stated": [[round(p, DIGITS), bool(at)] for p, at in case["stated"] if p > LEAST_STATED],

@@ -39,7 +39,7 @@ def test_a_reason_of_no_miss_is_found():
     tables, results = load("validation_tables"), load("validation_results")
     stored = results.read_results()
     assert tables.find_unused_reasons(stored, results.read_reasons()) == []
-    assert tables.find_unused_reasons(stored, {("imperfect", "999 cogging"): "none"}) == ["imperfect: 999 cogging"]
+    assert tables.find_unused_reasons(stored, {("small", "999 cogging"): "none"}) == ["small: 999 cogging"]
 
 
 def test_results_are_small_and_name_their_version_and_commands():
@@ -93,8 +93,8 @@ def test_a_stored_run_counts_what_its_rows_say(stored):
 def test_each_machine_that_is_not_right_is_a_miss_with_a_reason(stored):
     tables = load("validation_tables")
     misses = [row for row in stored.rows if tables.is_miss(row)]
-    reasons = {("foreign --fresh 7", "1 cogging"): "by hand"}
-    why = [tables.explain_miss(row, stored.machines, reasons) for row in misses]
+    reasons = {("small", "1 cogging"): "by hand"}
+    why = [tables.explain_miss(row, stored.name, reasons) for row in misses]
     assert why == ["by hand", "An alternative is likely", "a small smooth force explains it"]
     assert [tables.format_answer(row) for row in misses] == ["cogging", "coulomb_friction 0.60", "nothing"]
 
@@ -111,3 +111,18 @@ def test_a_run_of_two_versions_is_refused_until_one_is_chosen(tmp_path):
     with pytest.raises(SystemExit, match="give --code"):
         load("validation_store").condense_judged(tmp_path, {})
     assert len(load("validation_store").condense_judged(tmp_path, {"code": "def"})[1]) == 1
+
+
+def test_a_case_of_a_blind_trial_is_condensed_to_the_same_row(stored):
+    effect = {"mechanism": "cogging", "gain": 80.0, "outcome": "hit", "sure": None}
+    case = {
+        "case": "000", "verdict": "mismatch", "effects": [effect], "named": ["cogging@ground", "gap_drift"],
+        "false": ["gap_drift"], "stated": [[0.99, 1.0], [0.01, 0.0]], "heldout": None,
+        "parameters": [{"name": "c", "inside": False}, {"name": "k", "inside": True}],
+    }  # fmt: skip
+    row = load("validation_store").condense_case(case, {"signal": {"sweep": 0.0}, "channel": "velocity"})
+    assert row.keys() == stored.rows[0].keys()
+    assert row["names"] == [["cogging", None, True, True], ["gap_drift", None, True, False]]
+    counts = load("validation_results").count_rows([row])
+    assert (counts.right.hits, counts.right.of, counts.named.hits, counts.held.hits) == (1, 2, 1, 1)
+    assert (row["stated"], row["sensor"], row["drive"]) == ([[0.99, True]], "velocity", "tones")
