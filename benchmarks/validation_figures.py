@@ -72,17 +72,17 @@ def draw_detection() -> Figure:
     panels = [(what, own) for what in PANELS if (own := list_sized(newest, what))]
     if not panels:
         return make_note("The newest version has no effects of known size.")
-    figure, several = plt.subplots(1, len(panels), figsize=(WIDTH, 3.2), sharey=True, squeeze=False)
-    for axes, (what, sized) in zip(several.flat, panels, strict=True):
+    figure, several = plt.subplots(len(panels), 1, figsize=(WIDTH, 3.0 * len(panels)), squeeze=False)
+    for axes, place, (what, sized) in zip(several.flat, ("Above", "Below"), panels, strict=False):
         answers = [(size, find_oracle(results, r).get(row["key"])) for size, _, row, r in sized]
         oracle = [(size, names_truth(stated)) for size, stated in answers if stated is not None]
         draw_sizes(axes, [(size, hit) for size, hit, _, _ in sized], oracle, PANELS[what])
-        axes.set_xlabel(what)
+        axes.set(xlabel=what, ylabel="named above 0.95 (%)")
         named, known = sum(hit for _, hit, _, _ in sized), sum(hit for _, hit in oracle)
         beside = f", by the oracle {known} of {len(oracle)}" if oracle else ""
-        print(f"{named} of {len(sized)} effects are named{beside}.")
-    several[0, 0].set_ylabel("named above 0.95 (%)")
-    several[0, -1].legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, frameon=False, fontsize=8)
+        where = f"{place}: " if len(panels) > 1 else ""
+        print(f"{where}{named} of {len(sized)} effects are named{beside}.")
+    several[0, 0].legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, frameon=False, fontsize=8)
     return figure
 
 

@@ -131,6 +131,7 @@ def condense_row(row: dict, known: Mapping[str, list], folder: Path | None) -> d
         "cpu": row["cpu"],
         "heldout": [round(error, 5) for error in row.get("nrmse", []) if error is not None],
         "why": find_doubt(said),
+        "gains": find_gains(row),
     }  # fmt: skip
 
 
@@ -151,6 +152,21 @@ def find_doubt(said: Sequence[dict]) -> str:
     """Return the first doubt that a diagnosis states, its first sentence."""
     doubts = [doubt for entry in said for doubt in entry.get("doubts") or ()]
     return doubts[0].split(". ")[0].rstrip(".") if doubts else ""
+
+
+def find_gains(row: dict) -> list:
+    """Return what the best right law and the best other answer gain alone in log evidence, and whether that was fitted.
+
+    They are entries of the ranking, `[GAIN, FITTED]` each, None where there is none; empty without a ranking.
+    """
+    if not row.get("ranking"):
+        return []
+    effects, several = row["truth"]["effects"], row["truth"]["several"]
+    right = [e for e in row["ranking"] if any(names_effect(e, effect, several=several) for effect in effects)]
+    right = [e for e in right if e["fitted"] or e["log_evidence_gain"]]
+    said = {e["mechanism"] for e in row["found"]} or {"nothing_missing"}
+    other = [e for e in row["ranking"] if e["mechanism"] in said and not judge_name(e, row["truth"])]
+    return [[round(own[0]["log_evidence_gain"], 1), own[0]["fitted"]] if own else None for own in (right, other)]
 
 
 def measure_machine(path: Path) -> list[float | None]:
@@ -225,6 +241,7 @@ def condense_case(case: dict, machine: dict) -> dict:
         "cpu": None,
         "heldout": [round(heldout[k], 5) for k in ("before", "after", "true") if heldout.get(k) is not None],
         "why": "",
+        "gains": [],
     }
 
 

@@ -191,14 +191,15 @@ def explain_miss(row: dict, result: str, reasons: Reasons) -> str:
         return reason
     if row["status"] != "ok":
         return row["status"]
-    if list_false(row):
-        return "false name: not examined"
-    judged = [ok for _, _, _, ok in row["names"]]
-    if row["why"]:
+    if row["why"] and not list_false(row):
         return row["why"]
-    if None in judged:
-        return "a force without a law explains more than each law"
-    return "a small smooth force explains it" if not judged else "not examined"
+    if not row["gains"]:
+        return "not examined"
+    right, other = row["gains"]
+    if not right:
+        return "no gain of the right law is among the first ten"
+    word = "gains" if right[1] else "gains at most"
+    return f"the right law {word} {right[0]:.0f}" + (f", the answer {other[0]:.0f}" if other and other[0] else "")
 
 
 MISS_HEADS = ("machine", "drive", "hidden (share)", "oracle", "answer", "why")

@@ -57,9 +57,10 @@ def make_row(key, found, truth="coulomb_friction"):
          "doubts": [] if p > 0.95 else [doubt], "parameters": {"force": interval}}
         for name, p in found
     ]  # fmt: skip
+    ranking = [{**entry, "log_evidence_gain": 9.0, "fitted": True} for entry in entries]
     further = {"effects": [effect], "several": False, "further": {}, "values": {}, "drive": "sweep", "gain": None}
     return {
-        "set": "foreign", "key": key, "commit": "abc", "status": "ok", "found": entries, "ranking": entries,
+        "set": "foreign", "key": key, "commit": "abc", "status": "ok", "found": entries, "ranking": ranking,
         "truth": further, "parameters": {}, "cpu": 3.0, "nrmse": [0.2, None],
     }  # fmt: skip
 
@@ -95,7 +96,13 @@ def test_each_machine_that_is_not_right_is_a_miss_with_a_reason(stored):
     misses = [row for row in stored.rows if tables.is_miss(row)]
     reasons = {("small", "1 cogging"): "by hand"}
     why = [tables.explain_miss(row, stored.name, reasons) for row in misses]
-    assert why == ["by hand", "An alternative is likely", "a small smooth force explains it"]
+    assert why == ["by hand", "An alternative is likely", "not examined"]
+    assert tables.explain_miss({**misses[0], "gains": [[2.6, True], [9.1, True]]}, "", {}) == (
+        "the right law gains 3, the answer 9"
+    )
+    assert tables.explain_miss({**misses[0], "gains": [None, [9.1, True]]}, "", {}) == (
+        "no gain of the right law is among the first ten"
+    )
     assert [tables.format_answer(row) for row in misses] == ["cogging", "coulomb_friction 0.60", "nothing"]
 
 
