@@ -199,7 +199,7 @@ def explain_miss(row: dict, result: str, reasons: Reasons) -> str:
     if not right:
         return "no gain of the right law is among the first ten"
     word = "gains" if right[1] else "gains at most"
-    return f"the right law {word} {right[0]:.0f}" + (f", the answer {other[0]:.0f}" if other and other[0] else "")
+    return f"the right law {word} {round(right[0])}" + (f", the answer {round(other[0])}" if other and other[0] else "")
 
 
 MISS_HEADS = ("machine", "drive", "hidden (share)", "oracle", "answer", "why")
@@ -208,7 +208,7 @@ MISS_HEADS = ("machine", "drive", "hidden (share)", "oracle", "answer", "why")
 def list_miss_row(row: dict, result: Result, stated: Sequence | None, reasons: Reasons) -> list[str]:
     """Return the cells of a miss; `stated` is what the oracle states of the machine."""
     seen = "-" if stated is None else f"{sum(p for p, ok in stated if ok):.2f}"
-    sizes = [f"{e[0]}{'' if e[1] is None else f' ({100.0 * e[1]:.1f} %)'}" for e in row["effects"]]
+    sizes = [f"{e[0]}{'' if e[1] is None else f' ({100.0 * e[1]:.1f}{SPACE}%)'}" for e in row["effects"]]
     place = f"{result.machines.removeprefix('imperfect --fresh ')}: {row['key']}"
     why = explain_miss(row, result.name, reasons).replace("|", "/")
     return [place, row["drive"], ", ".join(sizes) or "nothing", seen, format_answer(row), why]
