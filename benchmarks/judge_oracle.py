@@ -108,12 +108,10 @@ def make_noise(pilot: Pilot, world: World, noise: float, operator: np.ndarray) -
 
 def open_view(sealed: SealedTruth) -> View:
     """Return what the observer sees of a machine."""
-    rig, world = sealed.machine, sealed.world
+    rig, world, rng = sealed.machine, sealed.world, np.random.default_rng(SEED)
     if world is None:
         raise ValueError("the machine is one of the perfect world")
-    rng = np.random.default_rng(SEED)
-    moved = simulate_imperfect(rig, convert_effects(rig, sealed.effects), world, rng)
-    pilot = Pilot(rig, moved)
+    pilot = Pilot(rig, simulate_imperfect(rig, convert_effects(rig, sealed.effects), world, rng))
     operator = make_operator(pilot)
     covariance = make_noise(pilot, world, rig.measurement_noise, operator)
     lost = cholesky(covariance, lower=True) @ rng.standard_normal(len(covariance))
@@ -162,11 +160,31 @@ def draw_candidate(name: str, what: str, view: View, rng: np.random.Generator) -
             return effect
 
 
+def measure_effect(effect: Effect, pilot: Pilot, operator: np.ndarray) -> tuple[np.ndarray, float, float]:
+    """Return the force (samples,) of an effect, its size and its reference, both as rms in the same unit.
+
+    They are those of the force and of the force of inertia, or of the error of a sensor and of the motion.
+    """
+    force, shown = compute_effect_force(effect, pilot, operator)
+    reference = float(np.std(pilot.q)) if shown is not None else pilot.inertial_force
+    return force, float(np.sqrt(np.mean((force if shown is None else shown) ** 2))), reference
+
+
+def measure_shares(sealed: SealedTruth) -> list[float | None]:
+    """Return the size of each hidden effect over its reference along the true motion; None where it is no force."""
+    rig, world = sealed.machine, sealed.world
+    if world is None:
+        raise ValueError("the machine is one of the perfect world")
+    moved = simulate_imperfect(rig, convert_effects(rig, sealed.effects), world, np.random.default_rng(SEED))
+    pilot = Pilot(rig, moved)
+    operator = make_operator(pilot)
+    measured = [None if e.mechanism in NOISY else measure_effect(e, pilot, operator)[1:] for e in sealed.effects]
+    return [one and one[0] / one[1] for one in measured]
+
+
 def weigh(effect: Effect, view: View) -> tuple[float, float]:
     """Return the log evidence of an effect with any size over nothing hidden, and the gain at the best size."""
-    force, shown = compute_effect_force(effect, view.pilot, view.operator)
-    reference = float(np.std(view.pilot.q)) if shown is not None else view.pilot.inertial_force
-    size = float(np.sqrt(np.mean((force if shown is None else shown) ** 2)))
+    force, size, reference = measure_effect(effect, view.pilot, view.operator)
     if not (math.isfinite(size) and size > 0.0):
         return -math.inf, 0.0
     unit = view.whiten(force * reference / size)

@@ -308,3 +308,17 @@ def test_other_laws_are_weighed_where_a_smooth_force_explains_as_much(rubbing, m
     search._weigh_alike()
     assert bool(fits) is weighed
     assert all(len(terms) == 1 and terms != best.terms for terms in fits)
+
+
+def test_a_set_is_not_worse_than_its_subset(rubbing):
+    """A law whose fit predicts held-out data badly is fitted again beside the smooth forces of nothing missing."""
+    nothing, terms = rubbing.found[frozenset()], frozenset({"coulomb_friction"})
+    low = replace(rubbing.found[terms], heldout=nothing.heldout - 1e3)
+    search = copy.copy(rubbing)
+    search.found = {frozenset(): nothing, terms: low}
+    search._lift(low)
+    lifted = search.found[terms]
+    assert lifted.choice == nothing.choice
+    assert lifted.log_profile > nothing.log_profile - 1.0
+    search._lift(lifted)
+    assert search.found[terms] is lifted

@@ -161,9 +161,12 @@ def _is_vague(found: Hypothesis, places: Sequence[int], null: Sequence[float]) -
     return square < float(chi2.ppf(0.95, len(apart)))
 
 
-def fit_hypothesis(frame: JointFrame, begin: Array, price: float, choice: Choice | None = None) -> Hypothesis:
+def fit_hypothesis(
+    frame: JointFrame, begin: Array, price: float, choice: Choice | None = None, *, free: bool = True
+) -> Hypothesis:
     """Return the hypothesis of a frame, fitted from coordinates `begin` (count,) with the smooth forces of `choice`.
 
+    With `free` they are chosen again in each round; else they stay.
     Without a choice, errors of channels and known values are fitted first, and then smooth forces beside them: what
     both explain is not left to the more flexible one because of the point where the fit began. Smooth forces that make
     the evidence smaller are left out.
@@ -176,7 +179,7 @@ def fit_hypothesis(frame: JointFrame, begin: Array, price: float, choice: Choice
     if choice is None:
         expansion, choice, converged = _maximise(frame, expansion, frame.none, free=False)
         made.append(_make_hypothesis(frame, expansion, choice, price, converged=converged))
-    expansion, choice, converged = _maximise(frame, expansion, choice, free=True)
+    expansion, choice, converged = _maximise(frame, expansion, choice, free=free)
     made.append(_make_hypothesis(frame, expansion, choice, price, converged=converged))
     return max(made, key=lambda one: one.log_evidence)
 

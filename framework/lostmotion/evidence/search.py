@@ -20,6 +20,7 @@ from lostmotion.evidence.sensor_hum import renew_hums
 from lostmotion.inference.candidates import ScoreTest, add_term
 from lostmotion.inference.curves import add_all_curves
 from lostmotion.inference.fit import ROUGHLY, Fit, maximise, restart
+from lostmotion.inference.natural import sort_slots
 from lostmotion.inference.penalties import compute_price, compute_unknown_price
 from lostmotion.inference.settling import settle_steps
 from lostmotion.likelihood.observation import Observation
@@ -205,6 +206,26 @@ class ExplanationSearch:
         if begin is not None:
             at = max(frame.transfer(begin), at, key=lambda one: frame.log_likelihood(one, choice or frame.none))
         self._keep(fit_hypothesis(frame, at, price, choice))
+        if bare.posterior.active in self.found:
+            self._lift(self.found[bare.posterior.active])
+
+    def _lift(self, low: Hypothesis) -> None:
+        """Fit a set again from a subset that explains all data better: without its last term it would be as good.
+
+        It has the smooth forces of the subset then. Held-out data may need one that the fitted data do not.
+        """
+        inside = [one for terms, one in self.found.items() if terms < low.terms and len(terms) == len(low.terms) - 1]
+        below = max(inside, key=lambda one: one.log_profile, default=low)
+        if below.log_profile < low.log_profile + REACH or self.budget.spent:
+            return
+        absent = {
+            slot.key: slot.param.null
+            for key in low.terms - below.terms
+            for slot in sort_slots(low.frame.posterior, key)[0]
+            if slot.param.null is not None
+        }
+        begin = low.frame.transfer(low.values | below.values | absent)
+        self._keep(fit_hypothesis(low.frame, begin, low.price, below.choice, free=False))
 
     def _weigh_unknown(self, target: Hypothesis) -> None:
         """Fit a set with a smooth force that is larger than the usual discrepancy; its price is that of a term."""
