@@ -1,5 +1,6 @@
 """Joint and physics are named, from recordings of an integrator that shares no code with the framework."""
 
+from dataclasses import replace
 from typing import ClassVar
 
 import numpy as np
@@ -47,6 +48,8 @@ def test_a_gear_is_not_refused_for_what_fitted_values_undo(helpers, terms):
     seen = nominal.frame.run(at).seen
     assert seen.log_likelihood < nominal.expansion.here.log_likelihood - 20.0
     assert abs(_gain_in_one_step(nominal, seen)) < 1.0
+    # Errors that nothing explains promise nothing: in one step of noise levels, any gain was predicted.
+    assert _gain_in_one_step(nominal, replace(seen, errors=30.0 * seen.errors)) < -1000.0
 
 
 def test_friction_with_a_soft_onset_at_the_elbow(search_of, helpers):

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from lostmotion.contracts import Array
 from lostmotion.evidence.discrepancy import JointFrame
 from lostmotion.evidence.expansion import Expansion
-from lostmotion.evidence.hypothesis import Hypothesis, solve_within
+from lostmotion.evidence.hypothesis import Hypothesis, maximise_within
 from lostmotion.inference.fit import choose_first_steps
 from lostmotion.likelihood.observation import Observation
 
@@ -73,15 +73,8 @@ class NormalPosterior:
         precision = self.add(held)[np.ix_(free, free)]
         rows = self.used[free]
         low, high = ((np.broadcast_to(bound, len(step)) - step)[rows] for bound in (self.low, self.high))
-
-        def solve(stay: NDArray[np.intp], moved: Array) -> Array:
-            found, rest = moved.copy(), np.setdiff1d(np.arange(len(free)), stay)
-            told = pulled[rest] - precision[np.ix_(rest, stay)] @ moved[stay]
-            found[rest] = np.linalg.solve(precision[np.ix_(rest, rest)], told)
-            return found
-
         further = np.zeros(len(step))
-        further[rows] = made = solve_within(solve, pulled, np.minimum(low, 0.0), np.maximum(high, 0.0))
+        further[rows] = made = maximise_within(pulled, precision, low, high)
         return further, float(pulled @ made) - 0.5 * float(made @ precision @ made)
 
     def add(self, held: Expansion) -> Array:

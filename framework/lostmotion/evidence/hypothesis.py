@@ -313,6 +313,18 @@ def solve_within(solve: Callable[[NDArray[np.intp], Array], Array], gradient: Ar
     return step
 
 
+def maximise_within(gradient: Array, precision: Array, low: Array, high: Array) -> Array:
+    """Return the step (n,) between `low` and `high` to the maximum of gradient's - s'Q s / 2 with the `precision` Q."""
+
+    def solve(held: NDArray[np.intp], moved: Array) -> Array:
+        found, rest = moved.copy(), np.setdiff1d(np.arange(len(gradient)), held)
+        told = gradient[rest] - precision[np.ix_(rest, held)] @ moved[held]
+        found[rest] = np.linalg.solve(precision[np.ix_(rest, rest)], told)
+        return found
+
+    return solve_within(solve, gradient, np.minimum(low, 0.0), np.maximum(high, 0.0))
+
+
 def _limit_step(frame: JointFrame, at: Array) -> tuple[Array, Array]:
     """Return the lowest and the highest change (count,) of coordinates in one step; zero is within."""
     low, high = (np.asarray(bound - at) for bound in frame.bounds)

@@ -300,29 +300,31 @@ def filter_chain(  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
-def differentiate_errors(picks, gains, moves, pushes, joints, columns, shifts, found):  # type: ignore[no-untyped-def]
+def differentiate_errors(picks, gains, moves, pushes, links, drives, begins, shifts, found):  # type: ignore[no-untyped-def]
     """Write the derivatives of one-step errors with respect to coefficients of forces into `found`.
 
-    `columns` (count, samples) are the forces of unit coefficients by the drive of the joint `joints[c]` (on all links
-    where it is negative: then row c + j of `columns` is the force at joint j, and only the first row counts). `shifts`
-    (count, readings) are shifts of the readings by a unit coefficient. `found` is (count, samples, readings). The gains
-    of the filter are held: they do not depend on forces as long as the laws are linear.
+    The first coefficients have forces `links` (samples, n, count) on all links, the others forces by one drive:
+    `drives` (samples, count), in the order of their joints, of which j has the columns from `begins[j]` to
+    `begins[j + 1]`. `shifts` (coefficients, readings) are shifts of the readings by a unit coefficient. `found` is
+    (coefficients, samples, readings). The gains of the filter are held: they do not depend on forces as long as the
+    laws are linear. The inner loops run over coefficients, whose numbers are neighbours in memory.
     """
     N, m, L = gains.shape
-    n = pushes.shape[2] // 2
-    count = len(joints)
-    D, T = np.zeros((L, count)), np.zeros((L, count))
-    e = np.zeros(count)
+    n, wide = links.shape[1], links.shape[2]
+    count, turning = wide + drives.shape[1], len(begins) - 1
+    D, T, e = np.zeros((L, count)), np.zeros((L, count)), np.zeros((m, count))
     for k in range(N):
         for i in range(m):
             c = picks[i]
             for b in range(count):
-                e[b] = shifts[b, i] - D[c, b]
-                found[b, k, i] = e[b]
+                e[i, b] = shifts[b, i] - D[c, b]
             for a in range(L):
                 r = gains[k, i, a]
                 for b in range(count):
-                    D[a, b] += r * e[b]
+                    D[a, b] += r * e[i, b]
+        for b in range(count):
+            for i in range(m):
+                found[b, k, i] = e[i, b]
         if k == N - 1:
             break
         for a in range(L):
@@ -332,13 +334,12 @@ def differentiate_errors(picks, gains, moves, pushes, joints, columns, shifts, f
                 r = moves[k, a, c]
                 for b in range(count):
                     T[a, b] += r * D[c, b]
-            for b in range(count):
-                j = joints[b]
-                if j >= 0:
-                    T[a, b] += pushes[k, a, j] * columns[b, k]
-                elif j == -1:
-                    for i in range(n):
-                        T[a, b] += pushes[k, a, n + i] * columns[b + i, k]
-        for a in range(L):
-            for b in range(count):
-                D[a, b] = T[a, b]
+            for i in range(n):
+                r = pushes[k, a, turning + i]
+                for b in range(wide):
+                    T[a, b] += r * links[k, i, b]
+            for j in range(turning):
+                r = pushes[k, a, j]
+                for b in range(begins[j], begins[j + 1]):
+                    T[a, wide + b] += r * drives[k, b]
+        D, T = T, D

@@ -266,26 +266,34 @@ class TapedArm:
         """Return the derivatives (columns, samples * readings) of one-step errors over coefficients of forces."""
         samples, count, _ = kept.gains.shape
         found = np.zeros((len(columns), samples, count))
-        picks = self.pick(gears)
-        for begin in range(0, len(columns), CHUNK):
-            part = columns[begin : begin + CHUNK]
-            rows: list[Array] = []
-            joints: list[int] = []
-            places: list[int] = []
-            for column in part:
-                places.append(len(joints))
-                wide = np.atleast_2d(column.force[:samples].T) if column.joint < 0 else column.force[None, :samples]
-                rows += list(wide)
-                joints += [column.joint] + [-2] * (len(wide) - 1)
-            made = np.zeros((len(joints), samples, count))
+        order = np.argsort([column.joint for column in columns], kind="stable")  # forces on all links first
+        for begin in range(0, len(order), CHUNK):
+            part = order[begin : begin + CHUNK]
+            made = np.zeros((len(part), samples, count))
             differentiate_errors(
-                picks, kept.gains, kept.moves, kept.pushes, np.array(joints, dtype=np.int64),
-                np.ascontiguousarray(rows), np.zeros((len(joints), count)), made,
+                self.pick(gears), kept.gains, kept.moves, kept.pushes,
+                *self._stack([columns[c] for c in part], samples), np.zeros((len(part), count)), made,
             )  # fmt: skip
-            found[begin : begin + CHUNK] = made[places]
-        found[:, np.isnan(self.log.readings[:samples])] = 0.0
+            found[part] = made
+        missing = np.isnan(self.log.readings[:samples])
+        if missing.any():
+            found[:, missing] = 0.0
         found[:, : self.settling] = 0.0
         return found.reshape(len(columns), samples * count)
+
+    def _stack(self, columns: Sequence[Column], samples: int) -> tuple[Array, Array, Whole]:
+        """Return the forces on all links (samples, n, count), by drives (samples, count), and where each joint begins.
+
+        The columns are in the order of their joints, those of forces on all links first.
+        """
+        n, joints = len(self.joints), [column.joint for column in columns]
+        wide = joints.count(-1)
+        links, drives = np.zeros((samples, n, wide)), np.zeros((samples, len(columns) - wide))
+        for c, column in enumerate(columns[:wide]):
+            links[:, :, c] = column.force[:samples]
+        for c, column in enumerate(columns[wide:]):
+            drives[:, c] = column.force[:samples]
+        return links, drives, np.searchsorted(joints[wide:], np.arange(n + 1)).astype(np.int64)
 
 
 _run_filter: Callable[..., int] = filter_chain

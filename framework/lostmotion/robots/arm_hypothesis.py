@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from lostmotion.contracts import Term
 from lostmotion.evidence.expansion import Expansion
 from lostmotion.evidence.heldout import NormalPosterior, average_over_posterior, cut_before
-from lostmotion.evidence.hypothesis import UNKNOWN
+from lostmotion.evidence.hypothesis import UNKNOWN, maximise_within
 from lostmotion.likelihood.innovations import Innovations
 from lostmotion.parts import Array
 from lostmotion.robots.arm import FilteredLog, TapedArm
@@ -35,6 +35,8 @@ ROUNDS, CLOSE = 25, 0.05
 MOST_STEPS, CHORD, LONGEST_STEP = 8, 0.1, 1.5
 """The largest number of steps with the same derivatives, the share of their gain below which the next one is not worth
 it, and the longest step of a coordinate."""
+IDLE = 0.1
+"""A fit ends as well where a round gains less than this share of what it lacks to be worth finding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,6 +53,11 @@ class ArmFrame:
     def own(self) -> tuple[ArmCoordinate, ...]:
         """All coordinates before those of the discrepancy."""
         return (*self.base, *(c for effect in self.effects for c in effect.coordinates))
+
+    @property
+    def levels(self) -> int:
+        """The number of coordinates, the first ones, that are levels of random forces and of noise."""
+        return len(self.arm.joints) + len(self.arm.log.picks)
 
     @property
     def terms(self) -> frozenset[str]:
@@ -82,7 +89,7 @@ class ArmFrame:
         values, count = self.read(at), len(self.arm.joints)
         if force is None:
             force = self.discrepancy.force(at[len(self.own) :])
-        levels = np.array([values[c.key] for c in self.own[: count + len(self.arm.log.picks)]])
+        levels = np.array([values[c.key] for c in self.own[: self.levels]])
         for effect in self.effects:
             if isinstance(effect, MassEffect):
                 values[effect.value] = self.arm.values.get(effect.value, 0.0) + values[effect.coordinates[0].key]
@@ -99,6 +106,7 @@ class ArmFrame:
         errors, variances = np.zeros((2, len(at), kept.seen.errors.size))
         for i in range(own):
             step = max(NUDGE, 0.0 if self.own[i].log else SHARE * abs(float(at[i])))
+            step = -step if at[i] + step > self.bounds[1][i] else step
             moved = at.copy()
             moved[i] += step
             seen = self.run(moved, last=last, force=force).seen
@@ -141,14 +149,14 @@ class ArmFrame:
         found = float(seen.log_likelihood)
         return found + self.log_prior(at, choice) if math.isfinite(found) else -math.inf, seen
 
-    def clip(self, at: Array) -> Array:
-        """Return coordinates within their bounds."""
-        found = at.copy()
+    @cached_property
+    def bounds(self) -> tuple[Array, Array]:
+        """The lowest and the highest value of each coordinate; those of the discrepancy have none."""
+        low, high = np.full((2, len(self.own) + len(self.discrepancy.columns)), [[-math.inf], [math.inf]])
         for i, c in enumerate(self.own):
-            low = -math.inf if math.isinf(c.low) else (math.log(max(c.low, 1e-300)) if c.log else c.low / c.unit)
-            high = math.inf if math.isinf(c.high) else (math.log(c.high) if c.log else c.high / c.unit)
-            found[i] = min(max(found[i], low), high)
-        return found
+            low[i] = c.place(c.low) if math.isfinite(c.low) else -math.inf
+            high[i] = c.place(c.high) if math.isfinite(c.high) else math.inf
+        return low, high
 
 
 @dataclass(frozen=True, eq=False)
@@ -194,14 +202,17 @@ class ArmHypothesis:
         return math.sqrt(self.scatter * self.covariance[place, place])
 
 
-def fit_hypothesis(frame: ArmFrame, start: Array, price: float, choice: Choice | None = None) -> ArmHypothesis | None:
+def fit_hypothesis(
+    frame: ArmFrame, start: Array, price: float, choice: Choice | None = None, *, worth: float = -math.inf
+) -> ArmHypothesis | None:
     """Return the fitted hypothesis from start coordinates; None where the filter diverges.
 
-    Torques of unknown inertias depend on accelerations, and these on the hypothesis: it is fitted again with its own.
+    Torques of unknown inertias depend on accelerations, and these on the hypothesis: it is fitted again with its own. A
+    hypothesis with less log evidence than `worth` is fitted the less exactly, the more it lacks.
     """
-    at, chosen = frame.clip(start), choice or frame.discrepancy.none
+    at, chosen = np.clip(start, *frame.bounds), choice or frame.discrepancy.none
     for again in (True, False):
-        climbed = _climb(frame, at, chosen)
+        climbed = _climb(frame, at, chosen, worth)
         if climbed is None:
             return None
         at, chosen, seen, kept = climbed
@@ -209,16 +220,25 @@ def fit_hypothesis(frame: ArmFrame, start: Array, price: float, choice: Choice |
             break
         frame = frame.follow(at)
     used, precision = find_precision(frame, seen, chosen)
-    target = float(seen.here.log_likelihood) + frame.log_prior(at, chosen) - frame.discrepancy.price(chosen)
-    sign, size = np.linalg.slogdet(precision)
-    if sign <= 0 or not math.isfinite(target):
+    evidence = _compute_log_evidence(frame, seen, chosen)
+    if not math.isfinite(evidence):
         return None
-    evidence = target + 0.5 * len(used) * math.log(2.0 * math.pi) - 0.5 * float(size)
     scatter = seen.measure_scatter_of(used[used >= len(frame.own)])
     return ArmHypothesis(frame, at, chosen, evidence, 0.0, price, scatter, seen, kept, used, precision)
 
 
-def _climb(frame: ArmFrame, at: Array, chosen: Choice) -> tuple[Array, Choice, Expansion, FilteredLog] | None:
+def _compute_log_evidence(frame: ArmFrame, seen: Expansion, choice: Choice) -> float:
+    """Return the log evidence by Laplace's method at an expansion; -inf where its precision is not positive."""
+    used, precision = find_precision(frame, seen, choice)
+    target = float(seen.here.log_likelihood) + frame.log_prior(seen.at, choice) - frame.discrepancy.price(choice)
+    sign, size = np.linalg.slogdet(precision)
+    found = target + 0.5 * len(used) * math.log(2.0 * math.pi) - 0.5 * float(size)
+    return found if sign > 0 and math.isfinite(found) else -math.inf
+
+
+def _climb(
+    frame: ArmFrame, at: Array, chosen: Choice, worth: float
+) -> tuple[Array, Choice, Expansion, FilteredLog] | None:
     """Return the coordinates of the maximum, the choice of smooth forces, and the expansion and filter there."""
     if not math.isfinite(frame.target(at, chosen)[0]):
         return None
@@ -235,6 +255,8 @@ def _climb(frame: ArmFrame, at: Array, chosen: Choice) -> tuple[Array, Choice, E
         if gain < CLOSE:
             break
         at = there
+        if gain < IDLE * (worth - _compute_log_evidence(frame, seen, chosen) - gain):
+            break
     if not np.array_equal(at, seen.at):
         seen, kept = frame.expand(at)
     return at, chosen, seen, kept
@@ -249,16 +271,17 @@ def _step(
     """
     (seen, choice), (used, precision) = around, local
     own, weights = len(frame.own), frame.weigh(choice)[used]
+    longest = np.where(used < own, LONGEST_STEP, math.inf)
     here, errors = frame.target(at, choice)
     total = 0.0
     for _ in range(MOST_STEPS):
         pull = seen.score(errors)[used] - weights * (at[used] - seen.middle[used])
         if not np.isfinite(pull).all():
             break
-        step = np.zeros(len(at))
-        step[used] = np.linalg.solve(precision + damping * np.diag(np.diag(precision)), pull)
-        step[:own] = np.clip(step[:own], -LONGEST_STEP, LONGEST_STEP)
-        there = frame.clip(at + step)
+        low, high = (bound[used] - at[used] for bound in frame.bounds)
+        damped = precision + damping * np.diag(np.diag(precision))
+        there = at.copy()
+        there[used] += maximise_within(pull, damped, np.maximum(low, -longest), np.minimum(high, longest))
         target, then = frame.target(there, choice)
         gain = target - here
         if gain > -1e-6:
@@ -291,14 +314,15 @@ def score_heldout(found: ArmHypothesis, first: int, last: int) -> float:
     frame, picks = found.frame, len(found.frame.arm.log.picks)
 
     def expand(step: Array) -> Expansion:
-        return cut_before(frame.expand(frame.clip(found.at + step), last=last)[0], first * picks)
+        return cut_before(frame.expand(found.at + step, last=last)[0], first * picks)
 
     def score(step: Array) -> float:
-        moved = frame.run(frame.clip(found.at + step), last=last).seen
+        moved = frame.run(found.at + step, last=last).seen
         return float(replace(moved, errors=moved.errors[first:], variances=moved.variances[first:]).log_likelihood)
 
-    levels = np.arange(len(found.at)) < len(frame.arm.joints) + picks
-    return average_over_posterior(NormalPosterior(found.used, found.precision, levels), expand, score)
+    levels = np.arange(len(found.at)) < frame.levels
+    low, high = (bound - found.at for bound in frame.bounds)
+    return average_over_posterior(NormalPosterior(found.used, found.precision, levels, low, high), expand, score)
 
 
 def list_base(

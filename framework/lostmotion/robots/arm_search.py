@@ -109,12 +109,11 @@ class ArmSearch:
             usual += [p for p in held[:MOST_SMALL] if p.effect.key not in known]
             known |= {p.effect.key for p in usual}
         more = list_promises(self.screen, small, self.price, temper)[:MOST_SMALL] if small is not None else []
-        low = target.at[: len(self.frame.arm.joints)] + math.log(SMALL)
-        gears = list_gear_promises(self.screen, target, low, self.price, temper)[:MOST_GEARS]
+        gears = list_gear_promises(self.screen, target, SMALL, self.price, temper)[:MOST_GEARS]
         wanted: list[tuple[Group, tuple[float, ...]]] = [(group, (0.0,)) for group in groups]
         wanted += [((p,), (0.0,)) for p in usual if p.gain > 0.0]
         wanted += [((p,), (math.log(SMALL),)) for p in more if p.gain > 0.0 and p.effect.key not in known]
-        wanted += [((p,), (0.0, math.log(SMALL))) for p in gears if p.gain > 0.0]
+        wanted += [((p,), tuple(math.log(level) for level in p.levels)) for p in gears if p.gain > 0.0]
         told = [name_set(frozenset(p.effect.key for p in group)) for group, _ in wanted]
         self.say(f"fits beside {name_set(target.terms)}: {', '.join(told) or 'none'}")
 
@@ -168,11 +167,6 @@ class ArmSearch:
         first = np.arange(len(at)) < len(self.frame.arm.joints)
         return [np.where(first, at + shift, at) for shift in shifts]
 
-    @property
-    def _levels(self) -> int:
-        """The number of coordinates that are levels of random forces and of noise."""
-        return len(self.frame.arm.joints) + len(self.frame.arm.log.picks)
-
     def _read(self, one: ArmHypothesis) -> dict[str, float]:
         """Return the coordinates of a hypothesis by key, those of the discrepancy by number."""
         own = {c.key: float(x) for c, x in zip(one.frame.own, one.at, strict=False)}
@@ -198,7 +192,8 @@ class ArmSearch:
             frame = replace(frame, discrepancy=beside.frame.discrepancy)
         price = sum(self.price + effect.price for effect in effects)
         choice = beside.choice if beside is not None else None
-        made = [fit_hypothesis(frame, start, price, choice) for start in starts]
+        worth = -math.inf if beside is None else beside.log_evidence + self.temper * (price - beside.price)
+        made = [fit_hypothesis(frame, start, price, choice, worth=worth) for start in starts]
         fitted = [one for one in made if one is not None]
         return self._score(max(fitted, key=lambda one: one.log_evidence)) if fitted else None
 
@@ -221,7 +216,7 @@ class ArmSearch:
         def fit(rest: tuple[ArmEffect, ...]) -> ArmHypothesis | None:
             start, terms = self._place(rest, known), frozenset(e.key for e in rest)
             if terms in self.found:
-                levels = self.found[terms].at[: self._levels]
+                levels = self.found[terms].at[: self.frame.levels]
                 start[: len(levels)] = levels
             return self._fit(rest, [start], target)
 

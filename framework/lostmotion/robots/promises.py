@@ -35,13 +35,15 @@ SAME = 0.9999
 class ArmPromise:
     """An effect, the values of its parameters to start from, and the score that it promises.
 
-    `shift` is the step of the coordinates of the hypothesis that comes with it, where it is predicted.
+    `shift` is the step of the coordinates of the hypothesis that comes with it, where it is predicted. A fit begins at
+    each of `levels` of the random force, in units of the fitted one.
     """
 
     effect: ArmEffect
     start: Mapping[str, float]
     gain: float
     shift: Array | None = None
+    levels: tuple[float, ...] = (1.0,)
 
 
 Group = tuple[ArmPromise, ...]
@@ -177,16 +179,16 @@ def _weigh_shape(
 
 
 def list_gear_promises(
-    screen: Screen, beside: ArmHypothesis, levels: Array, price: float, temper: float
+    screen: Screen, beside: ArmHypothesis, small: float, price: float, temper: float
 ) -> list[ArmPromise]:
-    """Return what gears promise, from filters at a few values; `levels` are coordinates of the levels to use.
+    """Return what gears promise, from filters at a few values, at a `small` share of the fitted random force.
 
     What a flexible gear does is smooth: inertias and smooth forces take its place. It is tried at the fitted levels as
-    well, with the gain of all fitted coordinates in one step from there.
+    well, with the gain of all fitted coordinates in one step from there, and fitted from the level that promises more.
     """
     frame, found = beside.frame, []
     at = beside.at.copy()
-    at[: len(levels)] = levels
+    at[: len(frame.arm.joints)] += math.log(small)
     plain = float(frame.run(at).seen.log_likelihood)
     force = frame.discrepancy.force(at[len(frame.own) :])
     taken = {e.joint for e in frame.gears}
@@ -195,29 +197,37 @@ def list_gear_promises(
             continue
         wider = replace(frame, effects=(*frame.effects, effect))
         best, start = -math.inf, {}
+        levels: tuple[float, ...] = ()
         for values in effect.list_starts():
             own = [c.place(values[c.key]) for c in effect.coordinates]
             told = (
                 float(wider.run(np.concatenate([at[: len(frame.own)], own]), force=force).seen.log_likelihood) - plain
             )
+            tried: tuple[float, ...] = (1.0, small)
             if effect.law is ELASTICITY:
                 seen = wider.run(np.concatenate([beside.at[: len(frame.own)], own]), force=force).seen
-                told = max(told, _gain_in_one_step(beside, seen))
+                fitted = _gain_in_one_step(beside, seen)
+                told, tried = (told, (small,)) if told > fitted else (fitted, (1.0,))
             if told > best:
-                best, start = told, values
+                best, start, levels = told, values, tried
         if math.isfinite(best):
-            found.append(ArmPromise(effect, start, best / temper - price - effect.price))
+            found.append(ArmPromise(effect, start, best / temper - price - effect.price, levels=levels))
     return sorted(found, key=lambda p: -p.gain)
 
 
 def _gain_in_one_step(beside: ArmHypothesis, seen: Innovations) -> float:
-    """Return the gain of other one-step errors over a hypothesis, after a step with the derivatives of that one."""
-    expansion, used = beside.expansion, beside.used
+    """Return the gain of other one-step errors over a hypothesis, after a step with the derivatives of that one.
+
+    Levels of noise stay: the log-likelihood is not quadratic in them, and predicted gains of any size where errors are
+    large.
+    """
+    expansion, moved = beside.expansion, beside.used >= beside.frame.levels
+    used = beside.used[moved]
     weights = beside.frame.weigh(beside.choice)[used]
     pull = expansion.score(seen)[used] - weights * (expansion.at[used] - expansion.middle[used])
     if not (seen.finite and np.isfinite(pull).all()):
         return -math.inf
-    step = np.linalg.solve(beside.precision, pull)
+    step = np.linalg.solve(beside.precision[np.ix_(moved, moved)], pull)
     return float(seen.log_likelihood - expansion.here.log_likelihood) + 0.5 * float(pull @ step)
 
 

@@ -44,10 +44,10 @@ def _weigh_shift(nominal: ArmHypothesis, shift: np.ndarray) -> float:
     """Return the loss of log-likelihood if each prediction of a state is off by `shift` (samples, 2 n)."""
     kept, arm = nominal.kept, nominal.frame.arm
     moved = np.zeros((1, *kept.gains.shape[:2]))
-    one: np.ndarray = np.array([0], dtype=np.int64)
+    none, begins = np.zeros((len(shift), 0, 0)), np.array([0, 1], dtype=np.int64)
     differentiate_errors(
-        arm.pick({}), kept.gains, kept.moves, np.ascontiguousarray(shift[:, :, None]), one,
-        np.ones((1, len(shift))), np.zeros((1, kept.gains.shape[1])), moved,
+        arm.pick({}), kept.gains, kept.moves, np.ascontiguousarray(shift[:, :, None]), none,
+        np.ones((len(shift), 1)), begins, np.zeros((1, kept.gains.shape[1])), moved,
     )  # fmt: skip
     moved[0, : arm.settling] = 0.0
     e, v = kept.seen.errors, kept.seen.variances

@@ -1,0 +1,45 @@
+"""Fits within bounds: steps are optimal within them, and derivatives exist on them."""
+
+import numpy as np
+import pytest
+
+from lostmotion.evidence.hypothesis import maximise_within
+from lostmotion.robots.arm_effects import ArmCoordinate
+from lostmotion.robots.arm_preparation import SearchOptions, make_arm, prepare_search
+from lostmotion_trials.integrators.arm import Arm
+
+
+def test_a_step_that_is_cut_off_leads_downhill_and_the_best_one_within_bounds_does_not():
+    precision, pull = np.array([[1.0, -0.9], [-0.9, 1.0]]), np.array([1.0, -0.8])
+    low, high = np.array([-0.1, -np.inf]), np.array([0.1, np.inf])
+
+    def gain(step):
+        return float(pull @ step - 0.5 * step @ precision @ step)
+
+    free = np.linalg.solve(precision, pull)
+    made = maximise_within(pull, precision, low, high)
+    grid = [np.array([a, b]) for a in np.linspace(-0.1, 0.1, 21) for b in np.linspace(-2.0, 2.0, 401)]
+    assert made == pytest.approx([0.1, -0.71])
+    assert gain(made) >= max(map(gain, grid)) - 1e-9
+    assert gain(np.clip(free, low, high)) < gain(made) - 0.1
+
+
+def test_a_step_without_bounds_is_that_of_gauss_newton():
+    precision, pull = np.array([[2.0, 0.5], [0.5, 1.0]]), np.array([1.0, 3.0])
+    endless = np.full(2, np.inf)
+    assert maximise_within(pull, precision, -endless, endless) == pytest.approx(np.linalg.solve(precision, pull))
+
+
+def test_a_value_on_its_upper_bound_still_has_a_derivative(helpers):
+    """A difference beyond the bound is zero, so that a fit never left the bound again."""
+    simulator = helpers.make_simulator()
+    arm = make_arm(simulator, helpers.record(Arm(), samples=1000))
+    gradients = []
+    for high in (0.3, 10.0):
+        damping = ArmCoordinate("elbow.damping", 0.3, 1.0, 1.0, low=0.0, high=high)
+        search, start = prepare_search(arm, simulator, [], {damping.key: damping}, SearchOptions())
+        place = [c.key for c in search.frame.own].index(damping.key)
+        start[place] = 1.0
+        gradients.append(search.frame.expand(start)[0].gradient[place])
+    assert abs(gradients[1]) > 1.0
+    assert gradients[0] == pytest.approx(gradients[1], rel=0.2)
