@@ -31,8 +31,6 @@ CLOSE = 25.0
 """A bare fit within this distance of the best one is weighed with a discrepancy."""
 REACH = 8.0
 """Hypotheses within this distance of the best score are extended."""
-CLIMB = 0.6
-"""The share of the processor time in which sets are fitted without a discrepancy."""
 MOST_UNKNOWN = 2
 """The number of sets with terms, best first, beside which an unknown force is fitted."""
 FAR = 300.0
@@ -92,7 +90,7 @@ class ExplanationSearch:
 
     def _run(self) -> None:
         """Climb, weigh what is near the best set, and extend it."""
-        self.bare.climb(self.budget.part(CLIMB))
+        self.bare.climb(self.budget)
         plain = self.bare.fits[self.bare.leave_out_waves(self.bare.lead)]
         self.use_errors(renew_hums(self.errors, plain, self.recordings or plain.posterior.observations))
         self.weigh(self.bare.fits[self.bare.lead])
