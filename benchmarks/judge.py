@@ -31,7 +31,7 @@ from pathlib import Path
 from judge_rows import print_comparison, print_oracle, print_reliability, read_rows
 from judge_truth import load_truth
 
-SETS = ("twelve", "foreign", "library", "imperfect", "clean")
+SETS = ("twelve", "exact", "foreign", "library", "imperfect", "clean")
 PATIENCE = 20.0
 """A process ends after this many times its limit of processor time on the clock."""
 ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
@@ -45,6 +45,8 @@ def make_machines(name: str, machines: Path, limit: int, fresh: int = 0) -> list
     """
     if name == "twelve":
         from judge_machines import make_twelve as make
+    elif name == "exact":
+        from judge_machines import make_exact as make
     elif name == "foreign":
         from judge_foreign import make_foreign as make
     elif name == "library":

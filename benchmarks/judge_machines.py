@@ -16,7 +16,17 @@ from pathlib import Path
 import numpy as np
 
 from judge_integrator import EXPONENTIAL, HUMPS, PATCH, PENDULUM, Law, move_law
-from judge_truth import Hiding, Truth, is_complete, record, save_truth, widen, write_driven_case, write_table
+from judge_truth import (
+    EXCITATION_NOISE,
+    Hiding,
+    Truth,
+    is_complete,
+    record,
+    save_truth,
+    widen,
+    write_driven_case,
+    write_table,
+)
 from lostmotion.case import dump_case
 from lostmotion_trials.blind.simulator import (
     STEPS_PER_RATE,
@@ -134,8 +144,8 @@ def simulate_law(rig: BlindMachine, law: Law, state: np.ndarray) -> np.ndarray:
     return simulate_pieces(rig, Disturbances(), np.random.default_rng(0), pace, follow)
 
 
-def make_row(row: Row, folder: Path, rng: np.random.Generator) -> Mapping[str, float]:
-    """Write the case of a driven machine; return its true parameters."""
+def make_row(row: Row, folder: Path, rng: np.random.Generator, gauge: float) -> Mapping[str, float]:
+    """Write the case of a driven machine, with such noise of its force; return its true parameters."""
     m, c, k0, x0, amplitude, omega = row.numbers
     values = {"m": m, "c": c, "k1": 0.0, "k0": k0, "x0": x0}
     drive = BlindDrive(((amplitude, omega, float(rng.uniform(0.0, 2.0 * math.pi))),))
@@ -144,7 +154,7 @@ def make_row(row: Row, folder: Path, rng: np.random.Generator) -> Mapping[str, f
         motion = simulate_machine(rig, row.hidden, row.disturbances, rng)
     else:
         motion = simulate_law(rig, row.law, np.zeros(4))
-    shown, seen = record(drive.value(rig.time), motion, row.noise, rng)
+    shown, seen = record(drive.value(rig.time), motion, row.noise, rng, gauge=gauge)
     estimate = {name: widen(values[name], rng) for name in rig.estimated}
     model = {"name": "lin_backlash", "known": {"m": m, "k0": k0, "k1": 0.0}, "estimate": estimate}
     write_driven_case(folder, f"Machine {row.key[:2]}", {"time": rig.time, "force": shown, "position": seen}, model)
@@ -180,7 +190,12 @@ def make_pendulum(row: Row, folder: Path, rng: np.random.Generator) -> Mapping[s
     return values
 
 
-def make_twelve(out: Path, limit: int = 0, fresh: int = 0) -> list[Path]:
+def make_exact(out: Path, limit: int = 0, fresh: int = 0) -> list[Path]:
+    """Return the folders of the twelve machines with forces that are recorded without noise."""
+    return make_twelve(out, limit, fresh, gauge=0.0)
+
+
+def make_twelve(out: Path, limit: int = 0, fresh: int = 0, gauge: float = EXCITATION_NOISE) -> list[Path]:
     """Return the folders of the twelve machines; those that are missing are written first."""
     folders = []
     for number, row in enumerate(ROWS[: limit or None]):
@@ -190,7 +205,7 @@ def make_twelve(out: Path, limit: int = 0, fresh: int = 0) -> list[Path]:
             continue
         rng = np.random.default_rng([SEED + fresh, number])
         free = row.key == "10_pendulum"
-        values = (make_pendulum if free else make_row)(row, folder, rng)
+        values = make_pendulum(row, folder, rng) if free else make_row(row, folder, rng, gauge)
         dt = 1.0 / 200.0 if free else 1.0 / (PACE * row.numbers[5])
         save_truth(folder, Truth(row.key, row.effects, values, "free" if free else "harmonic", row.says, dt))
     return folders

@@ -238,6 +238,7 @@ def measure_clean(rows: dict[str, dict]) -> list[tuple[str, str]]:
 
 MEASURES: dict[str, Callable[[dict[str, dict]], list[tuple[str, str]]]] = {
     "twelve": measure_twelve,
+    "exact": measure_twelve,
     "foreign": measure_foreign,
     "library": measure_library,
     "imperfect": measure_imperfect,

@@ -86,9 +86,12 @@ def write_driven_case(folder: Path, title: str, columns: Mapping[str, np.ndarray
 
 
 def record(
-    drive: np.ndarray, motion: np.ndarray, noise: float, rng: np.random.Generator
+    drive: np.ndarray, motion: np.ndarray, noise: float, rng: np.random.Generator, *, gauge: float = EXCITATION_NOISE
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return drive and position (samples,) as recorded; `noise` is a share of the standard deviation of the motion."""
+    """Return drive and position (samples,) as recorded.
+
+    `noise` is a share of the standard deviation of the motion, that of the `gauge` of the force of its amplitude.
+    """
     size = math.sqrt(2.0) * float(np.std(drive))
     shown = motion + noise * float(np.std(motion)) * rng.standard_normal(len(motion))
-    return drive + EXCITATION_NOISE * size * rng.standard_normal(len(drive)), shown
+    return drive + gauge * size * rng.standard_normal(len(drive)), shown
