@@ -104,6 +104,22 @@ def test_a_trial_that_kills_each_of_its_workers_ends_the_campaign(workers, tmp_p
         Campaign(deadly, Fate, 3, {}).run(tmp_path, 1, cluster=workers)
 
 
+def test_a_cluster_that_ends_in_the_middle_is_told(tmp_path):
+    with distributed.LocalCluster(
+        n_workers=1, threads_per_worker=1, processes=False, dashboard_address=":0", silence_logs=50
+    ) as running:
+
+        def end(done, _of):
+            if done == 2:
+                running.close()
+
+        with pytest.raises(DataError, match="the cluster was lost: start it and run the same command again"):
+            Campaign(partial(toy, tmp_path / "gate"), MachineTrial, 8, {"seed": 3}).run(
+                tmp_path / "out", 1, end, cluster=running.scheduler_address
+            )
+    assert 2 <= len(list((tmp_path / "out" / "trials").iterdir())) <= 4
+
+
 def test_a_worker_that_does_not_see_the_folder_is_told(tmp_path):
     with pytest.raises(DataError, match=r"does not see .*absent: choose an --out in a folder that all workers share"):
         _run_elsewhere(partial(toy, None), tmp_path / "absent", 0)
