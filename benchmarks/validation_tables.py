@@ -29,6 +29,8 @@ SECONDS = (10.0, 60.0)
 """Targets of the median and of the largest processor time of a diagnosis, in s."""
 HELD = (0.93, 0.97)
 """Target of the share of 95 % intervals that hold the truth."""
+TRIALS = (10_000, 1_000_000)
+"""Numbers of trials whose cost is computed."""
 RECALL = 0.8
 """Target of the effects named above 0.95, as a share of those that the oracle names."""
 
@@ -311,6 +313,21 @@ def write_studies(results: Sequence[Result], _: Reasons) -> str:
     return make_table(("what", "result", "command", "version"), rows)
 
 
+def write_costs(results: Sequence[Result], _: Reasons) -> str:
+    """Return the table of what many diagnoses cost, from the mean processor time of the stored ones."""
+    rows = []
+    for result in [*choose_newest(results), *(r for r in results if r.set in ARMS)]:
+        seconds = [row["cpu"] for row in result.rows if row["cpu"] is not None]
+        if len(seconds) < 2:
+            continue
+        mean, half = np.mean(seconds), 1.96 * np.std(seconds, ddof=1) / len(seconds) ** 0.5
+        told = f"{mean:.0f} ({max(mean - half, 0.0):.0f} to {mean + half:.0f})"
+        hours = (f"{float(f'{count * mean / 3600.0:.2g}'):,.0f}" for count in TRIALS)
+        rows.append([f"`{result.machines}`", str(len(seconds)), told, *hours])
+    heads = (f"core hours of {count:,} trials" for count in TRIALS)
+    return make_table(("machines", "measured on", "mean processor s of a diagnosis (95 %)", *heads), rows)
+
+
 def write_intervals(results: Sequence[Result], _: Reasons) -> str:
     """Return in how many runs on imperfect machines the intervals are too narrow."""
     rates = [count_rows(r.rows).held for r in results if r.judged and "imperfect" in r.set]
@@ -338,4 +355,5 @@ BLOCKS: Mapping[str, Callable[[Sequence[Result], Reasons], str]] = {
     "arms": write_arms,
     "armmisses": write_armmisses,
     "studies": write_studies,
+    "costs": write_costs,
 }

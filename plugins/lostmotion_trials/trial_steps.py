@@ -1,4 +1,4 @@
-"""The steps of a blind trial: each is a campaign with its own processes, and an interrupted one is continued."""
+"""The steps of a blind trial: each is a campaign in processes or on a cluster, and an interrupted one is continued."""
 
 from __future__ import annotations
 
@@ -24,7 +24,10 @@ def be_silent(_step: str, _done: int, _of: int) -> None:
 
 @dataclass(frozen=True)
 class TrialSteps:
-    """The steps of a trial of so many `cases` in the folder `out`; with `fresh` ones nothing is continued."""
+    """The steps of a trial of so many `cases` in the folder `out`; with `fresh` ones nothing is continued.
+
+    They run in `jobs` processes, or on the dask cluster at the address `cluster` if it is given.
+    """
 
     out: Path
     cases: int
@@ -32,11 +35,15 @@ class TrialSteps:
     origin: Origin
     say: Say = be_silent
     fresh: bool = False
+    cluster: str = ""
 
-    def run(self, step: str, trial: Trial[T], kind: type[T], settings: Mapping[str, object]) -> list[T]:
-        """Return the result of a step for each case, of the class `kind`."""
+    def run(
+        self, step: str, trial: Trial[T], kind: type[T], settings: Mapping[str, object], *, here: bool = False
+    ) -> list[T]:
+        """Return the result of a step for each case, of the class `kind`; `here` keeps it on this machine."""
         campaign = Campaign(trial, kind, self.cases, self.origin(f"prove {step}", settings), apart=True)
-        return campaign.run(self.out / "steps" / step, self.jobs, partial(self.say, step), fresh=self.fresh)
+        folder, say = self.out / "steps" / step, partial(self.say, step)
+        return campaign.run(folder, self.jobs, say, fresh=self.fresh, cluster="" if here else self.cluster)
 
 
 def open_trial(out: Path, *, fresh: bool) -> Path:

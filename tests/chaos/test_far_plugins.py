@@ -5,6 +5,7 @@ import pickle
 import subprocess
 import sys
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,7 @@ import pytest
 
 from lostmotion.errors import DataError
 from lostmotion.registry import Registry, sources
+from lostmotion_chaos.maps.cells import compute_cells
 from lostmotion_chaos.maps.layout import make_grid_layout
 from lostmotion_chaos.maps.run import Request, RunOptions, make_map, make_study
 from lostmotion_chaos.maps.store import _require_same, load
@@ -28,10 +30,10 @@ REQUEST = Request(
 )
 FAR = """
 import pickle, sys
-from lostmotion_chaos.maps.sweep import _far
+from lostmotion.campaigns.cluster import _compute_remotely
 texts, packed, cells = pickle.load(open(sys.argv[1], "rb"))
 assert not set(texts) & set(sys.modules)
-columns = _far(texts, packed, cells)
+columns = _compute_remotely(texts, packed, cells)
 assert set(texts) <= set(sys.modules)
 print(columns["guest_crest"].tolist())
 """
@@ -51,7 +53,9 @@ def study(tmp_path):
 @pytest.mark.slow
 def test_a_far_process_computes_cells_of_a_plugin_file(study, tmp_path):
     texts = {name: text for name, text in sources().items() if name == "far_guests"}
-    (tmp_path / "packed").write_bytes(pickle.dumps((texts, pickle.dumps(study), np.array([[0]]))))
+    (tmp_path / "packed").write_bytes(
+        pickle.dumps((texts, pickle.dumps(partial(compute_cells, study)), np.array([[0]])))
+    )
     done = subprocess.run(
         [sys.executable, "-c", FAR, tmp_path / "packed"], capture_output=True, text=True, check=False, cwd=tmp_path
     )

@@ -75,7 +75,7 @@ def test_three_axes_and_a_refined_map(tmp_path):
         (("--model", "lin_backlash", "--x", "alpha=0.1:0.5", *Y), "NAME=LOW:HIGH:N"),
         (("--model", "lin_backlash", *X, *Y, "--set", "zeta"), "write key=value"),
         (("--model", "lin_backlash", *X, *Y, "--periods", "10"), "periods"),
-        (("--model", "lin_backlash", *X, *Y, "--dask", "nonsense://x"), "there is no cluster at nonsense://x"),
+        (("--model", "lin_backlash", *X, *Y, "--cluster", "nonsense://x"), "there is no cluster at nonsense://x"),
     ],
 )
 def test_what_cannot_be_meant_is_one_sentence(tmp_path, args, says):

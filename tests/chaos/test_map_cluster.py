@@ -6,11 +6,12 @@ import signal
 import numpy as np
 import pytest
 
+from lostmotion.campaigns.cluster import _get_result
 from lostmotion.errors import DataError
 from lostmotion.registry import default
 from lostmotion_chaos.maps.run import Request, RunOptions, make_map, make_study
 from lostmotion_chaos.maps.store import load
-from lostmotion_chaos.maps.sweep import Workers, _get_result
+from lostmotion_chaos.maps.sweep import Workers
 
 distributed = pytest.importorskip("distributed", reason="distributed is not installed: pip install lostmotion[cluster]")
 

@@ -2,6 +2,7 @@
 
 import importlib
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -110,6 +111,12 @@ def test_an_effect_is_confused_with_the_group_of_the_false_name(stored):
     results = load("validation_results")
     said = [results.describe_outcome(row, row["effects"][0]) for row in stored.rows]
     assert said == ["right", "false: periodic force", "likely, right", "nothing"]
+
+
+def test_the_cost_of_many_trials_is_the_mean_of_the_stored_times(stored):
+    rows = [{**row, "cpu": cpu} for row, cpu in zip(stored.rows, (10.0, 20.0, 60.0, None), strict=True)]
+    table = load("validation_tables").write_costs([replace(stored, rows=rows)], {})
+    assert table.splitlines()[-1] == "| `foreign --fresh 7` | 3 | 30 (0 to 60) | 83 | 8,300 |"
 
 
 def test_a_run_of_two_versions_is_refused_until_one_is_chosen(tmp_path):

@@ -24,7 +24,7 @@ KNOWN = {
         "exec"
     },  # our own text, filled with numbers and with functions of loaded plugins
     "framework/lostmotion/likelihood/place_frame.py": {"exec"},  # our own text: assignments by numbers of rows
-    "plugins/lostmotion_chaos/maps/sweep.py": {
+    "framework/lostmotion/campaigns/cluster.py": {
         "pickle.loads"
     },  # what the client of a dask cluster sent, over the cluster's own pickles
     "framework/lostmotion/written.py": {

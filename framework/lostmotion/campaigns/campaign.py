@@ -1,6 +1,6 @@
-"""Many independent trials on the cores of this machine; each result is stored, so that a killed campaign continues.
+"""Many independent trials in processes or on a cluster; each result is stored, so that a killed campaign continues.
 
-A trial depends only on its number, so neither the order nor the number of processes changes a byte of the results.
+A trial depends only on its number, so neither order, processes nor machines change a byte of the results.
 """
 
 from __future__ import annotations
@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import multiprocessing
 import os
+import platform
 import shutil
 import signal
 import threading
@@ -21,6 +22,7 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Generic, TypeVar
 
+from lostmotion.campaigns.cluster import compute_on_cluster
 from lostmotion.codec import from_plain, to_plain
 from lostmotion.errors import DataError
 from lostmotion.recording.subprocess_reader import ALONE
@@ -46,7 +48,7 @@ class Campaign(Generic[T]):
 
     `kind` is the class of an outcome, used to read it from its file. With `apart`, trials never run in this process,
     even if only one is left. A trial whose process is killed, for instance for lack of memory, has the outcome `lost`;
-    without that function it ends the campaign.
+    without that function it ends the campaign, and so it does on a cluster after several workers were lost with it.
     """
 
     trial: Trial[T]
@@ -56,16 +58,26 @@ class Campaign(Generic[T]):
     apart: bool = False
     lost: Trial[T] | None = None
 
-    def run(self, folder: Path, jobs: int, say: Say = lambda _done, _of: None, *, fresh: bool = False) -> list[T]:
+    def run(
+        self,
+        folder: Path,
+        jobs: int,
+        say: Say = lambda _done, _of: None,
+        *,
+        fresh: bool = False,
+        cluster: str = "",
+    ) -> list[T]:
         """Return the outcome of every trial in order; outcomes that exist in `folder` are not computed again.
 
-        `DataError` is raised when the folder contains a campaign of another identity, unless `fresh` is true.
+        Trials run in up to `jobs` processes, or on the workers of the dask cluster at the address `cluster`. These must
+        see `folder`, an absolute path, and all paths of the trial. `DataError` is raised when they do not, and when the
+        folder contains a campaign of another identity, unless `fresh` is true.
         """
         with held(folder_for(folder)):
             self._claim(folder, fresh)
             missing = [k for k in range(self.count) if not self._is_stored(folder, k)]
             say(self.count - len(missing), self.count)
-            with closing(self._make_missing(folder, missing, jobs)) as numbers:
+            with closing(self._make_missing(folder, missing, jobs, cluster)) as numbers:
                 for done, _ in enumerate(numbers, start=self.count - len(missing) + 1):
                     say(done, self.count)
         return [self._outcome(folder, k) for k in range(self.count)]
@@ -100,14 +112,23 @@ class Campaign(Generic[T]):
         for spare in trials.glob(".*"):
             spare.unlink()
 
-    def _make_missing(self, folder: Path, missing: list[int], jobs: int) -> Generator[int, None, None]:
+    def _make_missing(self, folder: Path, missing: list[int], jobs: int, cluster: str) -> Generator[int, None, None]:
         """Yield the number of each trial after it was made and stored."""
+        if missing and cluster:
+            return self._make_on_cluster(folder, missing, cluster)
         make = partial(_run_and_store, self.trial, folder)
         if not missing or (not self.apart and (jobs == 1 or len(missing) < 2)):
             return (make(k) for k in missing)
         return _run_parallel(
             make, missing, min(jobs, len(missing)), self.lost and partial(_run_and_store, self.lost, folder)
         )
+
+    def _make_on_cluster(self, folder: Path, missing: list[int], address: str) -> Generator[int, None, None]:
+        """Yield the number of each trial after a worker of a cluster made it and its outcome was stored here."""
+        with closing(compute_on_cluster(partial(_run_elsewhere, self.trial, folder), missing, address)) as made:
+            for index, outcome in made:
+                save_json(_file_of(folder, missing[index]), outcome)
+                yield missing[index]
 
 
 def _read_plan(path: Path) -> Mapping[str, object] | None:
@@ -127,6 +148,22 @@ def _run_and_store(trial: Trial[T], folder: Path, number: int) -> int:
     """Return the number of a trial after its outcome was stored."""
     save_json(_file_of(folder, number), to_plain(trial(number)))
     return number
+
+
+_TURN = threading.Lock()
+"""Held by the trial that runs: two of them in threads of one process would change its settings for each other."""
+
+
+def _run_elsewhere(trial: Trial[T], folder: Path, number: int) -> dict[str, object]:
+    """Return the outcome of a trial in plain JSON values, on a worker of a cluster that sees the folder."""
+    if _read_plan(folder / PLAN) is None:
+        raise DataError(
+            f"the worker on {platform.node()} does not see {folder}: choose an --out in a folder that all workers share"
+            " at the same path, or leave --cluster out"
+        )
+    with _TURN:
+        plain: dict[str, object] = to_plain(trial(number))
+    return plain
 
 
 def _run_parallel(

@@ -77,7 +77,7 @@ _AXIS = "NAME=LOW:HIGH:N[:log|inverse]"
     "--seed", default=0, show_default=True, type=click.IntRange(0), help="The same seed gives the same bytes."
 )
 @click.option("--jobs", default=0, metavar="N", type=click.IntRange(0), help="Threads; one for each core if not given.")
-@click.option("--dask", "address", default="", metavar="ADDRESS", help="Compute on the workers of a dask cluster.")
+@click.option("--cluster", "address", default="", metavar="ADDRESS", help="Compute on the workers of a dask cluster.")
 @click.option(
     "--out", required=True, metavar="FILE.zarr|FILE.nc", type=click.Path(path_type=Path), help="Path of the map."
 )

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import pickle
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from contextlib import closing
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lostmotion.errors import DataError
+from lostmotion.campaigns.cluster import compute_on_cluster
 from lostmotion.kernels.threads import cores
-from lostmotion.registry import import_texts, sources
 from lostmotion_chaos.maps.cells import Columns, Study, compute_cells
 from lostmotion_chaos.maps.layout import MapLayout
 from lostmotion_chaos.maps.store import open_store
@@ -35,7 +33,7 @@ class Workers:
     def compute(self, study: Study, pieces: list[Cells]) -> Iterator[tuple[int, Columns]]:
         """Yield the index of a piece and its columns when it is finished."""
         if self.address:
-            return _compute_on_cluster(study, pieces, self.address)
+            return compute_on_cluster(partial(compute_cells, study), pieces, self.address)
         return _compute_on_threads(study, pieces, self.jobs or cores())
 
 
@@ -68,47 +66,3 @@ def _compute_on_threads(study: Study, pieces: list[Cells], jobs: int) -> Iterato
                     yield running.pop(future), future.result()
         finally:
             pool.shutdown(cancel_futures=True)
-
-
-def _compute_on_cluster(study: Study, pieces: list[Cells], address: str) -> Iterator[tuple[int, Columns]]:
-    """Yield finished pieces from the workers of a cluster; the piece of a lost worker is computed by another one."""
-    try:
-        from distributed import Client, as_completed
-    except ImportError as err:
-        raise DataError("--dask needs the package distributed: pip install 'lostmotion[cluster]'") from err
-    try:
-        client = Client(address, timeout="5s", set_as_default=False)  # type: ignore[no-untyped-call]
-    except (OSError, ValueError) as err:
-        raise DataError(f"there is no cluster at {address} ({err}): start one, or leave --dask out") from err
-    with client:
-        finished = as_completed(loop=client.loop, with_results=False)  # type: ignore[no-untyped-call]
-        # A worker unpickles the study itself, after it has imported the plugin files, which it may not have.
-        packed, texts = pickle.dumps(study), sources()
-        futures = [client.submit(_compute_remotely, texts, packed, cells, pure=False, retries=3) for cells in pieces]
-        numbers = {future.key: number for number, future in enumerate(futures)}
-        for future in futures:
-            finished.add(future)  # type: ignore[no-untyped-call]
-        del futures
-        for future in finished:
-            yield numbers[future.key], _get_result(future)
-            future.release()
-
-
-def _compute_remotely(texts: Mapping[str, str], packed: bytes, cells: Cells) -> Columns:
-    """Return the columns of some cells, on a worker of a cluster."""
-    import_texts(texts)
-    return compute_cells(pickle.loads(packed), cells)  # noqa: S301 - bytes from the client of this cluster
-
-
-def _get_result(future: Any) -> Columns:
-    """Return the result of a worker, or raise `DataError` when the workers cannot compute the map at all."""
-    from distributed import KilledWorker
-
-    try:
-        columns: Columns = future.result()
-    except (ImportError, KilledWorker) as err:
-        raise DataError(
-            f"the workers of the cluster cannot compute this map ({' '.join(str(err).split())[:200]}): "
-            "install lostmotion and its plugins on each, or leave --dask out"
-        ) from err
-    return columns

@@ -197,19 +197,21 @@ def run_arms(
     jobs: int,
     say: Say = be_silent,
     fresh: bool = False,
+    cluster: str = "",
 ) -> ArmsProof:
     """Return the content of `proof.json` after writing it into `out`, beside cases and truths.
 
-    Each of the three steps is a campaign with its own processes in `out`/steps; an interrupted one is continued.
+    Each of the three steps is a campaign with its own processes in `out`/steps; an interrupted one is continued. With
+    the address of a dask `cluster`, its workers conceal and diagnose, and processes of this machine score.
     """
     plan.check()
     out = open_trial(out, fresh=fresh)
     settings = {"world": "arms", **{key: value for key, value in asdict(plan).items() if key != "seed"}}
     origin = partial(provenance, seed=plan.seed, inputs={})
-    steps = TrialSteps(out, cases, jobs, origin, say, fresh)
+    steps = TrialSteps(out, cases, jobs, origin, say, fresh, cluster)
     publish(out, steps.run("conceal", partial(conceal_arm, plan, out), ConcealedCase, settings))
     steps.run("diagnose", ArmDiagnoser(out / "cases"), DiagnosedArm, settings)
-    rows = steps.run("score", ArmScorer(out), JudgedArm, settings)
+    rows = steps.run("score", ArmScorer(out), JudgedArm, settings, here=True)
     content = ArmsProof(
         schema="lostmotion.proof_arms/1",
         title=f"Blind trial on arms with {plan.joints} joints",

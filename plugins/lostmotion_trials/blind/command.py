@@ -26,6 +26,7 @@ SAMPLES = 20_000
         "lostmotion prove --cases 300 --clean --out clean     false alarms, some with coloured noise and outliers",
         "lostmotion prove --world imperfect --cases 200 --samples 3000 --out rough     no model is exactly right",
         "lostmotion prove --world arms --cases 100 --wrong 0.05 --out arms     robot arms, with wrong inertias",
+        "lostmotion prove --cases 10000 --cluster tcp://host:8786 --out shared/proof     on the workers of a cluster",
     )
 )
 @click.option("--cases", default=200, show_default=True, type=click.IntRange(1), help="How many cases to conceal.")
@@ -60,6 +61,13 @@ SAMPLES = 20_000
     type=click.FloatRange(0.0, 0.2),
     help="Share (sd) by which masses, centres, inertias and damping of an arm differ from those of its model.",
 )
+@click.option(
+    "--cluster",
+    default="",
+    metavar="ADDRESS",
+    help="Conceal and diagnose on the workers of a dask cluster. All of them need this version of lostmotion, and DIR"
+    " and the plugin files in a shared folder, at the same path on each machine.",
+)
 @click.option("--fresh", is_flag=True, help="Delete an existing trial instead of continuing it.")
 @add_common_options
 @click.pass_context
@@ -73,10 +81,10 @@ def command(ctx: click.Context, /, out: Path, only: tuple[str, ...], **given: An
 
     Writes cases/, sealed/, seal.json, proof.json and, except for arms, report.html into DIR. The same command continues
     a trial that was interrupted at any time, or enlarges it with a larger --cases; the files depend neither on that nor
-    on --jobs. The exit status is 0 when the trial was completed, whatever its result, and 2 for unusable input or a
-    truth that differs from the sealed one.
+    on --jobs or --cluster. The exit status is 0 when the trial was completed, whatever its result, and 2 for unusable
+    input or a truth that differs from the sealed one.
     """
-    options = {key: given[key] for key in ("cases", "jobs", "fresh")}
+    options = {key: given[key] for key in ("cases", "jobs", "fresh", "cluster")}
     if given["world"] == "arms":
         _prove_arms(out, only, given, options)
         return

@@ -42,7 +42,7 @@ class Diagnoser:
         except (LostMotionError, ArithmeticError, ValueError) as err:
             shutil.rmtree(place / "diagnosis", ignore_errors=True)
             return DiagnosedCase(format_case_name(number), "failed", " ".join(str(err).split()))
-        (place / "diagnosis" / "arrays.nc").unlink()
+        (place / "diagnosis" / "arrays.nc").unlink(missing_ok=True)  # a worker that was taken for lost did it
         return DiagnosedCase(format_case_name(number), "ok", " ".join(found.says))
 
 
@@ -71,10 +71,12 @@ def run_proof(
     plugins: tuple[str, ...] = (),
     say: Say = be_silent,
     fresh: bool = False,
+    cluster: str = "",
 ) -> Proof:
     """Return the content of `proof.json` after writing it and `report.html` into `out`, beside cases and truths.
 
-    Each of the three steps is a campaign with its own processes in `out`/steps; an interrupted one is continued.
+    Each of the three steps is a campaign with its own processes in `out`/steps; an interrupted one is continued. With
+    the address of a dask `cluster`, its workers conceal and diagnose, and processes of this machine score.
     """
     blind.check()
     out = open_trial(out, fresh=fresh)
@@ -82,10 +84,10 @@ def run_proof(
     library = {**settings, "terms": _registry(plugins).names("term")}
     inputs = {Path(file).name: digest(Path(file)) for file in plugins}
     origin = partial(provenance, seed=blind.seed, inputs=inputs)
-    steps = TrialSteps(out, cases, jobs, origin, say, fresh)
+    steps = TrialSteps(out, cases, jobs, origin, say, fresh, cluster)
     publish(out, steps.run("conceal", partial(conceal_case, blind, out), ConcealedCase, settings))
     diagnosed = steps.run("diagnose", Diagnoser(out / "cases", plugins), DiagnosedCase, library)
-    scored = steps.run("score", Scorer(out, plugins), JudgedCase, library)
+    scored = steps.run("score", Scorer(out, plugins), JudgedCase, library, here=True)
     content = Proof(
         schema="lostmotion.proof/1",
         title=_format_title(blind),
