@@ -108,6 +108,19 @@ def note_repeated_motion(facts: Facts) -> Iterator[str]:
     yield from note_repetitions(facts.recordings, facts.fitted, facts.held)
 
 
+@remark("recordings")
+def note_gauge_noise(facts: Facts) -> Iterator[str]:
+    """Yield a note for each recording whose periodic force was used without the noise of its gauge."""
+    for one in facts.recordings:
+        if one.gauge_noise:
+            share = rounded(100.0 * one.gauge_noise / one.travel)
+            where = f"of {one.name} " if len(facts.recordings) > 1 else ""
+            yield (
+                f"The drive {where}repeats, and {share} % of its amplitude (rms) does not. The response is more likely"
+                " without this part, so it was taken for noise of the measurement and left out."
+            )
+
+
 @remark("position")
 def note_unknown_position(facts: Facts) -> Iterator[str]:
     """Yield a note if no sensor measures the position and its estimate is uncertain."""
@@ -142,6 +155,7 @@ NOTES: tuple[Remark, ...] = (
     note_corrections,
     note_short_delays,
     note_budget,
+    note_gauge_noise,
     note_repeated_motion,
     note_unknown_position,
 )

@@ -52,6 +52,7 @@ class Observation:
     that were recorded, none where the machine is left to itself; `lead` is the column of the one that drives it and
     `slope` that of its time derivative, where the model has this as an input of its own. `begun` are mean (n,) and
     covariance (n, n) of the states of the model at the first sample, where more is known than the first readings show.
+    `gauge_noise` is the standard deviation of what was left out of a periodic force.
     """
 
     name: str
@@ -66,6 +67,7 @@ class Observation:
     lead: int = 0
     slope: int | None = None
     begun: tuple[Array, Array] | None = None
+    gauge_noise: float = 0.0
 
     @classmethod
     def of(cls, name: str, response: Array, inputs: Array, dt: float, channel: str, **more: Any) -> Observation:
