@@ -13,7 +13,7 @@ from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import Registry
 
 NOISE, SLOW, PACE = 0.5, 2.0, 9.0
-"""The noise of the gauge (N), the amplitude (N) of the third multiple, and the angular frequency (rad/s) of the force."""
+"""The noise of the gauge (N), amplitude (N) of the third multiple, and angular frequency (rad/s) of the force."""
 
 
 def cycle(t):
