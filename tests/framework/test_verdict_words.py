@@ -1,5 +1,7 @@
 """What the opening sentences of a diagnosis say: of changes either way, of loud noise, of sensors, and of nothing."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import report_fixture as made
@@ -61,6 +63,13 @@ def test_a_force_on_another_body_is_told_on_the_first_one():
     assert "the unexplained force, if it acts on the first body, falls from 2 to 1 N" in summarise(both, [FOUND])[1]
 
 
+def make_noisy_drive():
+    """Return a recording of noise under a force of 2 N, of which 0.01 N (rms) were left out."""
+    force = 2.0 * np.sin(0.1 * np.arange(4000.0))
+    seen = np.random.default_rng(0).standard_normal(4000)
+    return replace(Observation.of("noisy", seen, force[:, None], 0.01, "position"), gauge_noise=0.01)
+
+
 def test_noise_that_may_be_motion_is_doubted():
     def doubt(*sensors):
         return note_large_noise.write(make_facts(sensors=sensors))
@@ -98,6 +107,7 @@ def test_only_a_named_law_is_left_out_of_the_model_by_words():
         ),
         ({"corrected": ("the gain is 1.02",)}, "Usual errors of channels and known values are corrected: the gain is"),
         ({"skipped": ("a", "b"), "explanations": 7}, "The search used up its processor time after 7 explanations"),
+        ({"recordings": (make_noisy_drive(),)}, "The drive repeats, but for 0.5 % of its amplitude (rms)."),
         ({"sensors": (make_sensor(words=("Noise drifts.",)),)}, "Noise drifts."),
         ({"contacts": ("A bounce is short.",)}, "A bounce is short."),
         ({"position": BodyPosition(np.array([1.0, -1.0]), np.full(2, 0.05))}, "No sensor measures the position: it is"),

@@ -116,8 +116,8 @@ def note_gauge_noise(facts: Facts) -> Iterator[str]:
             share = rounded(100.0 * one.gauge_noise / one.travel)
             where = f"of {one.name} " if len(facts.recordings) > 1 else ""
             yield (
-                f"The drive {where}repeats, and {share} % of its amplitude (rms) does not. The response is more likely"
-                " without this part, so it was taken for noise of the measurement and left out."
+                f"The drive {where}repeats, but for {share} % of its amplitude (rms). The model predicts the response"
+                " better without this part, so it was left out as noise of the measurement."
             )
 
 
