@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
-from toy_campaign import Fate, deadly, toy
+from toy_campaign import Fate, deadly, fall, toy
 
 from lostmotion.campaigns import cluster as cluster_module
 from lostmotion.campaigns.campaign import Campaign, _run_elsewhere
@@ -40,17 +40,6 @@ def workers(tmp_path_factory):
 
 def list_files(folder):
     return {str(p.relative_to(folder)): p.read_bytes() for p in sorted(folder.rglob("*")) if p.is_file()}
-
-
-def fall(mark, number):
-    """Return a trial; the first worker that makes one of these two is killed in its middle."""
-    if number in (1, 4):
-        try:
-            (mark / str(number)).touch(exist_ok=False)
-            os.kill(os.getpid(), signal.SIGKILL)
-        except FileExistsError:
-            pass
-    return toy(None, number)
 
 
 def test_workers_that_are_killed_in_the_middle_of_a_trial_lose_nothing(workers, tmp_path):

@@ -75,3 +75,14 @@ def placed(number, truth, chain):
 
 def campaign(*, count=COUNT, gate=None, identity=None):
     return Campaign(partial(toy, gate), MachineTrial, count, identity or {"settings": {"noise": 1.0}, "seed": 3})
+
+
+def fall(mark, number):
+    """Return a trial; the first worker that makes one of these two is killed in its middle."""
+    if number in (1, 4):
+        try:
+            (mark / str(number)).touch(exist_ok=False)
+            os.kill(os.getpid(), signal.SIGKILL)
+        except FileExistsError:
+            pass
+    return toy(None, number)
