@@ -123,7 +123,8 @@ def test_known_values_are_off_by_a_tenth_of_a_per_cent_to_one(ten):
 def test_readings_lie_on_a_lattice(ten):
     for number in range(10):
         truth = sealed(ten, number)
-        step = truth.world.step * truth.machine.measurement_noise
+        hidden = [dict(e.parameters)["step"] for e in truth.effects if e.mechanism == "sensor_quantisation"]
+        step = hidden[0] if hidden else truth.world.step * truth.machine.measurement_noise
         shown = np.loadtxt(ten / "cases" / format_case_name(number) / "recording.csv", delimiter=",", skiprows=1)[:, 2]
         assert np.abs(shown / step - np.round(shown / step)).max() < 1e-3
 
@@ -181,6 +182,14 @@ def test_all_smooth_forces_together_are_a_small_share_of_the_drive():
             assert SMOOTH_SIZES[0] <= share * 1.0000001
             assert share <= SMOOTH_SIZES[1] * 1.0000001
             assert kind == CYCLE or "phase" not in {b.over for b in world.smooth}
+
+
+def test_a_hidden_step_is_that_of_the_recording():
+    """Each machine has a step; one that is hidden takes its place, and is what an answer is compared with."""
+    pilot, world, rng = machine(CYCLE, 2, 3000)
+    step = 0.01 * float(np.std(pilot.q))
+    shown, _ = record_imperfect(pilot.rig, pilot.q, world, rng, hidden_step=step)
+    assert np.array_equal(shown, step * np.round(shown / step))
 
 
 def test_noise_has_its_deviation_and_the_sensor_is_bent_by_half_a_per_cent_at_most():

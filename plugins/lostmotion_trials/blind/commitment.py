@@ -90,12 +90,13 @@ def conceal_case(blind: Blind, out: Path, number: int) -> ConcealedCase:
     else:
         draw, fill = partial(draw_rig, rng, blind.most), partial(_fill_perfect, names, rng)
     rig, (effects, motion, world) = _draw_machine(names, rng, draw, fill)
+    step = convert_effects(rig, effects)[1].step
     if world:
-        response, noise = record_imperfect(rig, motion, world, rng)
+        response, noise = record_imperfect(rig, motion, world, rng, hidden_step=step)
         noise_size = EXCITATION_NOISE * rig.signal.amplitude
         excitation = rig.signal.value(rig.time) + noise_size * rng.standard_normal(len(motion))
     else:
-        excitation, response, noise = _record(rig, motion, convert_effects(rig, effects)[1].step, variant, rng)
+        excitation, response, noise = _record(rig, motion, step, variant, rng)
     stated = world.stated if world else {}
     write_case(rig, (excitation, response), place, title=f"Blind case {format_case_name(number)}", stated=stated)
     truth = SealedTruth(

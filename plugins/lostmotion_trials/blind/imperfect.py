@@ -259,8 +259,13 @@ def _evaluate_over_time(waves: Curve, share: Array) -> Array:
     return np.asarray(_evaluate_waves(waves, math.pi * share) - means[0] - slope * (share - 0.5 * FITTED))
 
 
-def record_imperfect(rig: BlindMachine, truth: Array, world: World, rng: np.random.Generator) -> tuple[Array, float]:
-    """Return the recorded response (samples,) and the standard deviation of its noise."""
+def record_imperfect(
+    rig: BlindMachine, truth: Array, world: World, rng: np.random.Generator, *, hidden_step: float = 0.0
+) -> tuple[Array, float]:
+    """Return the recorded response (samples,) and the standard deviation of its noise.
+
+    Readings are whole multiples of a hidden step, if there is one, and else of that of the world.
+    """
     from scipy.signal import lfilter
 
     clean = rig.signal.value(rig.time)
@@ -273,7 +278,7 @@ def record_imperfect(rig: BlindMachine, truth: Array, world: World, rng: np.rand
     slow = lfilter([math.sqrt(1.0 - world.memory**2)], [1.0, -world.memory], slow)
     hum = world.hum * np.cos(world.hum_pace * rig.time + float(rng.uniform(0.0, 2.0 * math.pi)))
     shown = bent + noise * (math.sqrt(1.0 - world.slow) * white + math.sqrt(world.slow) * slow + hum)
-    step = world.step * noise
+    step = hidden_step or world.step * noise
     return step * np.round(shown / step), noise
 
 
