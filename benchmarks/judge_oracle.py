@@ -106,12 +106,18 @@ def make_noise(pilot: Pilot, world: World, noise: float, operator: np.ndarray) -
     return covariance
 
 
-def open_view(sealed: SealedTruth) -> View:
-    """Return what the observer sees of a machine."""
-    rig, world, rng = sealed.machine, sealed.world, np.random.default_rng(SEED)
+def simulate_truth(sealed: SealedTruth, rng: np.random.Generator) -> tuple[Pilot, World]:
+    """Return the true motion of a machine, and its flaws."""
+    rig, world = sealed.machine, sealed.world
     if world is None:
         raise ValueError("the machine is one of the perfect world")
-    pilot = Pilot(rig, simulate_imperfect(rig, convert_effects(rig, sealed.effects), world, rng))
+    return Pilot(rig, simulate_imperfect(rig, convert_effects(rig, sealed.effects), world, rng)), world
+
+
+def open_view(sealed: SealedTruth) -> View:
+    """Return what the observer sees of a machine."""
+    rig, rng = sealed.machine, np.random.default_rng(SEED)
+    pilot, world = simulate_truth(sealed, rng)
     operator = make_operator(pilot)
     covariance = make_noise(pilot, world, rig.measurement_noise, operator)
     lost = cholesky(covariance, lower=True) @ rng.standard_normal(len(covariance))
@@ -172,11 +178,7 @@ def measure_effect(effect: Effect, pilot: Pilot, operator: np.ndarray) -> tuple[
 
 def measure_shares(sealed: SealedTruth) -> list[float | None]:
     """Return the size of each hidden effect over its reference along the true motion; None where it is no force."""
-    rig, world = sealed.machine, sealed.world
-    if world is None:
-        raise ValueError("the machine is one of the perfect world")
-    moved = simulate_imperfect(rig, convert_effects(rig, sealed.effects), world, np.random.default_rng(SEED))
-    pilot = Pilot(rig, moved)
+    pilot, _ = simulate_truth(sealed, np.random.default_rng(SEED))
     operator = make_operator(pilot)
     measured = [None if e.mechanism in NOISY else measure_effect(e, pilot, operator)[1:] for e in sealed.effects]
     return [one and one[0] / one[1] for one in measured]

@@ -40,7 +40,7 @@ def keep_harmonics(observation: Observation) -> Observation:
     if observation.free or observation.held or observation.slope is not None:
         return observation
     period = refined_period(observation.excitation, observation.dt)
-    if period is None or observation.samples * observation.dt < 2.0 * period:
+    if period is None:
         return observation
     rest, _ = without_harmonics(observation.excitation, observation.dt, period)
     noise = rest - rest.mean()

@@ -220,19 +220,18 @@ def fit_hypothesis(
             break
         frame = frame.follow(at)
     used, precision = find_precision(frame, seen, chosen)
-    evidence = _compute_log_evidence(frame, seen, chosen)
+    evidence = _compute_log_evidence(frame, seen, chosen, precision)
     if not math.isfinite(evidence):
         return None
     scatter = seen.measure_scatter_of(used[used >= len(frame.own)])
     return ArmHypothesis(frame, at, chosen, evidence, 0.0, price, scatter, seen, kept, used, precision)
 
 
-def _compute_log_evidence(frame: ArmFrame, seen: Expansion, choice: Choice) -> float:
+def _compute_log_evidence(frame: ArmFrame, seen: Expansion, choice: Choice, precision: Array) -> float:
     """Return the log evidence by Laplace's method at an expansion; -inf where its precision is not positive."""
-    used, precision = find_precision(frame, seen, choice)
     target = float(seen.here.log_likelihood) + frame.log_prior(seen.at, choice) - frame.discrepancy.price(choice)
     sign, size = np.linalg.slogdet(precision)
-    found = target + 0.5 * len(used) * math.log(2.0 * math.pi) - 0.5 * float(size)
+    found = target + 0.5 * len(precision) * math.log(2.0 * math.pi) - 0.5 * float(size)
     return found if sign > 0 and math.isfinite(found) else -math.inf
 
 
@@ -255,7 +254,7 @@ def _climb(
         if gain < CLOSE:
             break
         at = there
-        if gain < IDLE * (worth - _compute_log_evidence(frame, seen, chosen) - gain):
+        if gain < IDLE * (worth - _compute_log_evidence(frame, seen, chosen, precision) - gain):
             break
     if not np.array_equal(at, seen.at):
         seen, kept = frame.expand(at)
