@@ -14,12 +14,13 @@ from scipy.special import logsumexp
 from lostmotion.diagnosis.compare import cut_heldout
 from lostmotion.diagnosis.stages import list_fitted_keys
 from lostmotion.evidence import discrepancy
+from lostmotion.evidence.bare import BareFits
 from lostmotion.evidence.channel_errors import DriveError, SensorError, list_channel_errors
 from lostmotion.evidence.discrepancy import LENGTHS, make_frame
 from lostmotion.evidence.effects import Promise
 from lostmotion.evidence.expansion import Expansion, compute_log_evidence
 from lostmotion.evidence.hypothesis import fit_hypothesis
-from lostmotion.evidence.search import CLOSE, Budget, ExplanationSearch, compute_probabilities
+from lostmotion.evidence.search import Budget, ExplanationSearch, compute_probabilities
 from lostmotion.inference.candidates import ScoreTest, add_term
 from lostmotion.inference.curves import add_all_curves
 from lostmotion.inference.fit import ROUGHLY, begin_at, choose_first_steps, hold_free, maximise
@@ -297,17 +298,30 @@ def test_the_evidence_is_that_of_the_forces_of_a_hypothesis(rubbing, option):
     assert not np.any(found.at[frame.own :][frame.widths(found.choice) == 0.0])
 
 
-@pytest.mark.parametrize(("behind", "smooth", "weighed"), [(0.5, 3.0, True), (2.0, 3.0, False), (0.5, 0.0, False)])
-def test_other_laws_are_weighed_where_a_smooth_force_explains_as_much(rubbing, monkeypatch, behind, smooth, weighed):
-    """`behind` is by how much the model without any term is worse; the best law leaves `smooth` to a smooth force."""
-    best, fits = replace(rubbing.best, smooth=smooth), []
+@pytest.mark.parametrize(("behind", "smooth", "proposed"), [(20.0, 3.0, True), (20.0, 0.0, False)])
+def test_laws_are_proposed_in_place_of_the_best_one(rubbing, monkeypatch, behind, smooth, proposed):
+    """The model without any term is worse by `behind`, and has a smooth force with this log evidence."""
+    best, asked = rubbing.best, []
     search = copy.copy(rubbing)
-    nothing_found = replace(rubbing.found[frozenset()], log_evidence=best.log_evidence - behind * CLOSE)
-    search.found = {best.terms: best, frozenset(): nothing_found}
-    monkeypatch.setattr(ExplanationSearch, "weigh", lambda self, bare: fits.append(bare.posterior.active))
-    search._weigh_alike()
-    assert bool(fits) is weighed
-    assert all(len(terms) == 1 and terms != best.terms for terms in fits)
+    nothing = replace(rubbing.found[frozenset()], log_evidence=best.log_evidence - behind, smooth=smooth)
+    search.found, search.proposed = {best.terms: best, frozenset(): nothing}, set()
+    monkeypatch.setattr(BareFits, "list_promises", lambda self, beside, known: asked.append(beside) or [])
+    search._replace_each()
+    search._replace_each()
+    assert [one.terms for one in asked] == ([frozenset()] if proposed else [])
+
+
+def test_promises_are_of_fitted_and_heldout_data(rubbing):
+    """The score is of all data; what promises more in the fitted part alone may have a lower score."""
+    nothing = rubbing.found[frozenset()]
+    whole = rubbing._expand_whole(nothing)
+    (observation, _), *others = rubbing.pieces
+    assert not others
+    assert len(whole.expansion.here.errors) == observation.samples * len(observation.sensors)
+    assert len(nothing.expansion.here.errors) < len(whole.expansion.here.errors)
+    assert whole.frame.bare(whole.at, whole.choice).log_likelihood(
+        whole.at[: len(whole.frame.posterior.space.free)]
+    ) == (pytest.approx(float(whole.expansion.here.log_likelihood)))
 
 
 def test_a_set_is_not_worse_than_its_subset(rubbing):

@@ -17,7 +17,7 @@ from lostmotion.inference.candidates import ScoreTest, fit_term, replace_term
 from lostmotion.inference.commoner import rewrite_term
 from lostmotion.inference.curves import drop_all_curves
 from lostmotion.inference.fit import ROUGHLY, Fit, maximise, use_cores, use_one_core
-from lostmotion.inference.late import price_onset
+from lostmotion.inference.late import list_onsets, price_onset
 from lostmotion.inference.natural import find_term, find_wave
 from lostmotion.inference.other_shapes import has_other_shapes, refit_complete, refit_shapes
 from lostmotion.inference.penalties import compute_price, is_simpler
@@ -154,7 +154,8 @@ class BareFits:
         own = self.fits[mine]
         more = [key for key in self.keys if not self._holds(mine, key) and self._join(mine, key) not in have]
         prices = {key: self.temper * self._price(own, key) for key in more}
-        every = list_promises(beside, more, self.shapes, prices, self.temper * price_onset(bare))
+        onsets = list_onsets(self.nominal.posterior).tolist()
+        every = list_promises(beside, more, self.shapes, prices, onsets, self.temper * price_onset(bare))
         if not mine:
             self.promised |= {p.key: (p.gain + prices[p.key]) / self.temper for p in every}
         found = [p for p in every if p.gain > 0.0]

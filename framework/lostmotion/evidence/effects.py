@@ -20,7 +20,7 @@ from lostmotion.evidence.expansion import Curvature, Expansion, compute_cross_in
 from lostmotion.evidence.hypothesis import Hypothesis, solve_posterior
 from lostmotion.inference.candidates import make_term_parameters
 from lostmotion.inference.far_values import hold_shape
-from lostmotion.inference.late import can_have_onset, list_onsets
+from lostmotion.inference.late import can_have_onset
 from lostmotion.inference.natural import compute_size, find_term, list_star_points, list_tried_values, sort_slots
 from lostmotion.inference.rounding import drop_rounding
 from lostmotion.kernels.threads import each
@@ -66,11 +66,16 @@ Shapes = Mapping[str, Sequence[Mapping[str, float]]]
 
 
 def list_promises(
-    found: Hypothesis, keys: Sequence[str], shapes: Shapes, prices: Mapping[str, float], dearer: float
+    found: Hypothesis,
+    keys: Sequence[str],
+    shapes: Shapes,
+    prices: Mapping[str, float],
+    onsets: Sequence[float],
+    dearer: float,
 ) -> list[Promise]:
     """Return what each term promises beside a hypothesis, best first; `shapes` are tried beside the usual ones.
 
-    The price of a term with an onset is larger by `dearer`.
+    A term may act from one of the `onsets` (s) on; its price is larger by `dearer` then.
     """
     posterior = found.frame.bare(found.at, found.choice)
     theta = found.at[: len(posterior.space.free)]
@@ -84,12 +89,12 @@ def list_promises(
 
     tested = [one for one in each(test, list(keys), posterior.jobs) if one is not None]
     tested.sort(key=lambda one: -one[0].gain)
-    late = [_test_onsets(found, *one, before + prices[one[0].key] + dearer) for one in tested[:MOST_LATE]]
+    late = [_test_onsets(found, *one, before + prices[one[0].key] + dearer, onsets) for one in tested[:MOST_LATE]]
     promises = [*late, *(promise for promise, _ in tested[MOST_LATE:])]
     return sorted((one for one in promises if math.isfinite(one.gain)), key=lambda one: -one.gain)
 
 
-def _test_onsets(found: Hypothesis, ever: Promise, effect: TermEffect, less: float) -> Promise:
+def _test_onsets(found: Hypothesis, ever: Promise, effect: TermEffect, less: float, onsets: Sequence[float]) -> Promise:
     """Return what a term promises if it acts from an onset on, where that is more than what it promises as it is.
 
     A filter forgets earlier samples within a few cycles. So the derivatives of the errors after an onset are those of a
@@ -99,7 +104,6 @@ def _test_onsets(found: Hypothesis, ever: Promise, effect: TermEffect, less: flo
     if not can_have_onset(posterior, effect.key):
         return ever
     times = np.concatenate([np.repeat(o.time, len(o.sensors)) for o in posterior.observations])
-    onsets = list_onsets(posterior).tolist()
     after = [times >= onset for onset in onsets]
     cuts = [replace(effect, errors=effect.errors * late, variances=effect.variances * late) for late in after]
     late = [

@@ -19,7 +19,7 @@ from lostmotion.evidence.hypothesis import Hypothesis, fit_hypothesis
 from lostmotion.evidence.sensor_hum import renew_hums
 from lostmotion.inference.candidates import ScoreTest, add_term
 from lostmotion.inference.curves import add_all_curves
-from lostmotion.inference.fit import ROUGHLY, Fit, maximise, restart
+from lostmotion.inference.fit import ROUGHLY, Fit, choose_first_steps, maximise, restart
 from lostmotion.inference.natural import sort_slots
 from lostmotion.inference.penalties import compute_price, compute_unknown_price
 from lostmotion.inference.settling import settle_steps
@@ -57,6 +57,7 @@ class ExplanationSearch:
     recordings: Sequence[Observation] = ()
     found: dict[Terms, Hypothesis] = field(default_factory=dict)
     extended: set[Terms] = field(default_factory=set)
+    proposed: set[Terms] = field(default_factory=set)
     dropped: set[tuple[Terms, Terms]] = field(default_factory=set)
     skipped: list[str] = field(default_factory=list)
     cancelled: bool = False
@@ -97,14 +98,15 @@ class ExplanationSearch:
         if frozenset() not in self.found:
             self._drop_all(self.best)
         self._reduce(self.bare.lead)
-        self._weigh_alike()
         self._weigh_close()
+        self._replace_each()
         while (target := self._choose_next()) is not None:
             if self.budget.spent:
                 self.skipped.append(name_terms(target.terms))
                 break
             self.extended.add(target.terms)
             self._extend(target)
+            self._replace_each()
 
     def use_errors(self, errors: tuple[ChannelError, ...]) -> None:
         """Use these errors of channels from now on."""
@@ -164,11 +166,43 @@ class ExplanationSearch:
                 self._drop(target, key, target.terms - {key})
         self.bare.extend(target.terms)
         self._weigh_close()
-        if target.smooth > 0.0 and not self.budget.spent:
-            self.say(f"score tests beside {name_terms(target.terms)} and a smooth force")
-            for promise in self.bare.list_promises(target, self.found)[:MOST_BESIDE]:
-                if not self.budget.spent:
-                    self._weigh_beside(target, promise)
+        self._weigh_promised(target)
+
+    def _replace_each(self) -> None:
+        """Weigh what promises more than each law of the best set, in its place, until the best set stays the same."""
+        before = None
+        while (best := self.best.terms) != before:
+            before = best
+            for key in sorted(best):
+                if best - {key} in self.found:
+                    self._weigh_promised(self.found[best - {key}], key)
+
+    def _weigh_promised(self, target: Hypothesis, instead: str = "") -> None:
+        """Weigh a set with one more law, for each of those that promise most beside its smooth forces.
+
+        With `instead` they promise nearly as much as this law. Like the score, a promise is of all data: a law that
+        matters only in the held-out part promises nothing in the fitted part.
+        """
+        if target.terms in self.proposed or target.smooth <= 0.0 or self.budget.spent:
+            return
+        self.proposed.add(target.terms)
+        self.say(f"score tests beside {name_terms(target.terms)} and a smooth force")
+        known = set(self.found) - {target.terms | {instead}}
+        promises = self.bare.list_promises(self._expand_whole(target), known)
+        least = max((p.gain - REACH for p in promises if p.key == instead), default=0.0)
+        for promise in [p for p in promises if p.gain > least and p.key != instead][:MOST_BESIDE]:
+            if not self.budget.spent:
+                self._weigh_beside(target, promise)
+
+    def _expand_whole(self, target: Hypothesis) -> Hypothesis:
+        """Return a hypothesis with its expansion over the fitted and the held-out data together."""
+        if not self.pieces:
+            return target
+        frame, fitted = target.frame, target.frame.posterior
+        whole = {o.name: o for o in (*fitted.observations, *(o for o, _ in self.pieces))}
+        wider = replace(frame, posterior=fitted.on(tuple(whole.values())))
+        steps = choose_first_steps(fitted.over(fitted.space.free[: frame.own]))
+        return replace(target, frame=wider, expansion=wider.expand(target.at, steps, target.choice))
 
     def _weigh_close(self) -> None:
         """Weigh the bare fits that are close to the best one: a small discrepancy may make them better."""
@@ -177,22 +211,6 @@ class ExplanationSearch:
         for fit in ranked[:MOST_CLOSE]:
             if fit.posterior.active not in self.found and self.bare.weigh(fit) > least and not self.budget.spent:
                 self.weigh(fit)
-
-    def _weigh_alike(self) -> None:
-        """Weigh single laws, and sets with one other law than the best one, where fits alone do not rank them.
-
-        That is where a discrepancy adds much to the best set, or adds something to it and explains the fitted data as
-        well as its laws.
-        """
-        best, fits, nothing = self.best, self.bare.fits, self.found[frozenset()]
-        rival = bool(best.terms) and best.smooth > 0.0 and nothing.log_evidence > best.log_evidence - CLOSE
-        if not rival and best.log_evidence - fits[best.frame.terms].log_evidence < CLOSE:
-            return
-        alike = [t for t in fits if len(t) == 1 or (len(t) == len(best.terms) and len(t - best.terms) == 1)]
-        new = sorted((t for t in alike if t not in self.found), key=lambda t: self.bare.weigh(fits[t]), reverse=True)
-        for terms in new[:MOST_CLOSE]:
-            if not self.budget.spent:
-                self.weigh(fits[terms])
 
     def weigh(self, bare: Fit, begin: Mapping[str, float] | None = None, choice: Choice | None = None) -> None:
         """Fit the hypothesis of a bare fit, from some coordinates, and keep it if it is the best of its terms."""
