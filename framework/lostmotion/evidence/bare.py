@@ -35,6 +35,8 @@ MOST_SINGLE, MOST_FITTED = 10, 5
 """The largest numbers of terms that are fitted alone, and beside a set. Where the nominal fit is far from the truth,
 slopes say little of a large effect, and a wrong first law is rarely left again."""
 MOST_TERMS = 4
+HALF = 0.5
+"""Work that may wait is not begun once this share of the budget is used: other shapes of a set, and AR(1) noise."""
 
 
 @dataclass(kw_only=True)
@@ -203,7 +205,8 @@ class BareFits:
             self.keep(use_cores(complete, bare.posterior.jobs))
         if has_other_shapes(bare.posterior):
             self.say(f"other shapes of {name_terms(terms)}")
-            self.keep(use_cores(refit_shapes(bare), bare.posterior.jobs))
+            half = self.budget.part(HALF)
+            self.keep(use_cores(refit_shapes(bare, lambda: half.spent), bare.posterior.jobs))
 
     def _contains(self, richer: str, simpler: str) -> bool:
         """Return whether a law contains another one at the same place."""

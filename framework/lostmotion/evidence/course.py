@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from lostmotion.evidence.bare import Budget, Say
+from lostmotion.evidence.bare import HALF, Budget, Say
 from lostmotion.evidence.explanations import Explanations
 from lostmotion.evidence.hypothesis import Hypothesis
 from lostmotion.evidence.search import ExplanationSearch
@@ -18,8 +18,6 @@ from lostmotion.likelihood.observation import Observation
 
 FIRST = 0.6
 """The share of the processor time for the search on stretches."""
-HALF = 0.5
-"""A search with AR(1) noise is begun if no more than this share of the processor time is used."""
 MOST_WHOLE, REACH = 4, 20.0
 """The number of sets that are weighed on all samples, and the largest distance of their scores from the best one."""
 

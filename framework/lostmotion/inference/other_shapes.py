@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 
 import numpy as np
@@ -14,6 +14,8 @@ from lostmotion.inference.natural import collect_shapes, sort_slots
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.posterior import Posterior
 
+Late = Callable[[], bool]
+"""Whether the time for this work is used up."""
 FACTORS = (0.7, 0.85, 0.93, 1.08, 1.2, 1.4)
 """Shapes that are tried, over the fitted one: a wave that has one period more or less within the travel fits next."""
 RAISES = (0.0, 3.0)
@@ -40,30 +42,32 @@ def list_scanned_shapes(posterior: Posterior) -> list[int]:
     return [i for i, key in enumerate(posterior.space.keys) if key in keys]
 
 
-def find_modes(fit: Fit, *, reach: float = math.inf) -> list[Fit]:
+def find_modes(fit: Fit, *, reach: float = math.inf, is_late: Late = lambda: False) -> list[Fit]:
     """Return the maxima that are found from other shapes, best first, including the fit itself.
 
     Those whose log evidence is below the best by more than `reach` are left out. A fit without a scanned shape is
-    returned alone.
+    returned alone. No further shape is changed once `is_late`.
     """
     at = list_scanned_shapes(fit.posterior)
     if not at or fit.status == "diverged":
         return [fit]
     single = use_one_core(fit)
-    starts = [_scale_shape(single, i, factor, up) for i in at for factor in FACTORS for up in RAISES]
-    kept = [fit]
+    kept, found = [fit], list[Fit]()
     hopeless = fit.local.log_posterior - min(HOPELESS, reach + VARIED)
-    for other in _maximise_each([single.posterior] * len(starts), starts, fit, hopeless):
+    for i in at:
+        starts = [_scale_shape(single, i, factor, up) for factor in FACTORS for up in RAISES]
+        found += [] if is_late() else _maximise_each([single.posterior] * len(starts), starts, fit, hopeless)
+    for other in sorted(found, key=lambda one: -one.local.log_posterior):
         if all(_are_apart(other, one, at) for one in kept):
             kept.append(other)
     best = max(one.log_evidence for one in kept)
     return sorted((one for one in kept if one.log_evidence > best - reach), key=lambda one: -one.log_evidence)
 
 
-def refit_shapes(fit: Fit) -> Fit:
-    """Return the best fit of a set of terms from other shapes, and with other choices of them."""
+def refit_shapes(fit: Fit, is_late: Late = lambda: False) -> Fit:
+    """Return the best fit of a set of terms from other shapes, and with other choices of them; not all if `is_late`."""
     for _ in range(AGAIN):
-        before, fit = fit, find_modes(fit, reach=BETTER)[0]
+        before, fit = fit, find_modes(fit, reach=BETTER, is_late=is_late)[0]
         if not fit.log_evidence > before.log_evidence + BETTER:
             break
     return refit_choices(fit, fit.posterior.active)
