@@ -7,11 +7,12 @@ from typing import Any
 
 import panel as pn
 
+from lostmotion.errors import CaseError, DataError
 from lostmotion.recording.formats import read_table
 from lostmotion.recording.outline import GivenRoles
 from lostmotion.recording.table import Table
 from lostmotion_app import recorded_figures
-from lostmotion_app.desk import Desk
+from lostmotion_app.desk import Desk, choose_model
 from lostmotion_app.folder import MOST_UPLOADED
 from lostmotion_app.given_case import GivenCase
 from lostmotion_app.parts import (
@@ -25,7 +26,10 @@ from lostmotion_app.parts import (
     write_list,
     write_note,
 )  # fmt: skip
+from lostmotion_app.remedies import list_warnings
+from lostmotion_app.role_changes import list_role_changes
 from lostmotion_app.screens import PageScreen
+from lostmotion_app.warning_list import WarningList
 
 AUTOMATIC, NONE = "(automatic)", "none"
 ROBOT = "The case of this log has a robot as its model, see the screen Model. “Use these columns” makes another case."
@@ -62,6 +66,9 @@ class DataScreen(PageScreen):
             name="Further recordings with the same columns", sizing_mode="stretch_width"
         )
         self.case = GivenCase(desk, self.figures)
+        self.warnings = WarningList(desk, self._show_changed)
+        self.table: Table | None = None
+        self.ways = pn.FlexBox()
         self.further.param.watch(lambda _: self._add(), "value")
         self.file.param.watch(self._choose, "value")
         self.upload.param.watch(self._upload, "value")
@@ -84,7 +91,10 @@ class DataScreen(PageScreen):
             self.hold,
         ]
         controls = [self.file, self.upload, self.given]
-        return beside(controls, [self.problem.pane, self.found, self.case.view, self.figures.view, self.same])
+        shown = [
+            self.problem.pane, self.ways, self.found, self.case.view, self.warnings.view, self.figures.view, self.same
+        ]  # fmt: skip
+        return beside(controls, shown)
 
     def show(self) -> None:
         """List the recordings, and show the chosen one if it is another one or has changed."""
@@ -129,12 +139,15 @@ class DataScreen(PageScreen):
         """Show the columns of a recording, and thereafter what `init` says; or what a case file contains."""
         with self.problem.watch():
             self.found.object = self.same.object = ""
+            self.warnings.forget()
+            self.ways[:], self.table = [], None
             if self.desk.is_given:
                 self.given.visible = False
                 self.case.show()
                 self.desk.tell()
+                run_next(self._list_warnings)
                 return
-            table = read_table(path)
+            self.table = table = read_table(path)
             self._offer_columns(table)
             self.given.visible = True
             self.figures.show_table(table, path.name)
@@ -173,24 +186,60 @@ class DataScreen(PageScreen):
         time = None if self.time.value == AUTOMATIC else self.time.value
         return GivenRoles(time, self.rate.value, self.drive.column, self.response.column, units)
 
+    def _read_factors(self) -> dict[str, float]:
+        channels = ((one.column, one.factor.value) for one in (self.drive, self.response))
+        return {name: factor for name, factor in channels if name and factor not in (None, 1.0)}
+
     def _draft(self, *, keep: bool = False) -> None:
         """Write a first case of the chosen columns, or keep a present one, and show what was found."""
         with self.problem.watch():
             self.found.object = ""
-            roles = self._read_roles()
-            gains = {one.column: one.factor.value for one in (self.drive, self.response)
-                     if one.column and one.factor.value not in (None, 1.0)}  # fmt: skip
-            model = self.desk.content.get("model", {})
-            named = model.get("name", "") or ";".join(model.get("equations", ()))
-            draft = self.desk.draft(roles, gains, named, keep=keep)
-            self._restore()
-            notes = [write_heading("Please check"), write_list(draft.notes)] if draft.notes else []
-            self.found.object = "".join([write_heading("What was read"), write_lines(draft.found), *notes])
-            self.figures.column.value = self.response.choice.value
-            self._offer_stretch()
+            roles, gains = self._read_roles(), self._read_factors()
+            self.ways[:], before = [], self.desk.content
+            try:
+                draft = self.desk.draft(roles, gains, choose_model(before), keep=keep)
+            except (CaseError, DataError) as err:
+                self.found.object = ""
+                if not (keep and before) and self.desk.content == before:
+                    self._offer_ways(roles, gains, str(err))
+                    raise
+                # the case is there, and its readings cannot be used as they are: a warning tells why
+            else:
+                self.found.object = "".join([write_heading("What was read"), write_lines(draft.found)])
+            self._show_case()
             self._offer_further()
-            self._show_command(roles, gains)
             self.desk.tell()
+            run_next(self._list_warnings)
+
+    def _offer_ways(self, roles: GivenRoles, gains: dict[str, float], says: str) -> None:
+        """Offer other roles of the columns as buttons, where the case cannot be made of the present ones."""
+        for words, other in list_role_changes(self.desk.folder.find(self.desk.recording), roles, gains, says):
+            button = pn.widgets.Button(name=words)
+            button.on_click(lambda _, other=other: self._take(other))
+            self.ways.append(button)
+
+    def _take(self, roles: GivenRoles) -> None:
+        """Set the widgets to other roles, and make the case of them."""
+        self.rate.value = roles.rate
+        self.time.value = roles.time or AUTOMATIC
+        self.drive.choice.value = roles.drive or AUTOMATIC
+        self._draft()
+
+    def _show_case(self) -> None:
+        """Set the widgets to the case, and shade what it does not use."""
+        self._restore()
+        self.figures.column.value = self.response.choice.value
+        self._offer_stretch()
+        self._show_command()
+
+    def _show_changed(self) -> None:
+        """Show the case after a remedy."""
+        self._restore()
+        self._draft(keep=True)
+
+    def _list_warnings(self) -> None:
+        with self.problem.watch():
+            self.warnings.show(list_warnings(self.desk, self.table))
 
     def _offer_stretch(self) -> None:
         """Set the slider of the stretch to that of the case, and shade what is held out."""
@@ -228,7 +277,8 @@ class DataScreen(PageScreen):
                 self.desk.save(content)
                 self.desk.tell()
 
-    def _show_command(self, roles: GivenRoles, gains: dict[str, float]) -> None:
+    def _show_command(self) -> None:
+        roles, gains = self._read_roles(), self._read_factors()
         words = ["lostmotion", "init", self.desk.recording]
         for option, value in (("--time", roles.time), ("--rate", roles.rate), ("--drive", roles.drive),
                               ("--response", roles.response)):  # fmt: skip
