@@ -99,21 +99,18 @@ class DataScreen(PageScreen):
     def show(self) -> None:
         """List the recordings, and show the chosen one if it is another one or has changed."""
         names = [*self.desk.folder.list_recordings(), *self.desk.folder.list_cases()]
-        self.file.options = names if self.desk.recording in names else ["", *names]
         if self.desk.recording not in names:
             self.desk.recording = ""
-        if not self.desk.recording:
             self.found.object = write_beginning(len(names))
-        if self.file.value != self.desk.recording:
-            self.file.value = self.desk.recording  # which shows it
-        elif self.desk.recording:
+        if self.file.value == self.desk.recording:
             self._show_recording()
+        options = names if self.desk.recording else ["", *names]
+        self.file.param.update(options=options, value=self.desk.recording)  # which shows another one
 
     def _choose(self, event: Any) -> None:
         self.desk.recording = event.new or ""
         self.shown = ("", 0.0, False)
-        if self.desk.recording:
-            self._show_recording()
+        self._show_recording()
 
     def _upload(self, event: Any) -> None:
         if event.new is None:
@@ -125,6 +122,8 @@ class DataScreen(PageScreen):
 
     def _show_recording(self) -> None:
         """Show a recording: first its columns, then what `init` says."""
+        if not self.desk.recording:
+            return
         with self.problem.watch():
             path = self.desk.folder.find(self.desk.recording)
             self.case.view.visible = self.desk.is_given
