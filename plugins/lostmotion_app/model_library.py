@@ -7,6 +7,7 @@ from typing import Any
 
 import panel as pn
 
+from lostmotion.case import WRITTEN
 from lostmotion.contracts import Model
 from lostmotion.registry import Registry
 from lostmotion_app.machine_drawing import draw_machine
@@ -18,8 +19,9 @@ WIDTH, HEIGHT = 172, 128
 _OVER = {"position": "absolute", "inset": "0", "width": "100%", "height": "100%", "margin": "0"}
 _BUTTON = """
 .bk-btn-group { width: 100%; height: 100%; }
-.bk-btn.bk-btn-default { width: 100%; height: 100%; background: transparent !important; display: flex; align-items: flex-end;
-  justify-content: center; padding: 4px; border: 1px solid color-mix(in srgb, currentColor 25%, transparent); }
+.bk-btn.bk-btn-default { width: 100%; height: 100%; background: transparent !important; display: flex;
+  align-items: flex-end; justify-content: center; padding: 4px;
+  border: 1px solid color-mix(in srgb, currentColor 25%, transparent); }
 .bk-btn.bk-btn-default:hover, .bk-btn.bk-btn-default:focus-visible { outline: 2px solid currentColor; }
 """
 """The button lies over its picture."""
@@ -37,7 +39,7 @@ class ModelLibrary:
     def _open(self, *, shown: bool) -> None:
         """Show or hide the pictures, which are drawn once."""
         if shown and not self.pictures.objects:
-            self.pictures[:] = [self._make_card(name) for name in sorted(self.registry.names("model"))]
+            self.pictures[:] = [self._make_card(name) for name in list_models(self.registry)]
         self.pictures.visible = shown
 
     def _make_card(self, name: str) -> Any:
@@ -50,6 +52,11 @@ class ModelLibrary:
     def _take(self, name: str) -> None:
         self.choose(name)
         self.switch.value = False
+
+
+def list_models(registry: Registry) -> list[str]:
+    """Return the names of the models of the library; equations that were used are none of them."""
+    return sorted({*registry.names("model")} - {WRITTEN})
 
 
 def draw_model(model: Model) -> str:

@@ -14,9 +14,9 @@ pytest.importorskip("panel", reason="no page: Panel is absent (the extra `app`)"
 
 from lostmotion_app.machine_drawing import describe_machine, draw_machine
 from lostmotion_app.machine_parts import BASE, GROUND, DrawnElement, find_parts
-from lostmotion_app.model_library import ModelLibrary
+from lostmotion_app.model_library import ModelLibrary, list_models
 
-MODELS = sorted(default().names("model"))
+MODELS = list_models(default())
 
 
 def list_elements(model):

@@ -76,7 +76,8 @@ class CheckScreen(PageScreen):
                 bars = make_bars(result) if section.name == "effects" else ()
                 words = section.words(result)
                 parts += [write_heading(str(title)), write_note(words) if words else ""]
-                parts.append(write_grid(grid, bars))
+                parts.append(write_grid(grid, bars, f"Share, from {10.0 ** (2.0 - DECADES):g} % to 100 %"))
+        parts.append(write_heading("Notes"))
         parts.append(write_list([one for one in result.notes if not one.startswith(GUESSED)]))  # they stand above
         return "".join(parts)
 

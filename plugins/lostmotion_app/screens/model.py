@@ -22,7 +22,7 @@ from lostmotion.written import model_of
 from lostmotion_app.case_content import list_recordings
 from lostmotion_app.curves import CurvePanels, format_legend
 from lostmotion_app.desk import Desk
-from lostmotion_app.model_library import ModelLibrary, draw_model
+from lostmotion_app.model_library import ModelLibrary, draw_model, list_models
 from lostmotion_app.parameter_rows import ParameterRow
 from lostmotion_app.parts import (
     ProblemBox,
@@ -121,7 +121,7 @@ class ModelScreen(PageScreen):
 
     def _restore(self, model: dict[str, Any]) -> None:
         """Set the widgets to the model of the case."""
-        self.name.options = sorted(self.desk.registry.names("model"))
+        self.name.options = list_models(self.desk.registry)
         if "name" in model:
             self.name.value = model["name"]
         lines = model.get("equations", ())
