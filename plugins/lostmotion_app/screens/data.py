@@ -29,6 +29,7 @@ from lostmotion_app.parts import (
 from lostmotion_app.remedies import list_warnings
 from lostmotion_app.role_changes import list_role_changes
 from lostmotion_app.screens import PageScreen
+from lostmotion_app.used_stretch import UsedStretch
 from lostmotion_app.warning_list import WarningList
 
 AUTOMATIC, NONE = "(automatic)", "none"
@@ -55,12 +56,7 @@ class DataScreen(PageScreen):
         self.drive = _Channel("Drive (--drive)")
         self.response = _Channel("Response (--response)")
         self.apply = pn.widgets.Button(name="Use these columns", button_type="primary")
-        self.stretch = pn.widgets.EditableRangeSlider(
-            name="Stretch to use (s)", start=0.0, end=1.0, value=(0.0, 1.0), step=0.01, sizing_mode="stretch_width"
-        )
-        self.hold = pn.widgets.EditableFloatSlider(
-            name="Held out: last share", start=0.05, end=0.7, step=0.05, value=desk.hold, sizing_mode="stretch_width"
-        )
+        self.stretch = UsedStretch(desk.hold, self._mark)
         self.found, self.figures, self.same = make_html(), recorded_figures.RecordedFigures(), make_html()
         self.further = pn.widgets.MultiChoice(
             name="Further recordings with the same columns", sizing_mode="stretch_width"
@@ -73,8 +69,6 @@ class DataScreen(PageScreen):
         self.file.param.watch(self._choose, "value")
         self.upload.param.watch(self._upload, "value")
         self.apply.on_click(lambda _: self._draft())
-        for slider in (self.stretch, self.hold):
-            slider.param.watch(self._mark, "value_throttled")
 
     def make_view(self) -> Any:
         """Return the controls beside the figures."""
@@ -87,8 +81,7 @@ class DataScreen(PageScreen):
             self.apply,
             self.further,
             make_html(write_heading("Stretch")),
-            self.stretch,
-            self.hold,
+            *self.stretch.widgets,
         ]
         controls = [self.file, self.upload, self.given]
         shown = [
@@ -245,8 +238,7 @@ class DataScreen(PageScreen):
         low, high = self.figures.span
         first = self.desk.content["recordings"][0]
         now = (first.get("t_start", low), first.get("t_end", high))
-        step = float(f"{(high - low) / 1000.0:.1g}")
-        self.stretch.param.update(start=low, end=high, step=step, value=now)
+        self.stretch.offer((low, high), *now)
         self.figures.mark(*now, self.desk.hold)
 
     def _offer_further(self) -> None:
@@ -261,11 +253,11 @@ class DataScreen(PageScreen):
                 self.desk.add_recordings(list(self.further.value))
                 self.desk.tell()
 
-    def _mark(self, _: Any) -> None:
+    def _mark(self) -> None:
         """Keep the stretch in the case, and shade what is held out."""
         with self.problem.watch():
-            (start, end), (low, high) = self.stretch.value, self.figures.span
-            self.desk.hold = self.hold.value
+            (start, end), (low, high) = self.stretch.read(), self.figures.span
+            self.desk.hold = self.stretch.hold.value
             self.figures.mark(start, end, self.desk.hold)
             if content := self.desk.content:
                 first = content["recordings"][0]
@@ -275,6 +267,7 @@ class DataScreen(PageScreen):
                         first[key] = float(value)
                 self.desk.save(content)
                 self.desk.tell()
+                run_next(self._list_warnings)
 
     def _show_command(self) -> None:
         roles, gains = self._read_roles(), self._read_factors()
