@@ -21,8 +21,9 @@ class UsedStretch:
     def __init__(self, hold: float, changed: Callable[[], None]) -> None:
         self.changed, self.span, self.setting = changed, (0.0, 1.0), False
         self.slider = pn.widgets.RangeSlider(
-            name="Stretch to use (s)", start=0.0, end=1.0, value=(0.0, 1.0), step=0.01, sizing_mode="stretch_width"
-        )
+            name="Stretch to use (s)", start=0.0, end=1.0, value=(0.0, 1.0), step=0.01, format="0[.]000",
+            sizing_mode="stretch_width",
+        )  # fmt: skip
         self.ends = NumberField("From (s)", width=140), NumberField("Until (s)", width=140)
         self.hold = pn.widgets.FloatSlider(
             name="Held out: last share", start=0.05, end=0.7, step=0.05, value=hold, sizing_mode="stretch_width"

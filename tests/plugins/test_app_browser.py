@@ -9,6 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from lostmotion.case.reading import parse_case
+
 pytest.importorskip("panel", reason="no page: Panel is absent (the extra `app`)")
 sys.path.insert(0, str(Path(__file__).parent))
 
@@ -208,6 +210,28 @@ def test_the_screens_come_before_their_fields_and_take_the_arrow_keys(tmp_path, 
         browser.press("Enter", 13)
         browser.wait_gone("gear_pair")
         assert browser.evaluate("named('Model').value") == "robot_joint"
+
+
+def test_a_known_value_removes_the_sentence_that_it_was_supposed(tmp_path, serve):
+    t, rng = np.arange(1000) / 200.0, np.random.default_rng(0)
+    rows = np.stack(
+        [t, 1e-3 * np.sin(9.0 * t), 9e-4 * np.sin(9.0 * t - 0.4) + 1e-6 * rng.standard_normal(1000)], axis=1
+    )
+    np.savetxt(tmp_path / "moved.csv", rows, delimiter=",", header="time [s],base [m],position [m]", comments="")
+    server = serve(tmp_path)
+    with Chromium() as browser:
+        browser.open(server.address + "?recording=moved.csv")
+        browser.wait_for("Supposed: m is 1")
+        browser.click("Model")
+        browser.wait_for("Prediction error of free runs")
+        browser.type("m: value", "2.5")
+        browser.click("Data")
+        browser.wait_for("What was read")
+        browser.wait_gone("Supposed: m is 1")
+        browser.wait_for("Please check")
+    content = parse_case(tmp_path / "lostmotion-app" / "moved.csv" / "case.toml")
+    assert content["model"]["known"]["m"] == 2.5
+    assert not any(says.startswith("m is") for says in content["guessed"])
 
 
 def test_a_remedy_changes_the_case_and_a_reload_shows_the_same_recording(tmp_path, serve):

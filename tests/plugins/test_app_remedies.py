@@ -243,3 +243,14 @@ def test_the_case_of_a_user_is_not_changed_but_the_change_is_told(open_desk, tmp
     text = "".join(row.object for row in shown.rows)
     assert "In the case file: force [N]: other sign" in text
     assert "factor = -1.0" in text
+
+
+def test_two_angles_in_different_units_but_of_one_size_are_told_apart_by_a_factor(open_desk):
+    t, rng = np.arange(ROWS) / RATE, np.random.default_rng(0)
+    rows = np.stack([t, np.sin(9.0 * t), 0.9 * np.sin(9.0 * t - 0.4) + 1e-3 * rng.standard_normal(ROWS)], axis=1)
+    desk = open_desk(rows, "time [s],base [deg],angle [rad]")
+    (warned,) = list_notes(desk)
+    assert "are both in one unit?" in warned.says
+    assert [one.says for one in warned.remedies] == ["base [deg]: numbers in rad", "angle [rad]: numbers in deg"]
+    desk.change(warned.remedies[1].content)
+    assert list_notes(desk) == []

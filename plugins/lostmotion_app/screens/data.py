@@ -64,6 +64,7 @@ class DataScreen(PageScreen):
         self.case = GivenCase(desk, self.figures)
         self.warnings = WarningList(desk, self._show_changed)
         self.table: Table | None = None
+        self.warned = 0
         self.ways = pn.FlexBox()
         self.further.param.watch(lambda _: self._add(), "value")
         self.file.param.watch(self._choose, "value")
@@ -122,6 +123,7 @@ class DataScreen(PageScreen):
             self.case.view.visible = self.desk.is_given
             now = (self.desk.recording, path.stat().st_mtime, self.desk.is_robot)
             if now == self.shown:
+                run_next(self._list_warnings)
                 return
             self.shown = now
             self.found.object = write_note(f"Reading {self.desk.recording} ...")
@@ -132,7 +134,7 @@ class DataScreen(PageScreen):
         with self.problem.watch():
             self.found.object = self.same.object = ""
             self.warnings.forget()
-            self.ways[:], self.table = [], None
+            self.ways[:], self.table, self.warned = [], None, 0
             if self.desk.is_given:
                 self.given.visible = False
                 self.case.show()
@@ -230,8 +232,12 @@ class DataScreen(PageScreen):
         self._draft(keep=True)
 
     def _list_warnings(self) -> None:
+        """List the warnings about the case, unless those of this case are listed already."""
         with self.problem.watch():
-            self.warnings.show(list_warnings(self.desk, self.table))
+            now = self.desk.case.stat().st_mtime_ns if self.desk.content else 0
+            if now != self.warned:
+                self.warnings.show(list_warnings(self.desk, self.table))
+                self.warned = now
 
     def _offer_stretch(self) -> None:
         """Set the slider of the stretch to that of the case, and shade what is held out."""

@@ -19,7 +19,7 @@ from lostmotion.quantities import unit_of
 from lostmotion.report import style
 from lostmotion.settings import read
 from lostmotion.written import model_of
-from lostmotion_app.case_content import list_recordings
+from lostmotion_app.case_content import drop_value_guess, list_recordings
 from lostmotion_app.curves import CurvePanels, format_legend
 from lostmotion_app.desk import Desk
 from lostmotion_app.model_library import ModelLibrary, draw_model, list_models
@@ -213,10 +213,14 @@ class ModelScreen(PageScreen):
             if self.desk.is_given:
                 self._predict()
                 return
-            entries = [row.read() for row in self.rows]
+            entries, before = [row.read() for row in self.rows], content["model"].get("known", {})
             content["model"]["known"] = {name: value for name, value in entries if isinstance(value, float)}
             content["model"]["estimate"] = {name: prior for name, prior in entries if isinstance(prior, dict)}
+            for name, value in content["model"]["known"].items():
+                if before.get(name) != value:
+                    drop_value_guess(content, name)
             if content != self.desk.content:
+                self.desk.confirm(content)
                 self.desk.save(content)
                 self.shown = (self.desk.recording, self.desk.case.stat().st_mtime_ns)
             self._predict()
