@@ -194,9 +194,7 @@ def draw_pictures(folder: Path, out: Path) -> None:
         browser.click("Run")
         browser.wait_for("a process of its own", PATIENCE)
         press(browser, "Diagnose")
-        browser.wait(
-            "(words().match(/weighing/g) || []).length > 3 && words().includes('Explanations so far')", PATIENCE
-        )
+        browser.wait_for("Explanations so far", PATIENCE)
         take(browser, out / "app_run.png")
         browser.wait_for("diagnose-1: done", PATIENCE)
         browser.click("Results")
