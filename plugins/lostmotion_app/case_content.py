@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Collection, Iterator, Mapping
 from copy import deepcopy
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
+from lostmotion.case import dump_case
 from lostmotion.simulators import INVERSE
+
+Content = dict[str, Any]
+_VALUE_GUESSED = re.compile(r"(\w+) is [-+.\de]+: ")
 
 
 def move_paths(content: Mapping[str, Any], before: Path, after: Path, simulators: Collection[str]) -> dict[str, Any]:
@@ -50,3 +56,39 @@ def _name_channel(channel: Mapping[str, Any]) -> str:
     """Return the column of a channel with its unit."""
     unit = f" ({channel['unit']})" if "unit" in channel else ""
     return f"{channel.get('column', '')}{unit}"
+
+
+def list_channels(recording: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """Return the entries of the inputs and sensors of a recording."""
+    single = [recording[key] for key in ("excitation", "response") if key in recording]
+    return [*recording.get("inputs", ()), *recording.get("sensors", ()), *single]
+
+
+def multiply_column(content: Content, column: str, factor: float) -> Content:
+    """Return a content with the values of a column multiplied by a further factor, in all recordings."""
+    changed = deepcopy(content)
+    for recording in changed["recordings"]:
+        for channel in list_channels(recording):
+            if channel["column"] == column:
+                channel["factor"] = float(f"{float(channel.get('factor', 1.0)) * factor:.12g}")
+    return changed
+
+
+def find_guessed_value(says: str) -> str:
+    """Return the parameter whose value a sentence of a first case supposes; empty for other sentences."""
+    named = _VALUE_GUESSED.match(says)
+    return named[1] if named else ""
+
+
+def drop_value_guess(content: Content, parameter: str) -> None:
+    """Remove the sentence that the value of a parameter was supposed: the user has given it."""
+    kept = [says for says in content.pop("guessed", ()) if find_guessed_value(says) != parameter]
+    if kept:
+        content["guessed"] = kept
+
+
+def format_content(content: Mapping[str, Any]) -> str:
+    """Return a content as the text of a case file."""
+    with TemporaryDirectory() as spare:
+        dump_case(content, Path(spare) / "case.toml")
+        return (Path(spare) / "case.toml").read_text(encoding="utf-8")

@@ -22,7 +22,7 @@ HEIGHT = 150
 SMALLEST = -5
 """The power of ten from which numbers at an axis are written without an exponent."""
 TOOLS = "xbox_zoom,xpan,xwheel_zoom,reset,save"
-_DARK = {colours.RECORDED: "#e8e8e8", colours.AFTER: "#56b4e9", colours.LAW: "#00b37a"}
+_DARK = {colours.RECORDED: "#e8e8e8", colours.BEFORE: "#ff8c42", colours.AFTER: "#56b4e9", colours.LAW: "#00b37a"}
 
 
 def colour_of(colour: str) -> str:

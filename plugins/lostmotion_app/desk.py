@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -12,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from lostmotion.case import dump_case
 from lostmotion.case.reading import parse_case
-from lostmotion.errors import CaseError
+from lostmotion.errors import CaseError, LostMotionError
 from lostmotion.recording.outline import GivenRoles
 from lostmotion.registry import Registry
 from lostmotion.settings import DEFAULT
@@ -27,6 +28,8 @@ if TYPE_CHECKING:
 
 STRETCH = ("t_start", "t_end")
 """The keys of a recording that say which part of it is used."""
+PARAMETERS = ("known", "estimate")
+"""The keys of a model that say which parameters are known, and which are estimated."""
 CASE, DIAGNOSIS = "case.toml", "diagnosis.json"
 _MODEL_GUESSED = "the model is "
 """The beginning of what a first case says where no model was given."""
@@ -38,7 +41,8 @@ class Desk:
     """A recording, or a case file of the user, by its name in the folder, and the place of what is made of it.
 
     `hold` is the share that is held out. `plugins` are files that the user named on the command line, and `agreed` the
-    case files whose Python files may run.
+    case files whose Python files may run. `confirmed` are recordings with what a first case supposed, and the user has
+    confirmed.
     """
 
     folder: WorkFolder
@@ -48,6 +52,7 @@ class Desk:
     hold: float = DEFAULT.heldout.share
     changed: Changed | None = None
     agreed: set[str] = field(default_factory=set)
+    confirmed: set[tuple[str, str]] = field(default_factory=set)
 
     @property
     def place(self) -> Path:
@@ -102,24 +107,73 @@ class Desk:
 
     def copy_case(self, folder: Path) -> None:
         """Write a copy of the case into another folder, with the paths of its files as they are seen from there."""
-        moved = move_paths(self.content, self.case.parent, folder, self.registry.names("simulator"))
-        dump_case(moved, folder / CASE)
+        dump_case(self._move_content(folder), folder / CASE)
+
+    def has_changed(self, folder: Path) -> bool:
+        """Return whether the case differs from its copy in another folder."""
+        return parse_case(folder / CASE) != self._move_content(folder)
+
+    def _move_content(self, folder: Path) -> dict[str, Any]:
+        return move_paths(self.content, self.case.parent, folder, self.registry.names("simulator"))
 
     def draft(self, roles: GivenRoles, factors: Mapping[str, float], model: str = "", *, keep: bool = False) -> Draft:
         """Return a first case of the recording after writing it, as `lostmotion init` does; a present one may be kept.
 
-        The stretch stays, and so do the values and priors of a model that stays.
+        The stretch stays, and so do the values and priors of a model that stays. Raises `CaseError` or `DataError` as
+        `lostmotion init`; the case is written where only the readings cannot be used, since a stretch of them may be.
         """
         from lostmotion.preparation.beginning import write_first_case
 
         before, path = {} if self.is_robot else self.content, self.folder.find(self.recording)
         with TemporaryDirectory() as spare:
-            made = write_first_case(path, Path(spare) / CASE, roles, self.registry, model, factors)
-            content = parse_case(Path(spare) / CASE)
-        if not (keep and before):
-            content["recordings"][0]["file"] = Path(os.path.relpath(path, self.place)).as_posix()
-            self.save(keep_entries(before, content))
-        return made
+            file = Path(spare) / CASE
+            try:
+                return write_first_case(path, file, roles, self.registry, model, factors)
+            finally:
+                if file.is_file() and not (keep and before):
+                    content = self._find_file(parse_case(file))
+                    drafted = self._draft_again(before) if before and (roles, factors) != read_roles(before) else {}
+                    self.save(self._leave_confirmed(keep_entries(before, content, drafted)))
+
+    def change(self, content: dict[str, Any]) -> None:
+        """Write a changed content of the case; where its columns have changed, so do the priors that follow from them.
+
+        Values and priors of the user stay. The model stays too, unless nobody has chosen it.
+        """
+        before = self.content
+        self.confirm(content)
+        if read_roles(content) != read_roles(before) and (made := self._draft_again(content)):
+            content = keep_entries({**content, "model": before["model"]}, made, self._draft_again(before))
+            content = self._leave_confirmed(content)
+        self.save(content)
+
+    def _draft_again(self, content: Mapping[str, Any]) -> dict[str, Any]:
+        """Return the first case for the columns of a content, empty where there is none; nothing is written."""
+        from lostmotion.preparation.beginning import write_first_case
+
+        roles, factors = read_roles(content)
+        with TemporaryDirectory() as spare:
+            file = Path(spare) / CASE
+            with suppress(LostMotionError):
+                path, model = self.folder.find(self.recording), choose_model(content)
+                write_first_case(path, file, roles, self.registry, model, factors)
+            return self._find_file(parse_case(file)) if file.is_file() else {}
+
+    def _find_file(self, content: dict[str, Any]) -> dict[str, Any]:
+        """Return a first case with the path of its recording as it is seen from the place of the case."""
+        path = self.folder.find(self.recording)
+        content["recordings"][0]["file"] = Path(os.path.relpath(path, self.place)).as_posix()
+        return content
+
+    def confirm(self, content: Mapping[str, Any]) -> None:
+        """Keep in mind which sentences on what is supposed a new content of the case no longer has."""
+        before, after = ({(self.recording, says) for says in one.get("guessed", ())} for one in (self.content, content))
+        self.confirmed = (self.confirmed | before) - after
+
+    def _leave_confirmed(self, content: dict[str, Any]) -> dict[str, Any]:
+        """Return a new case without the sentences that the user has confirmed."""
+        kept = [says for says in content.pop("guessed", ()) if (self.recording, says) not in self.confirmed]
+        return {**content, "guessed": kept} if kept else content
 
     def redraft(self, model: str) -> None:
         """Write the case anew with another model; columns, units and stretch stay, and so does what was supposed."""
@@ -132,7 +186,7 @@ class Desk:
         content = self.content
         supposed = [says for says in before.get("guessed", ()) if not says.startswith(_MODEL_GUESSED)]
         if supposed := list(dict.fromkeys([*supposed, *content.get("guessed", ())])):
-            self.save({"title": content.pop("title"), "guessed": supposed, **content})
+            self.save(self._leave_confirmed({**content, "guessed": supposed}))
 
     def add_recordings(self, names: Sequence[str]) -> None:
         """Write the case with further recordings that have the same columns, and with no other ones."""
@@ -184,8 +238,19 @@ def read_roles(content: Mapping[str, Any]) -> tuple[GivenRoles, dict[str, float]
     return GivenRoles(named, first.get("rate"), drive, response["column"], units), gains
 
 
-def keep_entries(before: Mapping[str, Any], after: dict[str, Any]) -> dict[str, Any]:
-    """Return a new case with the stretch, and the values and priors, of the case before it."""
+def choose_model(content: Mapping[str, Any]) -> str:
+    """Return the name or the equations of the model of a case; empty where nobody has chosen it."""
+    if any(says.startswith(_MODEL_GUESSED) for says in content.get("guessed", ())):
+        return ""
+    model = content.get("model", {})
+    return str(model.get("name", "")) or ";".join(model.get("equations", ()))
+
+
+def keep_entries(before: Mapping[str, Any], after: dict[str, Any], drafted: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a new case with the stretch, the further recordings, and the values and priors of the case before it.
+
+    Entries that are those of the first case before, `drafted`, are not the user's: they become those of the new case.
+    """
     if not before:
         return after
     for key in STRETCH:
@@ -193,7 +258,19 @@ def keep_entries(before: Mapping[str, Any], after: dict[str, Any]) -> dict[str, 
             after["recordings"][0][key] = before["recordings"][0][key]
     same = {key: value for key, value in after["recordings"][0].items() if key not in STRETCH}
     after["recordings"] += [{**same, "file": entry["file"]} for entry in before["recordings"][1:]]
-    old, new = before["model"], after["model"]
-    if old.get("name") == new.get("name") and old.get("equations") == new.get("equations"):
-        after["model"] = dict(old)
+    old, new, first = before["model"], after["model"], drafted.get("model", {})
+    if all(old.get(key) == new.get(key) for key in ("name", "equations")):
+        after["model"] = keep_parameters(old, new, first)
     return after
+
+
+def keep_parameters(old: Mapping[str, Any], new: Mapping[str, Any], first: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a model with the parameters `new`, but for those of `old` that a user has changed since `first`."""
+    made = {**new, **old, **{group: dict(new.get(group, {})) for group in PARAMETERS}}
+    for group in PARAMETERS:
+        for name, entry in old.get(group, {}).items():
+            if first.get(group, {}).get(name) != entry:
+                for other in PARAMETERS:
+                    made[other].pop(name, None)
+                made[group][name] = entry
+    return {key: value for key, value in made.items() if value or key not in PARAMETERS}

@@ -62,9 +62,9 @@ def write_answer(sentences: Sequence[str]) -> str:
     return f'<div class="lm-answer">{"".join(f"<p>{html.escape(one)}</p>" for one in sentences)}</div>'
 
 
-def write_table(head: Sequence[str], rows: Sequence[Sequence[str]], bars: Sequence[float] = ()) -> str:
-    """Return a table as HTML; `bars` are shares (0 to 1) of a bar in a further column of each row."""
-    top = "".join(f"<th>{html.escape(cell)}</th>" for cell in [*head, *([""] if bars else [])])
+def write_table(head: Sequence[str], rows: Sequence[Sequence[str]], bars: Sequence[float] = (), title: str = "") -> str:
+    """Return a table as HTML; `bars` are shares (0 to 1) of a bar in a further column of each row, below its title."""
+    top = "".join(f"<th>{html.escape(cell)}</th>" for cell in [*head, *([title] if bars else [])])
     body = []
     for number, row in enumerate(rows):
         cells = "".join(f"<td>{html.escape(cell)}</td>" for cell in row)

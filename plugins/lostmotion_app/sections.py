@@ -16,9 +16,9 @@ E = TypeVar("E")
 NONE: Mapping[str, Any] = MappingProxyType({})
 
 
-def write_grid(grid: Grid, bars: Sequence[float] = ()) -> str:
-    """Return a table of a report as HTML."""
-    return write_table(grid.head, grid.rows, bars)
+def write_grid(grid: Grid, bars: Sequence[float] = (), title: str = "") -> str:
+    """Return a table of a report as HTML, with a further column of bars if there are any."""
+    return write_table(grid.head, grid.rows, bars, title)
 
 
 def write_sections(

@@ -41,6 +41,12 @@ const focused = (root) => {
   const e = root.activeElement;
   return e && e.shadowRoot && e.shadowRoot.activeElement ? focused(e.shadowRoot) : e;
 };
+const called = (e) => {
+  if (!e || e === document.body) return '';
+  const label = ['INPUT', 'SELECT', 'TEXTAREA'].includes(e.tagName) && (e.closest('label')
+    || [...e.getRootNode().querySelectorAll('label')].find((one) => one.htmlFor === e.id));
+  return label ? said(label) : said(e);
+};
 const words = () => all(document).filter((e) => e.shadowRoot === null && seen(e) && e.tagName !== 'STYLE'
   && e.tagName !== 'SCRIPT').flatMap((e) => [...e.childNodes].filter((n) => n.nodeType === 3)
   .map((n) => n.textContent.trim())).filter(Boolean).join(' ');
@@ -213,6 +219,24 @@ class Chromium:
         text = {"text": "\r"} if key == "Enter" else {"text": " "} if key == " " else {}
         self.send("Input.dispatchKeyEvent", type="keyDown", **about, **text)
         self.send("Input.dispatchKeyEvent", type="keyUp", **about)
+
+    def tab_to(self, name, most=120):
+        """Press Tab until the button, tab or field with a name has the focus."""
+        seen = []
+        for _ in range(most):
+            self.press("Tab", 9)
+            seen.append(self.evaluate("called(focused(document))"))
+            if seen[-1] == name:
+                return
+        raise AssertionError(f"Tab does not reach {name!r} but {seen}")
+
+    def write(self, text):
+        """Press the keys of a text, one after the other."""
+        for letter in text:
+            key = {"key": letter, "text": letter}
+            key |= {"windowsVirtualKeyCode": ord(letter.upper())} if letter.isalnum() else {}  # 46 is Delete
+            self.send("Input.dispatchKeyEvent", type="keyDown", **key)
+            self.send("Input.dispatchKeyEvent", type="keyUp", key=letter)
 
     def upload(self, path):
         """Choose a file in the field of files of the page."""

@@ -40,6 +40,7 @@ from lostmotion_app.job_view import write_weighed
 from lostmotion_app.parts import write_table
 from lostmotion_app.screens.guest import GuestScreen, list_guests
 from lostmotion_app.screens.take_away import make_notebook
+from lostmotion_app.used_stretch import UsedStretch
 
 SERVE = "from lostmotion_app.command import command; command()"
 PATIENCE = 120.0
@@ -371,3 +372,20 @@ def test_another_site_may_not_open_the_connection(address, host, refused):
     connection.request("GET", path + "/ws", headers=keys)
     assert (connection.getresponse().status == 403) is refused
     connection.close()
+
+
+def test_the_stretch_is_set_by_numbers_or_by_the_slider():
+    told = []
+    stretch = UsedStretch(0.3, lambda: told.append(stretch.read()))
+    stretch.offer((0.0, 8.0), 1.0, 8.0)
+    assert told == []
+    stretch.ends[1].widget.value = "6.5"
+    assert told == [(1.0, 6.5)]
+    assert stretch.slider.value == (1.0, 6.5)
+    stretch._slide(2.0, 7.0)
+    assert told[-1] == (2.0, 7.0)
+    assert [end.widget.value for end in stretch.ends] == ["2", "7"]
+    with pytest.raises(CaseError, match="runs from 0 s to 8 s"):
+        stretch.ends[0].widget.value = "9"
+    stretch.ends[0].widget.value = ""
+    assert told[-1] == (0.0, 7.0)

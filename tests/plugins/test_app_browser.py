@@ -4,11 +4,12 @@ import re
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import numpy as np
 import pytest
+
+from lostmotion.case.reading import parse_case
 
 pytest.importorskip("panel", reason="no page: Panel is absent (the extra `app`)")
 sys.path.insert(0, str(Path(__file__).parent))
@@ -150,30 +151,105 @@ def test_a_run_is_cancelled_and_gives_the_answer_so_far(tmp_path, serve):
 
 
 @pytest.mark.slow
-def test_by_keyboard_alone(tmp_path, serve):
-    """Tab reaches the list of recordings; a letter chooses one; the tabs of the screens take the arrow keys."""
+def test_the_whole_way_by_keyboard_alone(tmp_path, serve):
+    """From the list of files to a named cause, and to a term that is switched off; no event of a mouse is sent."""
     write_recording(tmp_path)
     server = serve(tmp_path)
     with Chromium() as browser:
         browser.open(server.address)
         browser.wait_for("Choose a recording of this folder.")
-        for _ in range(30):
-            browser.press("Tab", 9)
-            time.sleep(0.02)
-            if browser.evaluate("focused(document).tagName") == "SELECT":
-                break
-        assert browser.evaluate("focused(document).tagName") == "SELECT"
-        browser.send("Input.dispatchKeyEvent", type="keyDown", key="r", code="KeyR", text="r")
-        browser.send("Input.dispatchKeyEvent", type="keyUp", key="r", code="KeyR")
+        browser.tab_to("Recording or case file")
+        browser.write("r")
         browser.press("Tab", 9)
-        browser.wait_for("rig.csv: 1400 rows at 200 Hz")
-        for _ in range(60):
-            browser.press("Tab", 9)
-            time.sleep(0.02)
-            if browser.evaluate("said(focused(document))") == "Data":
-                break
-        browser.press("ArrowRight", 39)
+        browser.wait_for("model: linear_oscillator")
+        browser.tab_to("Confirm")
+        browser.press("Enter", 13)
+        browser.wait_for("Changed in case.toml (Confirm)")
+        browser.tab_to("Next: Model")
+        browser.press("Enter", 13)
         browser.wait_for("Prediction error of free runs")
-        browser.press("Tab", 9)
+        browser.tab_to("m (kg)")
+        browser.write("k")
+        browser.tab_to("m: value")
+        browser.press("a", 65, modifiers=2)
+        browser.write("1.0")
+        browser.tab_to("Next: Check")
         browser.press("Enter", 13)
         browser.wait_for("It takes seconds.")
+        browser.tab_to("Next: Run")
+        browser.press("Enter", 13)
+        browser.wait_for("a process of its own")
+        browser.tab_to("Diagnose")
+        browser.press("Enter", 13)
+        browser.wait_for("diagnose-1: done", LONG)
+        browser.tab_to("Next: Results")
+        browser.press("Enter", 13)
+        browser.wait_for("Dry friction of", LONG)
+        browser.wait_for("with ticked terms", LONG)
+        with_term = browser.wait("(words().match(/free runs: [^0-9]*([0-9.e-]+) %/) || [])[1]", LONG)
+        browser.tab_to("Coulomb friction")
+        browser.press(" ", 32)
+        browser.wait(f"(words().match(/free runs: [^0-9]*([0-9.e-]+) %/) || [])[1] !== '{with_term}'", LONG)
+        assert browser.problems == []
+
+
+def test_the_screens_come_before_their_fields_and_take_the_arrow_keys(tmp_path, serve):
+    write_recording(tmp_path)
+    server = serve(tmp_path)
+    with Chromium() as browser:
+        browser.open(server.address + "?recording=rig.csv")
+        browser.wait_for("model: linear_oscillator")
+        browser.press("Tab", 9)
+        assert browser.evaluate("called(focused(document))") == "Data"
+        browser.press("ArrowRight", 39)
+        browser.wait_for("Prediction error of free runs")
+        browser.tab_to("All models as pictures")
+        browser.press("Enter", 13)
+        browser.wait_for("gear_pair")
+        browser.tab_to("robot_joint")
+        browser.press("Enter", 13)
+        browser.wait_gone("gear_pair")
+        assert browser.evaluate("named('Model').value") == "robot_joint"
+
+
+def test_a_known_value_removes_the_sentence_that_it_was_supposed(tmp_path, serve):
+    t, rng = np.arange(1000) / 200.0, np.random.default_rng(0)
+    rows = np.stack(
+        [t, 1e-3 * np.sin(9.0 * t), 9e-4 * np.sin(9.0 * t - 0.4) + 1e-6 * rng.standard_normal(1000)], axis=1
+    )
+    np.savetxt(tmp_path / "moved.csv", rows, delimiter=",", header="time [s],base [m],position [m]", comments="")
+    server = serve(tmp_path)
+    with Chromium() as browser:
+        browser.open(server.address + "?recording=moved.csv")
+        browser.wait_for("Supposed: m is 1")
+        browser.click("Model")
+        browser.wait_for("Prediction error of free runs")
+        browser.type("m: value", "2.5")
+        browser.click("Data")
+        browser.wait_for("What was read")
+        browser.wait_gone("Supposed: m is 1")
+        browser.wait_for("Please check")
+    content = parse_case(tmp_path / "lostmotion-app" / "moved.csv" / "case.toml")
+    assert content["model"]["known"]["m"] == 2.5
+    assert not any(says.startswith("m is") for says in content["guessed"])
+
+
+def test_a_remedy_changes_the_case_and_a_reload_shows_the_same_recording(tmp_path, serve):
+    write_recording(tmp_path)
+    rows = np.loadtxt(tmp_path / "rig.csv", delimiter=",", skiprows=1)
+    rows[-200:, 2] = rows[-200, 2]
+    np.savetxt(tmp_path / "stuck.csv", rows, delimiter=",", header="time [s],force [N],position [m]", comments="")
+    server = serve(tmp_path)
+    with Chromium() as browser:
+        browser.open(server.address + "?recording=stuck.csv")
+        browser.wait_for("may have been stuck")
+        browser.click("Use it until 5.995 s")
+        browser.wait_for("+t_end = 5.995")
+        browser.wait_gone("may have been stuck")
+        assert "t_end = 5.995" in (tmp_path / "lostmotion-app" / "stuck.csv" / "case.toml").read_text()
+        browser.open(server.address + "?recording=stuck.csv")
+        browser.wait_for("stuck.csv: 1400 rows at 200 Hz")
+        browser.click("Check")
+        browser.wait_for("It takes seconds.")
+        browser.wait_for("Supposed: the model is linear_oscillator")
+        assert browser.problems == []

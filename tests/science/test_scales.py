@@ -11,7 +11,8 @@ import pytest
 
 import lostmotion as lm
 from lostmotion.diagnosis.diagnosis_run import run_diagnosis
-from lostmotion.diagnosis.scales import describe_wrong_scale, describe_wrong_sign
+from lostmotion.diagnosis.recording_check import check_prepared
+from lostmotion.diagnosis.scales import describe_wrong_scales, describe_wrong_sign, find_wrong_scales
 from lostmotion.diagnosis.write_result import explains_scale
 from lostmotion.inference.setup import make_posterior, search_maximum, split_heldout
 from lostmotion.likelihood.system import System
@@ -24,9 +25,8 @@ def describe(prepared: Prepared) -> tuple[str, ...]:
     """Return what is said of the scales of a case."""
     train, _ = split_heldout(prepared.observations)
     posterior = make_posterior(System(prepared.model, prepared.terms), prepared.case, train)
-    return describe_wrong_scale(
-        search_maximum(posterior, np.random.default_rng(0)), prepared.case, np.random.default_rng(1)
-    )
+    nominal = search_maximum(posterior, np.random.default_rng(0))
+    return describe_wrong_scales(find_wrong_scales(nominal, prepared.case, np.random.default_rng(1)))
 
 
 CASES = {
@@ -46,6 +46,14 @@ def test_the_scale_of_a_case_is_told(shared_cases: Path, name: str, says: str) -
 def test_it_is_the_first_line_of_the_result(shared_cases: Path, tmp_path: Path, name: str, says: str) -> None:
     found = run_diagnosis(shared_cases / name / "case.toml", tmp_path, Registry.discover(), propose=False)
     assert re.search(says, found.says[0]), found.says
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("name", "says"), CASES.items(), ids=CASES)
+def test_a_check_tells_it_before_the_search(shared_cases: Path, name: str, says: str) -> None:
+    found = check_prepared(prepare(shared_cases / name / "case.toml", Registry.discover()))
+    assert re.search(says, found.says[0]), found.says
+    assert repr(found.scales[0].column) in found.says[0]
 
 
 DRIVES = (

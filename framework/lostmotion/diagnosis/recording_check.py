@@ -13,6 +13,7 @@ from lostmotion.diagnosis.gather_facts import find_angle_unit
 from lostmotion.diagnosis.improvements import list_improvements
 from lostmotion.diagnosis.moving import check_motion, cut_rest
 from lostmotion.diagnosis.report.check_page import summarise_check, write_check
+from lostmotion.diagnosis.scales import describe_wrong_scales, find_wrong_scales
 from lostmotion.diagnosis.stages import list_fitted_keys, name_yardstick
 from lostmotion.diagnosis.write_result import label_model
 from lostmotion.errors import DataError
@@ -75,10 +76,11 @@ def check_prepared(
     nominal = search_maximum(cut_stretches(posterior) if posterior.samples > MOST else posterior, rng)
     say("what the recording can tell")
     forecast = forecast_recordings(nominal, recordings, rng)
+    scales = find_wrong_scales(nominal, case, rng.spawn(1)[0])
     if not forecast.valid:
         raise DataError(
             f"{recordings[0].name}: the nominal model cannot follow this recording: check the units and columns of"
-            " inputs and sensors, the known values and the priors"
+            f" inputs and sensors, the known values and the priors. {' '.join(describe_wrong_scales(scales))}".rstrip()
         )
     angle, yardstick = find_angle_unit(case.recordings), name_yardstick(recordings[0])
     expected = describe_expectation(forecast, yardstick, angle)
@@ -86,12 +88,13 @@ def check_prepared(
     improvements = list_improvements(nominal, list_fitted_keys(system), case.experiment, rng)
     return CaseCheck(
         title=case.title,
-        says=summarise_check(expected, improvements, angle),
+        says=(*describe_wrong_scales(scales), *summarise_check(expected, improvements, angle)),
         model=label_model(nominal),
         yardstick=yardstick,
         angle=angle,
         expected=expected,
         improvements=improvements,
+        scales=scales,
         notes=(*_write_notes(nominal, improvements, free=recordings[0].free), *prepared.notes),
         provenance=origin_of("check", {"model": case.model, "known": dict(case.known)}, seed, prepared.inputs),
     )

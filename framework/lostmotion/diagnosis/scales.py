@@ -27,6 +27,7 @@ from lostmotion.quantities import quantity_of
 from lostmotion.recording import Recording
 from lostmotion.recording.warnings import BACKWARD
 from lostmotion.results import percent, rounded
+from lostmotion.results.expectation import WrongScale
 
 LARGE = 0.4
 """The rms of the missing force, as a share of the amplitude of the drive, from which scales are tried: where the drive
@@ -86,8 +87,8 @@ class _Trial:
     missing: float
 
 
-def describe_wrong_scale(nominal: Fit, case: CaseFile, rng: np.random.Generator) -> tuple[str, ...]:
-    """Return a sentence on the column whose scale does not fit the model; none where nothing repairs the model.
+def find_wrong_scales(nominal: Fit, case: CaseFile, rng: np.random.Generator) -> tuple[WrongScale, ...]:
+    """Return the columns whose scale does not fit the model, with their factors; none where nothing repairs it.
 
     `nominal` is the fit of the model alone. Free motions have no drive to compare with, and are not examined.
     """
@@ -102,12 +103,25 @@ def describe_wrong_scale(nominal: Fit, case: CaseFile, rng: np.random.Generator)
         return ()
     best = max(good, key=lambda one: one.gain)
     usual = [one for one in good if one.scaled.says != GEAR and one.gain > best.gain - CLEAR]
-    chosen = sorted(usual or [best], key=lambda one: -one.gain)
-    ways = ", or ".join(_describe_scale(one.scaled, case, observations[0]) for one in chosen)
+    return tuple(
+        WrongScale(
+            column=_find_column(one.scaled, case, observations[0]),
+            factor=float(one.scaled.factor),
+            says=one.scaled.says,
+            left=float(one.missing / before),
+        )
+        for one in sorted(usual or [best], key=lambda one: -one.gain)
+    )
+
+
+def describe_wrong_scales(wrong: Sequence[WrongScale]) -> tuple[str, ...]:
+    """Return a sentence on the columns whose scale does not fit the model; none where there are none."""
+    if not wrong:
+        return ()
+    ways = ", or ".join(map(_describe_scale, wrong))
     return (
-        f"The scale of a column does not fit the model: {ways} leaves"
-        f" {percent(chosen[0].missing / before)} of the missing force. Check units, signs and gear ratio before the"
-        " findings below.",
+        f"The scale of a column does not fit the model: {ways} leaves {percent(wrong[0].left)} of the missing force."
+        " Check units, signs and gear ratio before the findings below.",
     )
 
 
@@ -214,11 +228,11 @@ def _compute_slope(x: Array, y: Array) -> float:
     return float(a @ b / (a @ a)) if there.any() and float(a @ a) > 0.0 else 0.0
 
 
-def _describe_scale(scaled: _Scaled, case: CaseFile, observation: Observation) -> str:
-    factor = f"{rounded(scaled.factor, 3)}"
-    if abs(scaled.factor) < 1.0:
-        factor += f", 1/{rounded(1.0 / abs(scaled.factor), 3)}"
-    return f"{_find_column(scaled, case, observation)!r} multiplied by {factor} ({scaled.says})"
+def _describe_scale(wrong: WrongScale) -> str:
+    factor = f"{rounded(wrong.factor, 3)}"
+    if abs(wrong.factor) < 1.0:
+        factor += f", 1/{rounded(1.0 / abs(wrong.factor), 3)}"
+    return f"{wrong.column!r} multiplied by {factor} ({wrong.says})"
 
 
 def _find_column(scaled: _Scaled, case: CaseFile, observation: Observation) -> str:

@@ -12,7 +12,7 @@ from lostmotion.contracts import Array, Machine, SensorTerm, Values
 from lostmotion.diagnosis.compare import cut_heldout
 from lostmotion.diagnosis.moving import check_motion, cut_rest
 from lostmotion.diagnosis.periodic_drive import leave_out_gauge_noise
-from lostmotion.diagnosis.scales import describe_wrong_scale
+from lostmotion.diagnosis.scales import describe_wrong_scales, find_wrong_scales
 from lostmotion.errors import DataError
 from lostmotion.evidence.bare import Budget
 from lostmotion.evidence.corrections import Corrections, find_corrections
@@ -179,7 +179,7 @@ def diagnose(
     nominal = search_maximum(make_posterior(system, case, train, jobs=jobs, settings=settings), rng)
     nominal, observations = leave_out_gauge_noise(nominal, observations)
     train, held = split_heldout(observations, settings.heldout)
-    scale = describe_wrong_scale(nominal, case, rng.spawn(1)[0])
+    scale = describe_wrong_scales(find_wrong_scales(nominal, case, rng.spawn(1)[0]))
     pieces = [(piece.observation, piece.begin) for piece in cut_heldout(observations, held)]
     course = Course(list_fitted_keys(system), pieces, choose_budget(nominal.posterior), say)
     explained = course.find_explanations(nominal)

@@ -11,7 +11,7 @@ from lostmotion.diagnosis.report import check_page as drawing
 from lostmotion.notebook.answers import Answer, format_answer
 from lostmotion.report import style
 from lostmotion.results import Interval
-from lostmotion.results.expectation import CaseCheck, Detection, Improvement, ParameterPair
+from lostmotion.results.expectation import CaseCheck, Detection, Improvement, ParameterPair, WrongScale
 from lostmotion.storage import folder_for, load_result, save_json, save_text
 
 if TYPE_CHECKING:
@@ -51,6 +51,11 @@ class CheckResult(Answer[CaseCheck]):
     def parameters(self) -> Mapping[str, Interval]:
         """The nominal value and the expected 95 % interval of each estimated parameter, by name."""
         return self.result.expected.parameters
+
+    @property
+    def scales(self) -> tuple[WrongScale, ...]:
+        """The columns whose scale does not fit the model, the most likely one first."""
+        return self.result.scales
 
     @property
     def pairs(self) -> tuple[ParameterPair, ...]:

@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from lostmotion.quantities import si_factor
 from lostmotion.recording.drift import note_drift
 from lostmotion.recording.value_checks import fill_lost, runs_of
 from lostmotion.settings import DEFAULT, RecordingSettings
@@ -116,7 +117,7 @@ def note_units(excitation: CheckedChannel, response: CheckedChannel, limits: Rec
     units = [next((name for name, word in _ANGLE.items() if word.search(s.unit)), "") for s in (excitation, response)]
     if sorted(units) != ["deg", "rad"] or {excitation.quantity, response.quantity} != {"base_position", "position"}:
         return
-    sizes = [float(np.nanstd(s.values) / abs(s.factor)) for s in (excitation, response)]
+    sizes = [float(np.nanstd(s.values)) / si_factor(s.unit, s.quantity)[0] for s in (excitation, response)]
     if 1.0 / limits.same_size < sizes[0] / sizes[1] < limits.same_size:
         yield (
             f"the excitation is in {excitation.unit} and the response in {response.unit}, but their numbers have the "

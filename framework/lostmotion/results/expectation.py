@@ -70,6 +70,16 @@ class Improvement:
 
 
 @dataclass(frozen=True, kw_only=True)
+class WrongScale:
+    """A column whose scale does not fit the model, and the factor with which it does."""
+
+    column: str = described("the column")
+    factor: float = described("the factor by which its values would have to be multiplied")
+    says: str = described("what the factor is: a sign, a unit, the ratio of a gear")
+    left: float = described("share of the missing force that is left with the factor")
+
+
+@dataclass(frozen=True, kw_only=True)
 class CaseCheck:
     """The check of a case before the fit: the content of `check.json`."""
 
@@ -81,5 +91,8 @@ class CaseCheck:
     angle: str = described("`deg` where the case uses degrees", default="rad", spare=True)
     expected: Expectation = described("what the recording can tell")
     improvements: tuple[Improvement, ...] = described("changes of the experiment that would help, the best first")
+    scales: tuple[WrongScale, ...] = described(
+        "columns whose scale does not fit the model, the most likely one first", default=(), spare=True
+    )
     notes: tuple[str, ...] = described("limitations of the result, in sentences")
     provenance: Origin = described("versions, settings and digests of the inputs")

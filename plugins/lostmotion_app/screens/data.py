@@ -7,11 +7,12 @@ from typing import Any
 
 import panel as pn
 
+from lostmotion.errors import CaseError, DataError
 from lostmotion.recording.formats import read_table
 from lostmotion.recording.outline import GivenRoles
 from lostmotion.recording.table import Table
 from lostmotion_app import recorded_figures
-from lostmotion_app.desk import Desk
+from lostmotion_app.desk import Desk, choose_model
 from lostmotion_app.folder import MOST_UPLOADED
 from lostmotion_app.given_case import GivenCase
 from lostmotion_app.parts import (
@@ -25,7 +26,11 @@ from lostmotion_app.parts import (
     write_list,
     write_note,
 )  # fmt: skip
+from lostmotion_app.remedies import list_warnings
+from lostmotion_app.role_changes import list_role_changes
 from lostmotion_app.screens import PageScreen
+from lostmotion_app.used_stretch import UsedStretch
+from lostmotion_app.warning_list import WarningList
 
 AUTOMATIC, NONE = "(automatic)", "none"
 ROBOT = "The case of this log has a robot as its model, see the screen Model. “Use these columns” makes another case."
@@ -51,23 +56,20 @@ class DataScreen(PageScreen):
         self.drive = _Channel("Drive (--drive)")
         self.response = _Channel("Response (--response)")
         self.apply = pn.widgets.Button(name="Use these columns", button_type="primary")
-        self.stretch = pn.widgets.EditableRangeSlider(
-            name="Stretch to use (s)", start=0.0, end=1.0, value=(0.0, 1.0), step=0.01, sizing_mode="stretch_width"
-        )
-        self.hold = pn.widgets.EditableFloatSlider(
-            name="Held out: last share", start=0.05, end=0.7, step=0.05, value=desk.hold, sizing_mode="stretch_width"
-        )
+        self.stretch = UsedStretch(desk.hold, self._mark)
         self.found, self.figures, self.same = make_html(), recorded_figures.RecordedFigures(), make_html()
         self.further = pn.widgets.MultiChoice(
             name="Further recordings with the same columns", sizing_mode="stretch_width"
         )
         self.case = GivenCase(desk, self.figures)
+        self.warnings = WarningList(desk, self._show_changed)
+        self.table: Table | None = None
+        self.warned = 0
+        self.ways = pn.FlexBox()
         self.further.param.watch(lambda _: self._add(), "value")
         self.file.param.watch(self._choose, "value")
         self.upload.param.watch(self._upload, "value")
         self.apply.on_click(lambda _: self._draft())
-        for slider in (self.stretch, self.hold):
-            slider.param.watch(self._mark, "value_throttled")
 
     def make_view(self) -> Any:
         """Return the controls beside the figures."""
@@ -80,30 +82,29 @@ class DataScreen(PageScreen):
             self.apply,
             self.further,
             make_html(write_heading("Stretch")),
-            self.stretch,
-            self.hold,
+            *self.stretch.widgets,
         ]
         controls = [self.file, self.upload, self.given]
-        return beside(controls, [self.problem.pane, self.found, self.case.view, self.figures.view, self.same])
+        shown = [
+            self.problem.pane, self.ways, self.found, self.case.view, self.warnings.view, self.figures.view, self.same
+        ]  # fmt: skip
+        return beside(controls, shown)
 
     def show(self) -> None:
         """List the recordings, and show the chosen one if it is another one or has changed."""
         names = [*self.desk.folder.list_recordings(), *self.desk.folder.list_cases()]
-        self.file.options = names if self.desk.recording in names else ["", *names]
         if self.desk.recording not in names:
             self.desk.recording = ""
-        if not self.desk.recording:
             self.found.object = write_beginning(len(names))
-        if self.file.value != self.desk.recording:
-            self.file.value = self.desk.recording  # which shows it
-        elif self.desk.recording:
+        if self.file.value == self.desk.recording:
             self._show_recording()
+        options = names if self.desk.recording else ["", *names]
+        self.file.param.update(options=options, value=self.desk.recording)  # which shows another one
 
     def _choose(self, event: Any) -> None:
         self.desk.recording = event.new or ""
         self.shown = ("", 0.0, False)
-        if self.desk.recording:
-            self._show_recording()
+        self._show_recording()
 
     def _upload(self, event: Any) -> None:
         if event.new is None:
@@ -115,11 +116,14 @@ class DataScreen(PageScreen):
 
     def _show_recording(self) -> None:
         """Show a recording: first its columns, then what `init` says."""
+        if not self.desk.recording:
+            return
         with self.problem.watch():
             path = self.desk.folder.find(self.desk.recording)
             self.case.view.visible = self.desk.is_given
             now = (self.desk.recording, path.stat().st_mtime, self.desk.is_robot)
             if now == self.shown:
+                run_next(self._list_warnings)
                 return
             self.shown = now
             self.found.object = write_note(f"Reading {self.desk.recording} ...")
@@ -129,12 +133,15 @@ class DataScreen(PageScreen):
         """Show the columns of a recording, and thereafter what `init` says; or what a case file contains."""
         with self.problem.watch():
             self.found.object = self.same.object = ""
+            self.warnings.forget()
+            self.ways[:], self.table, self.warned = [], None, 0
             if self.desk.is_given:
                 self.given.visible = False
                 self.case.show()
                 self.desk.tell()
+                run_next(self._list_warnings)
                 return
-            table = read_table(path)
+            self.table = table = read_table(path)
             self._offer_columns(table)
             self.given.visible = True
             self.figures.show_table(table, path.name)
@@ -173,32 +180,71 @@ class DataScreen(PageScreen):
         time = None if self.time.value == AUTOMATIC else self.time.value
         return GivenRoles(time, self.rate.value, self.drive.column, self.response.column, units)
 
+    def _read_factors(self) -> dict[str, float]:
+        channels = ((one.column, one.factor.value) for one in (self.drive, self.response))
+        return {name: factor for name, factor in channels if name and factor not in (None, 1.0)}
+
     def _draft(self, *, keep: bool = False) -> None:
         """Write a first case of the chosen columns, or keep a present one, and show what was found."""
         with self.problem.watch():
             self.found.object = ""
-            roles = self._read_roles()
-            gains = {one.column: one.factor.value for one in (self.drive, self.response)
-                     if one.column and one.factor.value not in (None, 1.0)}  # fmt: skip
-            model = self.desk.content.get("model", {})
-            named = model.get("name", "") or ";".join(model.get("equations", ()))
-            draft = self.desk.draft(roles, gains, named, keep=keep)
-            self._restore()
-            notes = [write_heading("Please check"), write_list(draft.notes)] if draft.notes else []
-            self.found.object = "".join([write_heading("What was read"), write_lines(draft.found), *notes])
-            self.figures.column.value = self.response.choice.value
-            self._offer_stretch()
+            roles, gains = self._read_roles(), self._read_factors()
+            self.ways[:], before = [], self.desk.content
+            try:
+                draft = self.desk.draft(roles, gains, choose_model(before), keep=keep)
+            except (CaseError, DataError) as err:
+                self.found.object = ""
+                if not (keep and before) and self.desk.content == before:
+                    self._offer_ways(roles, gains, str(err))
+                    raise
+                # the case is there, and its readings cannot be used as they are: a warning tells why
+            else:
+                self.found.object = "".join([write_heading("What was read"), write_lines(draft.found)])
+            self._show_case()
             self._offer_further()
-            self._show_command(roles, gains)
             self.desk.tell()
+            run_next(self._list_warnings)
+
+    def _offer_ways(self, roles: GivenRoles, gains: dict[str, float], says: str) -> None:
+        """Offer other roles of the columns as buttons, where the case cannot be made of the present ones."""
+        for words, other in list_role_changes(self.desk.folder.find(self.desk.recording), roles, gains, says):
+            button = pn.widgets.Button(name=words)
+            button.on_click(lambda _, other=other: self._take(other))
+            self.ways.append(button)
+
+    def _take(self, roles: GivenRoles) -> None:
+        """Set the widgets to other roles, and make the case of them."""
+        self.rate.value = roles.rate
+        self.time.value = roles.time or AUTOMATIC
+        self.drive.choice.value = roles.drive or AUTOMATIC
+        self._draft()
+
+    def _show_case(self) -> None:
+        """Set the widgets to the case, and shade what it does not use."""
+        self._restore()
+        self.figures.column.value = self.response.choice.value
+        self._offer_stretch()
+        self._show_command()
+
+    def _show_changed(self) -> None:
+        """Show the case after a remedy."""
+        self._restore()
+        self._draft(keep=True)
+
+    def _list_warnings(self) -> None:
+        """List the warnings about the case, unless those of this case are listed already."""
+        with self.problem.watch():
+            now = self.desk.case.stat().st_mtime_ns if self.desk.content else 0
+            if now != self.warned:
+                self.warnings.show(list_warnings(self.desk, self.table))
+                self.warned = now
 
     def _offer_stretch(self) -> None:
         """Set the slider of the stretch to that of the case, and shade what is held out."""
         low, high = self.figures.span
         first = self.desk.content["recordings"][0]
         now = (first.get("t_start", low), first.get("t_end", high))
-        step = float(f"{(high - low) / 1000.0:.1g}")
-        self.stretch.param.update(start=low, end=high, step=step, value=now)
+        self.stretch.offer((low, high), *now)
         self.figures.mark(*now, self.desk.hold)
 
     def _offer_further(self) -> None:
@@ -213,11 +259,11 @@ class DataScreen(PageScreen):
                 self.desk.add_recordings(list(self.further.value))
                 self.desk.tell()
 
-    def _mark(self, _: Any) -> None:
+    def _mark(self) -> None:
         """Keep the stretch in the case, and shade what is held out."""
         with self.problem.watch():
-            (start, end), (low, high) = self.stretch.value, self.figures.span
-            self.desk.hold = self.hold.value
+            (start, end), (low, high) = self.stretch.read(), self.figures.span
+            self.desk.hold = self.stretch.hold.value
             self.figures.mark(start, end, self.desk.hold)
             if content := self.desk.content:
                 first = content["recordings"][0]
@@ -227,8 +273,10 @@ class DataScreen(PageScreen):
                         first[key] = float(value)
                 self.desk.save(content)
                 self.desk.tell()
+                run_next(self._list_warnings)
 
-    def _show_command(self, roles: GivenRoles, gains: dict[str, float]) -> None:
+    def _show_command(self) -> None:
+        roles, gains = self._read_roles(), self._read_factors()
         words = ["lostmotion", "init", self.desk.recording]
         for option, value in (("--time", roles.time), ("--rate", roles.rate), ("--drive", roles.drive),
                               ("--response", roles.response)):  # fmt: skip

@@ -11,6 +11,7 @@ import numpy as np
 import panel as pn
 
 from lostmotion.cli.sheets import make_sheet
+from lostmotion.contracts import Model
 from lostmotion.diagnosis.tried_model import TriedModel, TriedPrediction
 from lostmotion.errors import CaseError
 from lostmotion.preparation.prepare import prepare
@@ -18,9 +19,10 @@ from lostmotion.quantities import unit_of
 from lostmotion.report import style
 from lostmotion.settings import read
 from lostmotion.written import model_of
-from lostmotion_app.case_content import list_recordings
+from lostmotion_app.case_content import drop_value_guess, list_recordings
 from lostmotion_app.curves import CurvePanels, format_legend
 from lostmotion_app.desk import Desk
+from lostmotion_app.model_library import ModelLibrary, draw_model, list_models
 from lostmotion_app.parameter_rows import ParameterRow
 from lostmotion_app.parts import (
     ProblemBox,
@@ -58,7 +60,8 @@ class ModelScreen(PageScreen):
         super().__init__(desk)
         self.kind = pn.widgets.RadioButtonGroup(name="Kind", options=[LIBRARY, EQUATIONS, ROBOT], value=LIBRARY)
         self.name = pn.widgets.Select(name="Model", sizing_mode="stretch_width")
-        self.about, self.place = make_html(), ProblemBox()
+        self.library = ModelLibrary(desk.registry, lambda name: setattr(self.name, "value", name))
+        self.picture, self.about, self.place = make_html(), make_html(), ProblemBox()
         self.equations = pn.widgets.TextAreaInput(
             name="Equations of motion, one line for each body", placeholder=EXAMPLE, rows=3, auto_grow=True,
             sizing_mode="stretch_width",
@@ -83,11 +86,13 @@ class ModelScreen(PageScreen):
     def make_view(self) -> Any:
         """Return model and parameters beside the prediction."""
         controls = [
-            self.kind, self.name, self.equations, self.robot, self.torque, self.place.pane, self.use, self.about
+            self.kind, self.name, self.library.switch, self.equations, self.robot, self.torque, self.place.pane,
+            self.picture, self.use, self.about,
         ]  # fmt: skip
+        heading = make_html(write_heading("Nominal model and recording"))
         shown = [
-            self.problem.pane, self.table, make_html(write_heading("Nominal model and recording")), self.restart,
-            self.error, self.figures, self.same,
+            self.problem.pane, self.library.pictures, self.table, heading, self.restart, self.error, self.figures,
+            self.same,
         ]  # fmt: skip
         return beside(controls, shown)
 
@@ -116,7 +121,7 @@ class ModelScreen(PageScreen):
 
     def _restore(self, model: dict[str, Any]) -> None:
         """Set the widgets to the model of the case."""
-        self.name.options = sorted(self.desk.registry.names("model"))
+        self.name.options = list_models(self.desk.registry)
         if "name" in model:
             self.name.value = model["name"]
         lines = model.get("equations", ())
@@ -128,30 +133,45 @@ class ModelScreen(PageScreen):
         self._switch()
 
     def _switch(self) -> None:
-        shown = {LIBRARY: (self.name,), EQUATIONS: (self.equations,), ROBOT: (self.robot, self.torque)}
+        shown = {
+            LIBRARY: (self.name, self.library.switch),
+            EQUATIONS: (self.equations,),
+            ROBOT: (self.robot, self.torque),
+        }
         for kind, widgets in shown.items():
             for widget in widgets:
                 widget.visible = self.kind.value == kind and self.use.visible
+        if not self.library.switch.visible:
+            self.library.switch.value = False
         self.place.tell("")
         self._describe()
 
     def _describe(self) -> None:
         """Show what the chosen model is, as `lostmotion plugins show` does."""
         self.about.object = write_note(ABOUT_ROBOTS) if self.kind.value == ROBOT else ""
+        self.picture.object = ""
+        if self.kind.value == EQUATIONS:
+            self._check_equations(self.equations.value)
         if self.kind.value == LIBRARY and self.name.value:
             with self.problem.watch():
                 registry = self.desk.registry
-                sheet = make_sheet(registry.entry("model", self.name.value), registry.load("model", self.name.value))
+                made = registry.make("model", self.name.value)
+                self._draw_machine(made)
+                sheet = make_sheet(registry.entry("model", self.name.value), type(made))
                 places = ", ".join(place.name for place in sheet.interfaces or ())
                 texts = [sheet.about, f"Places for terms: {places}" if places else "", sheet.paper or ""]
                 self.about.object = "".join(f"<p>{html.escape(text)}</p>" for text in texts if text)
 
+    def _draw_machine(self, model: Model) -> None:
+        self.picture.object = f'<div class="lm-picture">{draw_model(model)}</div>'
+
     def _check_equations(self, text: str) -> list[str]:
         """Return equations that can be used, one for each body; none, and the place of the error, if they cannot."""
         lines = [line.strip() for line in text.splitlines() if line.strip()]
+        self.picture.object = ""
         with self.place.watch():
             if lines:
-                model_of(lines)
+                self._draw_machine(model_of(lines)())
             return lines
         return []
 
@@ -193,10 +213,14 @@ class ModelScreen(PageScreen):
             if self.desk.is_given:
                 self._predict()
                 return
-            entries = [row.read() for row in self.rows]
+            entries, before = [row.read() for row in self.rows], content["model"].get("known", {})
             content["model"]["known"] = {name: value for name, value in entries if isinstance(value, float)}
             content["model"]["estimate"] = {name: prior for name, prior in entries if isinstance(prior, dict)}
+            for name, value in content["model"]["known"].items():
+                if before.get(name) != value:
+                    drop_value_guess(content, name)
             if content != self.desk.content:
+                self.desk.confirm(content)
                 self.desk.save(content)
                 self.shown = (self.desk.recording, self.desk.case.stat().st_mtime_ns)
             self._predict()

@@ -184,8 +184,9 @@ def _make_improvement_table(result: CaseCheck) -> Grid:
 
 
 def _compare(factor: float, less: str, more: str) -> str:
-    """Return a factor in words: "3.1 times narrower"."""
-    return f"{figures(1.0 / factor, 2)} times {less}" if factor < 1.0 else f"{figures(factor, 2)} times {more}"
+    """Return a factor in words: "3.1 times narrower"; "unchanged" where it rounds to one."""
+    times, word = (figures(1.0 / factor, 2), less) if factor < 1.0 else (figures(factor, 2), more)
+    return "unchanged" if times == "1" else f"{times} times {word}"
 
 
 def _make_pair_table(result: CaseCheck) -> Grid:

@@ -1,0 +1,256 @@
+"""Warnings on the page, and the buttons that change the case: each removes its warning, and brings no other one."""
+
+import sys
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from lostmotion.errors import CaseError, DataError
+from lostmotion.recording.outline import GivenRoles
+from lostmotion.registry import default
+from lostmotion.results.expectation import WrongScale
+
+pytest.importorskip("panel", reason="no page: Panel is absent (the extra `app`)")
+sys.path.insert(0, str(Path(__file__).parent))
+
+from lostmotion_app.case_content import format_content
+from lostmotion_app.desk import Desk
+from lostmotion_app.folder import WorkFolder
+from lostmotion_app.remedies import list_changed_lines, list_check_warnings, list_warnings
+from lostmotion_app.role_changes import list_role_changes
+from lostmotion_app.warning_list import WarningList
+
+HEAD = "time [s],force [N],position [m]"
+RATE, ROWS = 200.0, 1400
+NOTHING = GivenRoles()
+
+
+def simulate():
+    """Return time, force and position (rows, 3) of an oscillator, from its transfer function."""
+    t, rng = np.arange(ROWS) / RATE, np.random.default_rng(0)
+    x = np.zeros(ROWS)
+    u = np.zeros(ROWS)
+    for size, omega, phase in ((20.0, 37.0, 0.0), (15.0, 61.0, 1.0), (8.0, 83.0, 2.0)):
+        wave = size * np.exp(1j * (omega * t + phase))
+        u += wave.real
+        x += (wave / (4000.0 + 8.0j * omega - omega**2)).real
+    return np.stack([t, u, x + 2e-6 * rng.standard_normal(ROWS)], axis=1)
+
+
+@pytest.fixture
+def open_desk(tmp_path):
+    """Return a function that writes a table and returns a desk with its recording."""
+
+    def write(rows, head=HEAD, roles=NOTHING, name="run.csv"):
+        np.savetxt(tmp_path / name, rows, delimiter=",", header=head, comments="", fmt="%.9g")
+        desk = Desk(WorkFolder(tmp_path.resolve()), default(), recording=name)
+        try:
+            desk.draft(roles, {})
+        except DataError:
+            if not desk.content:  # else a stretch of the readings may be used
+                raise
+        return desk
+
+    return write
+
+
+def change_sign(rows):
+    rows[:, 1] *= -1.0
+    return rows
+
+
+def stop_sensor(rows):
+    rows[-200:, 2] = rows[-200, 2]
+    return rows
+
+
+def lose_drive(rows):
+    rows[:30, 1] = np.nan
+    return rows
+
+
+def mark_lost(rows):
+    rows[1390, 2] = -999.0
+    return rows
+
+
+def overflow(rows):
+    rows[5, 2] = np.inf
+    return rows
+
+
+def list_notes(desk):
+    return [one for one in list_warnings(desk) if not one.says.startswith("Supposed")]
+
+
+SIGNS = ["force [N]: other sign", "position [m]: other sign"]
+FAULTS = {
+    "sign": (change_sign, "power flows from the machine", SIGNS),
+    "stuck": (stop_sensor, "may have been stuck", ["Use it until 5.995 s"]),
+    "lost drive": (lose_drive, "all are needed", ["Use it from 0.15 s"]),
+    "marker": (mark_lost, "a glitch, or a marker", ["Use it until 6.945 s"]),
+    "infinite": (overflow, "is infinite at sample 5", ["Use it from 0.03 s"]),
+}
+
+
+@pytest.mark.parametrize(("fault", "says", "offered"), FAULTS.values(), ids=FAULTS)
+def test_each_remedy_removes_its_warning_and_brings_none(open_desk, fault, says, offered):
+    desk = open_desk(fault(simulate()))
+    (warned,) = list_notes(desk)
+    assert says in warned.says
+    assert [one.says for one in warned.remedies] == offered
+    before = desk.case.read_text(encoding="utf-8")
+    for remedy in warned.remedies:
+        desk.change(remedy.content)
+        assert list_changed_lines(before, desk.case.read_text(encoding="utf-8"))
+        assert list_notes(desk) == []
+        assert desk.read_case().recordings[0].warnings == ()
+        desk.case.write_text(before, encoding="utf-8")
+
+
+def test_a_warning_that_no_change_of_the_case_removes_has_no_button(open_desk):
+    rows = simulate()
+    rows[[300, 700, 1100], 2] = -999.0  # what is left between them is less than half
+    notes = list_notes(open_desk(rows))
+    assert any("a glitch, or a marker" in one.says for one in notes)
+    assert [one for one in notes if one.remedies] == []
+
+
+def test_a_sound_recording_has_no_warning(open_desk):
+    assert list_notes(open_desk(simulate())) == []
+
+
+def test_units_are_those_of_the_header_and_degrees_are_told_by_a_factor(open_desk):
+    desk = open_desk(simulate(), HEAD.replace("[m]", "[mm]"), GivenRoles(units={"position [mm]": "m"}))
+    (warned,) = list_notes(desk)
+    assert [one.says for one in warned.remedies] == ["position [mm]: unit mm"]
+    desk.change(warned.remedies[0].content)
+    assert desk.content["recordings"][0]["sensors"][0]["unit"] == "mm"
+    rows = simulate()
+    rows[:, 2] *= 2000.0
+    desk = open_desk(rows, "time [s],torque [N m],angle [rad]", name="turned.csv")
+    (warned,) = list_notes(desk)
+    assert "are these degrees?" in warned.says
+    (remedy,) = warned.remedies
+    desk.change(remedy.content)
+    assert desk.content["recordings"][0]["sensors"][0]["factor"] == pytest.approx(np.pi / 180.0)
+    assert list_notes(desk) == []
+
+
+def test_priors_follow_the_columns_and_the_values_of_a_user_stay(open_desk):
+    desk = open_desk(change_sign(simulate()))
+    content = desk.content
+    assert content["model"]["name"] == "rigid_drive"  # the sign hides the spring
+    (warned,) = list_notes(desk)
+    desk.change(warned.remedies[0].content)
+    model = desk.content["model"]
+    assert model["name"] == "linear_oscillator"
+    assert model["estimate"]["k"]["low"] < 4000.0 < model["estimate"]["k"]["high"]
+    content = desk.content
+    content["model"]["known"] = {"m": 1.0}
+    del content["model"]["estimate"]["m"]
+    desk.save(content)
+    roles = GivenRoles("time [s]", None, "force [N]", "position [m]", {"force [N]": "kN"})
+    desk.draft(roles, {"force [N]": -1.0}, "linear_oscillator")
+    model = desk.content["model"]
+    assert model["known"] == {"m": 1.0}
+    assert model["estimate"]["k"]["low"] > 4000.0
+
+
+def test_a_supposition_is_confirmed_once_and_a_value_is_given(open_desk):
+    rows = simulate()
+    desk = open_desk(np.stack([rows[:, 0], 1e-4 * rows[:, 1], rows[:, 2]], axis=1), "time [s],base [m],position [m]")
+    mass, model = list_warnings(desk)
+    assert [(one.says, one.parameter) for one in mass.remedies] == [("Set", "m"), ("Confirm", "")]
+    desk.change(mass.remedies[0].fill(2.5))
+    assert desk.content["model"]["known"]["m"] == 2.5
+    assert list_warnings(desk) == [replace(model, remedies=list_warnings(desk)[0].remedies)]
+    desk.change(list_warnings(desk)[0].remedies[0].content)
+    assert "guessed" not in desk.content
+    desk.draft(NOTHING, {})
+    assert list_warnings(desk) == []
+    assert desk.content["model"]["known"]["m"] == 2.5
+
+
+def test_what_drives_the_machine_is_asked(open_desk, tmp_path):
+    with pytest.raises(CaseError) as told:
+        open_desk(simulate(), "t,channel 1,position [m]")
+    path = tmp_path / "run.csv"
+    ways = list_role_changes(path, NOTHING, {}, str(told.value))
+    assert [words for words, _ in ways] == ["channel 1 drives the machine", "Nothing drives the machine"]
+    desk = Desk(WorkFolder(tmp_path.resolve()), default(), recording="run.csv")
+    desk.draft(ways[0][1], {})
+    assert desk.content["recordings"][0]["inputs"][0]["column"] == "channel 1"
+
+
+def test_uneven_stamps_are_replaced_by_a_rate(open_desk, tmp_path):
+    rows = simulate()
+    rows[:, 0] = np.floor(rows[:, 0] * 40.0) / 40.0  # five rows have one stamp
+    with pytest.raises(DataError) as told:
+        open_desk(rows)
+    ways = list_role_changes(tmp_path / "run.csv", NOTHING, {}, str(told.value))
+    assert len(ways) == 1
+    assert ways[0][1].rate == pytest.approx(RATE, rel=0.01)
+
+
+def test_a_check_offers_the_factor_and_a_known_value(open_desk):
+    desk = open_desk(simulate())
+    content = desk.content
+    result = SimpleNamespace(
+        scales=(WrongScale(column="force [N]", factor=1000.0, says="the unit with a factor of 1000", left=0.01),),
+        expected=SimpleNamespace(
+            pairs=(SimpleNamespace(one="m", other="k"), SimpleNamespace(one="m", other="x")),
+            parameters={"m": SimpleNamespace(median=1.0), "c": SimpleNamespace(median=0.7)},
+        ),
+    )
+    content["model"]["estimate"]["c"] = {"low": 0.7, "high": 70.0, "scale": "log"}
+    scale, bound, pair = list_check_warnings(result, content)
+    (wider,) = bound.remedies
+    assert wider.content["model"]["estimate"]["c"] == {"low": pytest.approx(0.007), "high": 70.0, "scale": "log"}
+    assert scale.remedies[0].content["recordings"][0]["inputs"][0]["factor"] == 1000.0
+    assert [one.parameter for one in pair.remedies] == ["m", "k"]
+    filled = pair.remedies[1].fill(4000.0)["model"]
+    assert filled["known"] == {"k": 4000.0}
+    assert "k" not in filled["estimate"]
+
+
+def test_a_button_shows_what_it_changed_and_undo_restores_it(open_desk):
+    desk, told = open_desk(change_sign(simulate())), []
+    shown = WarningList(desk, lambda: told.append(desk.content))
+    shown.show(list_warnings(desk))
+    before = desk.case.read_text(encoding="utf-8")
+    buttons = {one.name: one for row in shown.rows[1:] for one in row if type(one).__name__ == "Button"}
+    buttons["force [N]: other sign"].clicks += 1
+    assert told[-1]["recordings"][0]["inputs"][0]["factor"] == -1.0
+    assert "+inputs" in shown.told.object
+    assert shown.undo.visible
+    shown.undo.clicks += 1
+    assert desk.case.read_text(encoding="utf-8") == before
+    assert "-inputs" in shown.told.object
+
+
+def test_the_case_of_a_user_is_not_changed_but_the_change_is_told(open_desk, tmp_path):
+    desk = open_desk(change_sign(simulate()))
+    content = desk.content
+    content["recordings"][0]["file"] = "run.csv"
+    (tmp_path / "mine.toml").write_text(format_content(content), encoding="utf-8")
+    given = Desk(WorkFolder(tmp_path.resolve()), default(), recording="mine.toml")
+    shown = WarningList(given, lambda: None)
+    shown.show(list_warnings(given))
+    text = "".join(row.object for row in shown.rows)
+    assert "In the case file: force [N]: other sign" in text
+    assert "factor = -1.0" in text
+
+
+def test_two_angles_in_different_units_but_of_one_size_are_told_apart_by_a_factor(open_desk):
+    t, rng = np.arange(ROWS) / RATE, np.random.default_rng(0)
+    rows = np.stack([t, np.sin(9.0 * t), 0.9 * np.sin(9.0 * t - 0.4) + 1e-3 * rng.standard_normal(ROWS)], axis=1)
+    desk = open_desk(rows, "time [s],base [deg],angle [rad]")
+    (warned,) = list_notes(desk)
+    assert "are both in one unit?" in warned.says
+    assert [one.says for one in warned.remedies] == ["base [deg]: numbers in rad", "angle [rad]: numbers in deg"]
+    desk.change(warned.remedies[1].content)
+    assert list_notes(desk) == []
