@@ -123,6 +123,7 @@ def diagnose(folder: Path, code: Path, limit: float) -> dict:
         "confused_with": [{k: e.get(k) for k in ("mechanism", "at")} for e in answer.get("confused_with", [])],
         "parameters": answer["parameters"]["after"],
         "nrmse": [answer["fit"][k]["heldout_nrmse"] for k in ("before", "after")],
+        "horizon": [answer["fit"]["after"]["horizon"], answer["fit"]["horizon_unit_time"]],
         "notes": answer.get("notes", []),
     }
 
