@@ -6,6 +6,7 @@ held-out part, their rms error over the standard deviation of the held-out readi
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -19,6 +20,13 @@ WILD = 10.0
 """A free run diverges where its error is more than this many standard deviations of the motion."""
 TESTED, SLACK = 0.3, 1.05
 """Share of the fitted data on which settings are compared, and the rise of the error that a simpler model may have."""
+NOMINAL = {
+    "lin_backlash": ("u", "v", "d"),
+    "linear_oscillator": ("u", "v", "x"),
+    "rigid_drive": ("u", "v"),
+    "pendulum": ("v", "d"),
+}
+"""The functions of each nominal model."""
 Roll = Callable[[np.ndarray, np.ndarray], np.ndarray]
 T = TypeVar("T")
 
@@ -27,17 +35,23 @@ T = TypeVar("T")
 class Track:
     """Readings and drive (samples,), every `dt` s; `begin` is the first held-out sample.
 
-    `free` says that nothing drives the machine, and `pendulum` that the nominal spring is the sine of the position.
-    `horizon` is the length of free runs, as a number of units, and the unit in s.
+    `nominal` has the names of the functions of the nominal model (`LAWS` in peers_sindy.py): drive, damping and spring,
+    whose deflection "d" is the path beyond a gap, or for a `pendulum` the sine of the position. `horizon` is the length
+    of free runs, as a number of units, and the unit in s.
     """
 
     position: np.ndarray
     drive: np.ndarray
     dt: float
     begin: int
-    free: bool
+    nominal: tuple[str, ...]
     pendulum: bool
     horizon: tuple[float, float]
+
+    @property
+    def free(self) -> bool:
+        """Whether nothing drives the machine."""
+        return "u" not in self.nominal
 
     @property
     def steps(self) -> int:
@@ -71,8 +85,13 @@ def load_track(folder: Path, horizon: tuple[float, float]) -> Track:
     prepared = prepare(folder / "case.toml", Registry.discover(), DEFAULT)
     (seen,) = cut_rest(prepared.observations, DEFAULT.heldout)
     (fitted,), _ = split_heldout((seen,), DEFAULT.heldout)
-    pendulum = "sin(" in (folder / "case.toml").read_text()
-    return Track(seen.response, seen.excitation, seen.dt, fitted.samples, seen.free, pendulum, horizon)
+    model = tomllib.loads((folder / "case.toml").read_text())["model"]
+    pendulum = "sin(" in "".join(model.get("equations", ()))
+    name = "pendulum" if pendulum else model.get("name")
+    if name not in NOMINAL:
+        raise SystemExit(f"{folder.name}: the functions of its model {name!r} are not known: add them to NOMINAL")
+    nominal = NOMINAL[name]
+    return Track(seen.response, seen.excitation, seen.dt, fitted.samples, nominal, pendulum, horizon)
 
 
 def choose_starts(track: Track, most: int = STARTS) -> np.ndarray:

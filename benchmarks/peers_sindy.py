@@ -60,7 +60,8 @@ POLYNOMIALS, SOME, ALL = "polynomials", "few laws", "all laws"
 def list_functions(track: Track, library: str) -> dict[str, Law]:
     """Return the functions of a library by name; polynomials have none of the nominal spring."""
     if library != POLYNOMIALS:
-        unused = (("u",) if track.free else ()) + (CONTACT if track.pendulum else ())
+        contact = "d" in track.nominal and not track.pendulum
+        unused = {"u", "d"} - set(track.nominal) | set(() if contact else CONTACT)
         used = [name for name in (FEW if library == SOME else LAWS) if name not in unused]
         return {name: LAWS[name][0] for name in used}
     powers = [p for p in itertools.product(range(DEGREE + 1), repeat=3) if sum(p) <= DEGREE]
@@ -153,7 +154,9 @@ class Regression:
         return np.asarray(self.library.fit_transform(self.data))
 
     def find_gap(self) -> float:
-        """Return the half gap with the smallest residual."""
+        """Return the half gap with the smallest residual; 0 without a gap."""
+        if "d" not in self.laws or self.size:
+            return 0.0
 
         def residual(gap: float) -> float:
             values = self.assemble(gap)
@@ -246,7 +249,7 @@ def fit(track: Track, *, laws: bool, weak: bool) -> Model:
         motion = smooth(test, window)
         for half, library in itertools.product(HALVES if weak else (0,), (SOME, ALL) if laws else (POLYNOMIALS,)):
             regression = Regression(motion, test, half, library)
-            gap = regression.find_gap() if laws else 0.0
+            gap = regression.find_gap()
             first = next(regression.list_equations(gap))
             tried.append((score(first, motion), (window, half, library), regression, gap))
     tried = sorted(tried, key=lambda one: one[0])[:BEST]
@@ -258,7 +261,7 @@ def fit(track: Track, *, laws: bool, weak: bool) -> Model:
     (window, half, library), names = choose_simplest(models)
     motion = smooth(track, window)
     regression = Regression(motion, track, half, library)
-    gap = regression.find_gap() if laws else 0.0
+    gap = regression.find_gap()
     equation = regression.regress(gap, tuple(list(regression.laws).index(name) for name in names))
     says = f"{library}, {window} samples" + (f", test functions of {2 * half}" if half else "")
-    return Model(equation.names, Runs(equation, motion, track), says)
+    return Model(tuple(n for n in equation.names if n not in track.nominal), Runs(equation, motion, track), says)

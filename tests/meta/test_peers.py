@@ -27,7 +27,7 @@ def track():
     """The resonant motion x = t sin(wt) of a driven oscillator, with its last 30 % held out."""
     time = DT * np.arange(2000)
     motion, drive = time * np.sin(PACE * time), 2.0 * PACE * np.cos(PACE * time)
-    return load("peer_tracks").Track(motion, drive, DT, 1400, False, False, (1.0, 2.0 * np.pi / PACE))
+    return load("peer_tracks").Track(motion, drive, DT, 1400, ("u", "v", "x"), False, (1.0, 2.0 * np.pi / PACE))
 
 
 def test_the_error_is_that_of_free_runs_over_the_deviation_of_the_held_out_part(track):
@@ -95,7 +95,8 @@ def test_rows_of_a_run_become_a_table(tmp_path, monkeypatch):
     results, store = load("validation_results"), load("validation_store")
     monkeypatch.setattr(store, "RESULTS", tmp_path / "results")
     row = {"set": "small", "key": "0", "tool": "lostmotion", "version": "abc", "hidden": ["cogging"], "found": 1,
-           "of": 1, "false": [], "terms": ["cogging"], "error": 0.01, "wild": 0.0, "cpu": 30.0, "setting": ""}  # fmt: skip
+           "of": 1, "false": [], "terms": ["cogging"], "error": 0.01, "wild": 0.0, "cpu": 30.0,
+           "setting": ""}  # fmt: skip
     peer = {**row, "tool": "PySINDy, laws", "version": "2", "found": 0, "false": ["x"], "terms": ["x"], "wild": 0.5}
     lost = {**peer, "tool": "SysIdentPy", "error": None, "terms": []}
     (tmp_path / "peers.jsonl").write_text("\n".join(map(json.dumps, (row, peer, lost))))
