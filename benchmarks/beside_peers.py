@@ -115,7 +115,7 @@ def run(args: argparse.Namespace) -> None:
         if row["status"] != "ok":
             continue
         own = {one["tool"]: one for one in list_own_rows(row)}
-        for tool in (*own, *PEERS):
+        for tool in (*own, *(args.tools or PEERS)):
             if (key, tool) not in done:
                 found = own.get(tool) or run_machine(row, args.machines / args.set / key, tool)
                 with path.open("a") as stream:
@@ -132,6 +132,7 @@ def main() -> None:
     one.add_argument("--machines", type=Path, required=True, help="folder of the machines")
     one.add_argument("--rows", type=Path, required=True, help="OUT of `judge.py run`, with the rows of lostmotion")
     one.add_argument("--out", type=Path, required=True, help="folder of the rows")
+    one.add_argument("--tools", nargs="*", choices=PEERS, help="only these peers")
     one = commands.add_parser("fit", help="one fit, for `run`")
     one.add_argument("folder", type=Path)
     one.add_argument("tool", choices=PEERS)

@@ -16,7 +16,7 @@ from peer_tracks import Model, Track, choose_simplest, measure_error
 
 STRIDES, SHAPES, TERMS, RUNS = (2, 3, 4), ((3, 4), (5, 2), (5, 3), (7, 2)), (20, 50, 100, 160), 40
 """Samples of a step, degree and lags of a model, its number of terms, and free runs of a comparison."""
-WINDOW, FAR = 5, 1e6
+WINDOW, FAR, FEW, MANY = 5, 1e6, 20, 1500
 
 
 class Narx:
@@ -52,12 +52,18 @@ class Narx:
         return found
 
 
+def list_strides(track: Track) -> list[int]:
+    """Return the strides: the usual ones, longer where many samples make a unit of time, and 1 where there are few."""
+    unit = track.horizon[1] / track.dt
+    return [1] if unit < FEW else [one * max(1, round(unit / MANY)) for one in STRIDES]
+
+
 def fit(track: Track) -> Model:
     """Return the NARX model of the fitted part of a recording."""
     test = track.hold_out_more()
     tried = [
         (measure_error(test, Narx(test, *one), RUNS)[0], one[2], one)
-        for one in itertools.product(STRIDES, SHAPES, TERMS)
+        for one in itertools.product(list_strides(test), SHAPES, TERMS)
     ]
     stride, shape, terms = choose_simplest(tried)
     says = f"degree {shape[0]}, {shape[1]} lags of {stride} samples, {terms} terms"
