@@ -94,19 +94,20 @@ def load_track(folder: Path, horizon: tuple[float, float]) -> Track:
     return Track(seen.response, seen.excitation, seen.dt, fitted.samples, nominal, pendulum, horizon)
 
 
-def choose_starts(track: Track, most: int = STARTS) -> np.ndarray:
-    """Return the samples (runs,) at which free runs begin."""
+def choose_starts(track: Track, most: int = STARTS) -> tuple[np.ndarray, int]:
+    """Return the samples (runs,) at which free runs begin, and the number of samples of which the error counts."""
     left = len(track.position) - track.begin
     steps = int(min(max(REACH * track.horizon[1] / track.dt, track.steps + 1), left // 2))
     last = len(track.position) - steps
-    return np.unique(np.linspace(track.begin, last, min(most, max(last - track.begin, 1))).astype(int))
+    starts = np.unique(np.linspace(track.begin, last, min(most, max(last - track.begin, 1))).astype(int))
+    return starts, min(track.steps + 1, steps)
 
 
 def measure_error(track: Track, roll: Roll, most: int = STARTS) -> tuple[float, float]:
     """Return the error of free runs `roll(starts, samples)`, and the share of those that diverge."""
-    starts, samples = choose_starts(track, most), np.arange(track.steps + 1)
+    starts, samples = choose_starts(track, most)
     with np.errstate(all="ignore"):
-        error = roll(starts, len(samples)) - track.position[np.add.outer(starts, samples)]
+        error = roll(starts, samples) - track.position[np.add.outer(starts, np.arange(samples))]
     size = float(np.std(track.position))
     error = np.clip(np.where(np.isfinite(error), error, np.inf), -WORST * size, WORST * size)
     wild = np.any(np.abs(error) > WILD * size, axis=1)

@@ -29,7 +29,8 @@ class Narx:
 
         degree, self.lag = shape
         self.stride, self.size = stride, float(np.std(track.position))
-        self.seen = savgol_filter(track.position, WINDOW, 3)[:, None] / self.size
+        smooth = track.position if count_unit(track) < FEW else savgol_filter(track.position, WINDOW, 3)
+        self.seen = smooth[:, None] / self.size
         self.drive = None if track.free else track.drive[:, None] / float(np.std(track.drive))
         basis, model = Polynomial(degree=degree), "NAR" if track.free else "NARMAX"
         self.model = FROLS(
@@ -52,9 +53,14 @@ class Narx:
         return found
 
 
+def count_unit(track: Track) -> float:
+    """Return the number of samples of a unit of time; readings are not smoothed where they are few."""
+    return min(track.horizon[1] / track.dt, len(track.position) / 4)
+
+
 def list_strides(track: Track) -> list[int]:
     """Return the strides: the usual ones, longer where many samples make a unit of time, and 1 where there are few."""
-    unit = track.horizon[1] / track.dt
+    unit = count_unit(track)
     return [1] if unit < FEW else [one * max(1, round(unit / MANY)) for one in STRIDES]
 
 

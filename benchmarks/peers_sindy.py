@@ -226,9 +226,10 @@ class Runs:
                 self.step(x, v + small, begin, length)[0] - path,
             ]
             design = np.stack(slopes, axis=-1) / small
-            normal = np.einsum("rki,rkj->rij", design, design) + 1e-9 * np.eye(2)
-            moved = np.linalg.solve(normal, np.einsum("rki,rk->ri", design, seen - path)[..., None])[..., 0]
-            x, v = x + np.clip(moved[:, 0], -0.1, 0.1), v + np.clip(moved[:, 1], -0.1, 0.1)
+            normal, slope = np.einsum("rki,rkj->ijr", design, design), np.einsum("rki,rk->ir", design, seen - path)
+            (a, b), (_, d) = normal + 1e-9 * np.eye(2)[..., None]
+            moved = np.array([d * slope[0] - b * slope[1], a * slope[1] - b * slope[0]]) / (a * d - b * b)
+            x, v = x + np.clip(moved[0], -0.1, 0.1), v + np.clip(moved[1], -0.1, 0.1)
         path, v = self.step(x, v, begin, length)
         return path[:, -1], v
 
