@@ -6,9 +6,18 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
+from beside_peers import OURS
 from peers_sindy import LAWS
 from validation_results import PEERS, Result, split_rows
 from validation_tables import Reasons, format_seconds, make_table, mark
+
+MOST = 10.0
+"""A larger held-out error is not written as a number."""
+
+
+def list_compared(results: Sequence[Result]) -> list[Result]:
+    """Return the results of `beside_peers.py`, the one with the most machines first."""
+    return sorted((r for r in results if r.set == PEERS), key=lambda r: r.of, reverse=True)
 
 
 def list_tools(result: Result) -> dict[str, list[dict]]:
@@ -20,16 +29,16 @@ def list_tools(result: Result) -> dict[str, list[dict]]:
 def write_peers(results: Sequence[Result], _: Reasons) -> str:
     """Return the commands, and the table of what each tool finds, its errors and its processor time."""
     texts = []
-    for result in (r for r in results if r.set == PEERS):
+    for result in list_compared(results):
         rows = []
         for tool, own in list_tools(result).items():
             errors = [np.inf if row["error"] is None else row["error"] for row in own]
-            least, most = (f"{100.0 * one:.2g} %" for one in (np.median(errors), max(errors)))
+            middle, most = map(format_error, (np.median(errors), max(errors)))
             seconds = format_seconds([row["cpu"] for row in own if row["cpu"] is not None])
             counts = [sum(row["found"] for row in own), sum(row["of"] for row in own)]
             false = sum(bool(row["false"]) for row in own)
             wild = sum(row["wild"] > 0.0 for row in own)
-            rows.append([tool, "{} of {}".format(*counts), f"{false} of {len(own)}", least, most, f"{wild}", seconds])
+            rows.append([tool, "{} of {}".format(*counts), f"{false} of {len(own)}", middle, most, f"{wild}", seconds])
         heads = ("tool", "hidden effects found", "machines with a false term", "held-out error: median", "largest",
                  "machines with runs that diverge", "processor s: median, largest")  # fmt: skip
         texts.append(
@@ -42,7 +51,7 @@ def write_peers(results: Sequence[Result], _: Reasons) -> str:
 def write_peer_errors(results: Sequence[Result], _: Reasons) -> str:
     """Return the table of the held-out errors and terms on each machine, a column for each tool."""
     texts = []
-    for result in (r for r in results if r.set == PEERS):
+    for result in list_compared(results):
         tools = list(list_tools(result))
         rows = []
         for key, own in split_rows(result.rows, lambda row: row["key"]).items():
@@ -52,11 +61,16 @@ def write_peer_errors(results: Sequence[Result], _: Reasons) -> str:
     return "\n\n".join(texts)
 
 
+def format_error(error: float) -> str:
+    """Return a held-out error in per cent."""
+    return f"{100.0 * error:.2g} %" if error < MOST else f"above {100.0 * MOST:.0f} %"
+
+
 def format_cell(row: Mapping) -> str:
     """Return error and terms of a tool on a machine; false terms are in italics, the nominal model's are left out."""
-    error = "failed" if row["error"] is None else f"{100.0 * row['error']:.2g} %"
+    error = "failed" if row["error"] is None else format_error(row["error"])
     error += " (diverges)" if row["wild"] else ""
-    own = row["tool"] == "lostmotion"
+    own = row["tool"] == OURS
     terms = [(term, (term,) if own else LAWS.get(term, (None, ()))[1]) for term in row["terms"]]
     told = {names[0]: f"*{names[0]}*" if term in row["false"] else names[0] for term, names in terms if names}
     return f"{error}: {', '.join(told.values())}" if told else error

@@ -7,6 +7,7 @@ was named with which probability, and whether that is right. `docs/validation.md
 from __future__ import annotations
 
 import json
+import shlex
 import subprocess
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from datetime import UTC, datetime
@@ -298,12 +299,21 @@ def condense_check(run: Path, _: Mapping) -> tuple[dict, list[dict]]:
 
 def condense_peers(run: Path, _: Mapping) -> tuple[dict, list[dict]]:
     """Return head and rows of `benchmarks/beside_peers.py`; the version is that of lostmotion."""
+    from beside_peers import NOMINAL, OURS
+    from beside_peers import PEERS as TOOLS
+
     rows = read_rows(run / "peers.jsonl")
+    tools = {row["tool"] for row in rows} - {NOMINAL, OURS}
+    some = (
+        ""
+        if tools == set(TOOLS)
+        else f" --tools {' '.join(json.dumps(tool) if ' ' in tool else tool for tool in sorted(tools))}"
+    )
     versions = {row["tool"].partition(",")[0]: row["version"] for row in rows}
-    kind, code = rows[0]["set"], versions.pop("lostmotion")
+    kind, code = rows[0]["set"], versions.pop(OURS)
     machines = f"--set {kind} --machines MACHINES"
     commands = [f"{JUDGE} make {machines}", f"{JUDGE} run {machines} --out ROWS"]
-    commands += [f"python benchmarks/beside_peers.py run {machines} --rows ROWS --out OUT"]
+    commands += [f"python benchmarks/beside_peers.py run {machines} --rows ROWS --out OUT{some}"]
     told = ", ".join(f"{tool} {number}" for tool, number in versions.items() if number != code)
     head = {"set": PEERS, "machines": kind, "of": len({row["key"] for row in rows}), "commands": commands}
     keys = ("key", "tool", "hidden", "found", "of", "false", "terms", "error", "wild", "cpu", "setting")
