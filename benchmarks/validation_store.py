@@ -304,11 +304,7 @@ def condense_peers(run: Path, _: Mapping) -> tuple[dict, list[dict]]:
 
     rows = read_rows(run / "peers.jsonl")
     tools = {row["tool"] for row in rows} - {NOMINAL, OURS}
-    some = (
-        ""
-        if tools == set(TOOLS)
-        else f" --tools {' '.join(json.dumps(tool) if ' ' in tool else tool for tool in sorted(tools))}"
-    )
+    some = "" if tools == set(TOOLS) else f" --tools {shlex.join(sorted(tools))}"
     versions = {row["tool"].partition(",")[0]: row["version"] for row in rows}
     kind, code = rows[0]["set"], versions.pop(OURS)
     machines = f"--set {kind} --machines MACHINES"
