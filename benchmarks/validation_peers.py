@@ -56,7 +56,8 @@ def write_peer_errors(results: Sequence[Result], _: Reasons) -> str:
         rows = []
         for key, own in split_rows(result.rows, lambda row: row["key"]).items():
             cells = {row["tool"]: format_cell(row) for row in own}
-            rows.append([key, ", ".join(own[0]["hidden"]) or "nothing", *(cells.get(tool, "-") for tool in tools)])
+            hidden = ", ".join(own[0]["hidden"]).replace("_", " ") or "nothing"
+            rows.append([key, hidden, *(cells.get(tool, "-") for tool in tools)])
         texts.append(make_table(("machine", "hidden", *tools), rows))
     return "\n\n".join(texts)
 
@@ -73,7 +74,7 @@ def format_cell(row: Mapping) -> str:
     own = row["tool"] == OURS
     terms = [(term, (term,) if own else LAWS.get(term, (None, ()))[1]) for term in row["terms"]]
     told = {names[0]: f"*{names[0]}*" if term in row["false"] else names[0] for term, names in terms if names}
-    return f"{error}: {', '.join(told.values())}" if told else error
+    return f"{error}: {', '.join(told.values()).replace('_', ' ')}" if told else error
 
 
 PEER_TABLES: Mapping[str, Callable[[Sequence[Result], Reasons], str]] = {

@@ -107,4 +107,4 @@ def test_rows_of_a_run_become_a_table(tmp_path, monkeypatch):
     assert "| lostmotion | 1 of 1 | 0 of 1 | 1 % | 1 % | 0 | 30, 30 |" in summary
     assert "| PySINDy, laws | 0 of 1 | 1 of 1 | 1 % | 1 % | 1 | 30, 30 |" in summary
     cells = tables["peererrors"]([result], {}).splitlines()[-1]
-    assert cells == "| 0 | cogging | 1 %: cogging | 1 % (diverges): *linear_stiffness* | failed (diverges) |"
+    assert cells == "| 0 | cogging | 1 %: cogging | 1 % (diverges): *linear stiffness* | failed (diverges) |"
