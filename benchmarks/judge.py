@@ -31,7 +31,7 @@ from pathlib import Path
 from judge_rows import print_comparison, print_oracle, print_reliability, read_rows
 from judge_truth import load_truth
 
-SETS = ("twelve", "exact", "foreign", "library", "imperfect", "clean")
+SETS = ("twelve", "exact", "foreign", "library", "imperfect", "clean", "real")
 PATIENCE = 20.0
 """A process ends after this many times its limit of processor time on the clock."""
 ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
@@ -53,6 +53,8 @@ def make_machines(name: str, machines: Path, limit: int, fresh: int = 0) -> list
         from judge_sets import make_library as make
     elif name == "imperfect":
         from judge_sets import make_imperfect as make
+    elif name == "real":
+        from judge_real import make_real as make
     else:
         from judge_sets import make_clean as make
     return make(machines / name, limit, fresh)
@@ -123,6 +125,7 @@ def diagnose(folder: Path, code: Path, limit: float) -> dict:
         "confused_with": [{k: e.get(k) for k in ("mechanism", "at")} for e in answer.get("confused_with", [])],
         "parameters": answer["parameters"]["after"],
         "nrmse": [answer["fit"][k]["heldout_nrmse"] for k in ("before", "after")],
+        "horizon": [answer["fit"]["after"]["horizon"], answer["fit"]["horizon_unit_time"]],
         "notes": answer.get("notes", []),
     }
 

@@ -5,9 +5,10 @@
     python benchmarks/validation.py check
 
 `store` condenses a raw run (OUT/SET of `judge.py run`, OUT/oracle of `judge.py oracle`, the folder of a
-`lostmotion prove`, or that of `absent.py` or `check.py`) into `benchmarks/results/NAME.json`. `draw` writes the tables
-of the page between their marks; the build of the documentation draws the figures. `check` fails if a table is not that
-of the results. Reasons of misses are written by hand into `benchmarks/results/reasons.toml`; `store` leaves them alone.
+`lostmotion prove`, or that of `absent.py`, `check.py` or `beside_peers.py`) into `benchmarks/results/NAME.json`. `draw`
+writes the tables of the page between their marks; the build of the documentation draws the figures. `check` fails if a
+table is not that of the results. Reasons of misses are written by hand into `benchmarks/results/reasons.toml`; `store`
+leaves them alone.
 """
 
 from __future__ import annotations
@@ -16,14 +17,18 @@ import argparse
 import re
 from pathlib import Path
 
+from validation_peers import PEER_TABLES
 from validation_results import read_reasons, read_results
-from validation_tables import BLOCKS, find_unused_reasons
+from validation_tables import TABLES, find_unused_reasons
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "validation.md"
 MARK = "<!-- figures of benchmarks/validation.py {} -->"
 BLOCK = re.compile(
     MARK.format(r"(?P<name>(?!end\b)[a-z]+)") + r"\n(?P<text>.*?)^" + MARK.format("end"), re.MULTILINE | re.DOTALL
 )
+
+
+BLOCKS = TABLES | PEER_TABLES
 
 
 def write_blocks(text: str) -> str:

@@ -7,6 +7,7 @@ was named with which probability, and whether that is right. `docs/validation.md
 from __future__ import annotations
 
 import json
+import shlex
 import subprocess
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from datetime import UTC, datetime
@@ -15,7 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from judge_rows import VAGUE, check_intervals, is_right, is_sure, list_names, list_stated, names_effect, read_rows
-from validation_results import ARMS, ORACLE, RESULTS, STUDIES, read_results, write_result
+from validation_results import ORACLE, PEERS, RESULTS, read_results, write_result
 
 DIGITS = 4
 """Decimals of a stored probability or share."""
@@ -48,7 +49,7 @@ def find_condenser(run: Path) -> tuple[Path, Callable[..., tuple[dict, list[dict
     if (run / "proof.json").exists():
         schema = json.loads((run / "proof.json").read_text())["schema"]
         return run / "proof.json", condense_arms if "arms" in schema else condense_proof
-    for study, condense in (("absent", condense_absent), ("check", condense_check)):
+    for study, condense in (("absent", condense_absent), ("check", condense_check), ("peers", condense_peers)):
         if (run / f"{study}.jsonl").exists():
             return run / f"{study}.jsonl", condense
     path = run / "rows.jsonl"
@@ -56,7 +57,7 @@ def find_condenser(run: Path) -> tuple[Path, Callable[..., tuple[dict, list[dict
     if not first or "truth" not in first[0]:
         raise SystemExit(
             f"{run} is no run that can be stored: give a folder with the rows.jsonl of judge.py (as OUT/imperfect), the"
-            " proof.json of `lostmotion prove`, or the absent.jsonl or check.jsonl of these studies"
+            " proof.json of `lostmotion prove`, or the absent.jsonl, check.jsonl or peers.jsonl of these studies"
         )
     return path, condense_oracle if "best" in first[0] else condense_judged
 
@@ -97,7 +98,7 @@ def find_known_shares(machines: str) -> dict[str, list]:
     """Return the hidden names and their sizes by machine, as earlier results of the same machines have them."""
     found = {}
     for result in read_results():
-        if result.machines == machines and result.set not in (ORACLE, *ARMS, *STUDIES):
+        if result.machines == machines and result.judged:
             found |= {r["key"]: [[e[0], e[1]] for e in r["effects"]] for r in result.rows if r["shares"]}
     return found
 
@@ -294,6 +295,28 @@ def condense_check(run: Path, _: Mapping) -> tuple[dict, list[dict]]:
         ["an effect of the smallest stated size is named", sum("named" in r["named"] for r in rows), len(rows)],
     ]
     return describe_study("check", len(rows)), list(list_rates(rates))
+
+
+def condense_peers(run: Path, _: Mapping) -> tuple[dict, list[dict]]:
+    """Return head and rows of `benchmarks/beside_peers.py`; the version is that of lostmotion."""
+    from beside_peers import NOMINAL, OURS
+    from beside_peers import PEERS as TOOLS
+
+    rows = read_rows(run / "peers.jsonl")
+    tools = {row["tool"] for row in rows} - {NOMINAL, OURS}
+    some = "" if tools == set(TOOLS) else f" --tools {shlex.join(sorted(tools))}"
+    versions = {row["tool"].partition(",")[0]: row["version"] for row in rows}
+    kind, code = rows[0]["set"], versions.pop(OURS)
+    machines = f"--set {kind} --machines MACHINES"
+    commands = [f"{JUDGE} make {machines}", f"{JUDGE} run {machines} --out ROWS"]
+    commands += [f"python benchmarks/beside_peers.py run {machines} --rows ROWS --out OUT{some}"]
+    told = ", ".join(f"{tool} {number}" for tool, number in versions.items() if number != code)
+    head = {"set": PEERS, "machines": kind, "of": len({row["key"] for row in rows}), "commands": commands}
+    keys = ("key", "tool", "hidden", "found", "of", "false", "terms", "error", "wild", "cpu", "setting")
+    return {**head, "code": code, "note": told}, [
+        {key: round(row[key], 5) if key == "error" and row[key] is not None else row[key] for key in keys}
+        for row in rows
+    ]
 
 
 def describe_study(name: str, machines: int) -> dict:

@@ -343,7 +343,7 @@ def mark(result: Result) -> str:
     return f" ({result.note})" if result.note else ""
 
 
-BLOCKS: Mapping[str, Callable[[Sequence[Result], Reasons], str]] = {
+TABLES: Mapping[str, Callable[[Sequence[Result], Reasons], str]] = {
     "version": write_version,
     "targets": write_targets,
     "sets": write_sets,
