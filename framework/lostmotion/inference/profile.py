@@ -33,14 +33,14 @@ ROUNDS = 6
 def measure_stretches(fit: Fit) -> Array:
     """Return by what factor the lower and the upper half of each interval is wider than a normal one, (n, 2).
 
-    It is 1 for noise levels, for parameters of one of several recordings, and for fits with so many parameters that a
-    refit takes seconds.
+    It is 1 for noise levels, for coefficients of curves, in which the errors are linear, for parameters of one of
+    several recordings, and for fits with so many parameters that a refit takes seconds.
     """
     factors = np.ones((len(fit.theta), 2))
     if len(fit.theta) > MANY:
         return factors
     single = use_one_core(fit)
-    shared = [i for i, f in enumerate(fit.posterior.space.free) if f.physical and f.recording is None]
+    shared = [i for i, f in enumerate(fit.posterior.space.free) if f.physical and not f.linear and f.recording is None]
     asked = [one for one in ((i, side) for i in shared for side in (0, 1)) if _has_room(fit, *one)]
     asked = [one for one, fall in zip(asked, _predict_falls(fit, asked), strict=True) if not NARROW < fall < STEEP]
     found = each(lambda one: _measure_half(single, *one), asked, fit.posterior.jobs)
