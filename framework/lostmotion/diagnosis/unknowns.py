@@ -62,7 +62,8 @@ def make_learned_entry(d: SearchResult) -> Mechanism:
     size_of = f"{rounded(rms, 3)} {unit} rms, {percent(share)} of {d.yardstick}"
     alike, share_of_likeness, looks = _compare_with_library(d)
     probability, log_odds = weigh_unknown(d)
-    text = f"A force of {size_of}, is missing that no term of the library explains"
+    rival = _describe_rival(d)
+    text = f"A force of {size_of}, is missing{'' if rival else ' that no term of the library explains'}"
     return Mechanism(
         mechanism="unknown",
         at=unknown.terms[0].at,
@@ -77,8 +78,20 @@ def make_learned_entry(d: SearchResult) -> Mechanism:
         looks_like=alike,
         share_of_likeness=share_of_likeness,
         share_of_drive=share,
-        says=f"{text}: it depends on {join_names(depends)}{looks} and is modelled by a learned curve.",
+        says=f"{text}: it depends on {join_names(depends)}{looks} and is modelled by a learned curve.{rival}",
     )
+
+
+def _describe_rival(d: SearchResult) -> str:
+    """Return a sentence on the laws that explain the data nearly as well as a small force without a name; or nothing."""
+    shares = {terms - {UNKNOWN}: p for terms, p in d.explained.probabilities.items() if terms - {UNKNOWN}}
+    if d.explained.terms or not shares:
+        return ""
+    terms, p = max(shares.items(), key=lambda pair: pair[1])
+    if p < d.settings.name.rival:
+        return ""
+    laws = join_names([to_words(find_term(d.after.posterior, key)[0].name) for key in sorted(terms)])
+    return f" It may be {laws} as well, with the probability {rounded(p)}."
 
 
 def _compare_with_library(d: SearchResult) -> tuple[tuple[LookAlike, ...], float | None, str]:
@@ -232,10 +245,11 @@ def _find_formula(d: SearchResult, band: Band) -> tuple[str, float] | None:
 def weigh_unknown(d: SearchResult) -> tuple[float, float]:
     """Return the probability of a force that the library does not contain, and its log evidence.
 
-    Curves that were learned beside no term, where a smooth force of the usual size explains as much, have their own.
+    Curves that were learned beside no term, where a smooth force of the usual size explains as much, share the
+    probability of the model without any term.
     """
     if d.learned and UNKNOWN not in d.explained.best.terms:
-        return d.learned.probability, d.learned.gain
+        return d.learned.probability * d.explained.probabilities[d.explained.best.terms], d.learned.gain
     scores = {terms: one.score() for terms, one in d.explained.found.items()}
     random = d.random_gain if d.unexplained and not d.found else 0.0
     return compute_unknown_odds(d.explained.inclusion(UNKNOWN), scores, random)
