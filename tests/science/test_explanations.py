@@ -125,7 +125,14 @@ def test_a_force_that_a_smooth_force_of_the_usual_size_explains_as_well_is_learn
     assert [term.over for term in found.learned.terms] == ["position"]
     assert has_usual_random_force(found.after)
     entry = make_learned_entry(found)
-    assert entry.probability == found.learned.probability > SURE
+    assert entry.probability == pytest.approx(found.learned.probability, abs=1e-6)
+    assert entry.probability > SURE
+    assert "as well" not in entry.says
+    tied = replace(found, explained=with_scores(found.explained, {NOTHING: math.log(0.6), FRICTION: math.log(0.4)}))
+    entry = make_learned_entry(tied)
+    assert entry.probability == pytest.approx(0.6, abs=1e-3)
+    assert entry.says.endswith("It may be Coulomb friction as well, with the probability 0.4.")
+    assert "no term of the library" not in entry.says
     less = explain_by(found.explained.refute(), found, np.random.default_rng(0))
     assert less.learned is None
     assert less.found == ()
