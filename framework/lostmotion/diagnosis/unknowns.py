@@ -83,7 +83,7 @@ def make_learned_entry(d: SearchResult) -> Mechanism:
 
 
 def _describe_rival(d: SearchResult) -> str:
-    """Return a sentence on the laws that explain the data nearly as well as a small force without a name; or nothing."""
+    """Return a sentence on laws that explain the data nearly as well as a small force without a name, or nothing."""
     shares = {terms - {UNKNOWN}: p for terms, p in d.explained.probabilities.items() if terms - {UNKNOWN}}
     if d.explained.terms or not shares:
         return ""
