@@ -14,8 +14,10 @@ from typing import TypeVar
 
 import numpy as np
 
-STARTS, WORST, REACH = 150, 1e3, 8.0
-"""As in `lostmotion.diagnosis.compare`: most free runs, largest error in standard deviations, and their full length."""
+from lostmotion.diagnosis.compare import REACH, STARTS
+
+WORST = 1e3
+"""The largest error of a free run, in standard deviations."""
 WILD = 10.0
 """A free run diverges where its error is more than this many standard deviations of the motion."""
 TESTED, SLACK = 0.3, 1.05

@@ -7,10 +7,8 @@ import re
 from collections.abc import Collection, Iterator, Mapping
 from copy import deepcopy
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
-from lostmotion.case import dump_case
 from lostmotion.simulators import INVERSE
 
 Content = dict[str, Any]
@@ -58,19 +56,20 @@ def _name_channel(channel: Mapping[str, Any]) -> str:
     return f"{channel.get('column', '')}{unit}"
 
 
-def list_channels(recording: Mapping[str, Any]) -> list[dict[str, Any]]:
-    """Return the entries of the inputs and sensors of a recording."""
-    single = [recording[key] for key in ("excitation", "response") if key in recording]
-    return [*recording.get("inputs", ()), *recording.get("sensors", ()), *single]
+def list_channels(content: Content, column: str) -> list[dict[str, Any]]:
+    """Return the entries of the inputs and sensors that read a column, in all recordings."""
+    found = []
+    for recording in content["recordings"]:
+        single = [recording[key] for key in ("excitation", "response") if isinstance(recording.get(key), Mapping)]
+        found += [*recording.get("inputs", ()), *recording.get("sensors", ()), *single]
+    return [channel for channel in found if channel["column"] == column]
 
 
 def multiply_column(content: Content, column: str, factor: float) -> Content:
     """Return a content with the values of a column multiplied by a further factor, in all recordings."""
     changed = deepcopy(content)
-    for recording in changed["recordings"]:
-        for channel in list_channels(recording):
-            if channel["column"] == column:
-                channel["factor"] = float(f"{float(channel.get('factor', 1.0)) * factor:.12g}")
+    for channel in list_channels(changed, column):
+        channel["factor"] = float(f"{float(channel.get('factor', 1.0)) * factor:.12g}")
     return changed
 
 
@@ -85,10 +84,3 @@ def drop_value_guess(content: Content, parameter: str) -> None:
     kept = [says for says in content.pop("guessed", ()) if find_guessed_value(says) != parameter]
     if kept:
         content["guessed"] = kept
-
-
-def format_content(content: Mapping[str, Any]) -> str:
-    """Return a content as the text of a case file."""
-    with TemporaryDirectory() as spare:
-        dump_case(content, Path(spare) / "case.toml")
-        return (Path(spare) / "case.toml").read_text(encoding="utf-8")

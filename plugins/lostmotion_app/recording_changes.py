@@ -15,7 +15,7 @@ from lostmotion.recording.spec import Channel, RecordingSpec
 from lostmotion.recording.table import Table
 from lostmotion.recording.units import is_unit
 from lostmotion.recording.value_checks import LARGEST, runs_of
-from lostmotion.recording.warnings import BACKWARD
+from lostmotion.recording.warnings import BACKWARD, list_far
 from lostmotion.settings import DEFAULT, RecordingSettings
 from lostmotion_app.case_content import Content, list_channels
 
@@ -67,12 +67,10 @@ def _make_channel_change(column: str, entries: Mapping[str, Any]) -> Change:
     """Return a change of a column in all recordings: those of one case have the same columns."""
 
     def change(content: Content) -> None:
-        for recording in content["recordings"]:
-            for channel in list_channels(recording):
-                if channel["column"] == column:
-                    channel.update(entries)
-                    if channel.get("factor") == 1.0:
-                        del channel["factor"]
+        for channel in list_channels(content, column):
+            channel.update(entries)
+            if channel.get("factor") == 1.0:
+                del channel["factor"]
 
     return change
 
@@ -124,11 +122,8 @@ def mark_faulty(values: Array, limits: RecordingSettings) -> NDArray[np.bool_]:
     seen = np.isfinite(values) & (np.abs(values) <= LARGEST)
     faulty = ~seen & ~np.isnan(values)
     if seen.any():
-        for far in (values[seen].max(), values[seen].min()):
-            rest = values[seen & (values != far)]
-            width = float(np.ptp(rest)) if rest.size else 0.0
-            if width and abs(far - float(np.median(rest))) > limits.far * width:
-                faulty |= values == far
+        for far in list_far(values[seen], limits):
+            faulty |= values == far
     with np.errstate(invalid="ignore"):
         runs = runs_of(np.diff(values) == 0.0)
     for first, last in runs[np.diff(runs, axis=1)[:, 0] >= limits.frozen]:

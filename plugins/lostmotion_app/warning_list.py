@@ -9,8 +9,9 @@ from typing import Any
 
 import panel as pn
 
+from lostmotion.case import format_case
 from lostmotion.report.words import sentence, typeset
-from lostmotion_app.case_content import Content, format_content
+from lostmotion_app.case_content import Content
 from lostmotion_app.desk import Desk
 from lostmotion_app.parts import (
     NumberField,
@@ -60,7 +61,7 @@ class WarningList:
         """Return what a remedy would change in a case file that the page does not change, as HTML."""
         if remedy.parameter:
             return write_note(f"Give {remedy.parameter} a known value in the case file.")
-        lines = list_changed_lines(format_content(self.desk.content), format_content(remedy.content))
+        lines = list_changed_lines(format_case(self.desk.content), format_case(remedy.content))
         return write_folded(f"In the case file: {remedy.says}", write_lines(lines))
 
     def _make_widgets(self, remedy: Remedy) -> list[Any]:

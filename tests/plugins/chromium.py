@@ -230,6 +230,11 @@ class Chromium:
                 return
         raise AssertionError(f"Tab does not reach {name!r} but {seen}")
 
+    def enter(self, name):
+        """Press Tab until the button or tab with a name has the focus, then Enter."""
+        self.tab_to(name)
+        self.press("Enter", 13)
+
     def write(self, text):
         """Press the keys of a text, one after the other."""
         for letter in text:

@@ -8,6 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from lostmotion.case import dump_case
 from lostmotion.errors import CaseError, DataError
 from lostmotion.recording.outline import GivenRoles
 from lostmotion.registry import default
@@ -16,7 +17,7 @@ from lostmotion.results.expectation import WrongScale
 pytest.importorskip("panel", reason="no page: Panel is absent (the extra `app`)")
 sys.path.insert(0, str(Path(__file__).parent))
 
-from lostmotion_app.case_content import format_content
+from lostmotion_app.case_content import list_channels
 from lostmotion_app.desk import Desk
 from lostmotion_app.folder import WorkFolder
 from lostmotion_app.remedies import list_changed_lines, list_check_warnings, list_warnings
@@ -236,7 +237,7 @@ def test_the_case_of_a_user_is_not_changed_but_the_change_is_told(open_desk, tmp
     desk = open_desk(change_sign(simulate()))
     content = desk.content
     content["recordings"][0]["file"] = "run.csv"
-    (tmp_path / "mine.toml").write_text(format_content(content), encoding="utf-8")
+    dump_case(content, tmp_path / "mine.toml")
     given = Desk(WorkFolder(tmp_path.resolve()), default(), recording="mine.toml")
     shown = WarningList(given, lambda: None)
     shown.show(list_warnings(given))
@@ -254,3 +255,9 @@ def test_two_angles_in_different_units_but_of_one_size_are_told_apart_by_a_facto
     assert [one.says for one in warned.remedies] == ["base [deg]: numbers in rad", "angle [rad]: numbers in deg"]
     desk.change(warned.remedies[1].content)
     assert list_notes(desk) == []
+
+
+def test_a_machine_that_nothing_drives_has_no_channel_of_a_drive():
+    response = {"column": "x", "quantity": "position", "unit": "m"}
+    content = {"recordings": [{"excitation": "none", "response": response}]}
+    assert list_channels(content, "x") == [response]

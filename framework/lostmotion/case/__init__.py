@@ -85,10 +85,10 @@ from lostmotion.case.channels import check_same_sensors
 from lostmotion.case.drive_levels import Level, Measured
 from lostmotion.case.prior import Prior
 from lostmotion.case.reading import GUESSED, WRITTEN, CaseFile, Experiment, SensorSpec, load_case
-from lostmotion.case.write import dump_case
+from lostmotion.case.write import dump_case, format_case
 from lostmotion.recording import Channel, RecordingSpec
 
 __all__ = [
     "GUESSED", "WRITTEN", "CaseFile", "Channel", "Experiment", "Level", "Measured", "Prior", "RecordingSpec",
-    "SensorSpec", "check_same_sensors", "dump_case", "load_case",
+    "SensorSpec", "check_same_sensors", "dump_case", "format_case", "load_case",
 ]  # fmt: skip

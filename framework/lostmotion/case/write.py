@@ -11,7 +11,12 @@ from typing import Any
 
 def dump_case(case: Mapping[str, Any], path: Path) -> None:
     """Write a case, given as nested dictionaries with the structure of its TOML, to the file `path`."""
-    Path(path).write_text("\n".join(_write_table(case, ())).lstrip("\n") + "\n", encoding="utf-8")
+    Path(path).write_text(format_case(case), encoding="utf-8")
+
+
+def format_case(case: Mapping[str, Any]) -> str:
+    """Return a case, given as nested dictionaries with the structure of its TOML, as text."""
+    return "\n".join(_write_table(case, ())).lstrip("\n") + "\n"
 
 
 def _write_table(content: Mapping[str, Any], place: tuple[str, ...]) -> Iterator[str]:

@@ -84,11 +84,9 @@ def make_learned_entry(d: SearchResult) -> Mechanism:
 
 def _describe_rival(d: SearchResult) -> str:
     """Return a sentence on laws that explain the data nearly as well as a small force without a name, or nothing."""
-    shares = {terms - {UNKNOWN}: p for terms, p in d.explained.probabilities.items() if terms - {UNKNOWN}}
-    if d.explained.terms or not shares:
-        return ""
-    terms, p = max(shares.items(), key=lambda pair: pair[1])
-    if p < d.settings.name.rival:
+    shares = {terms: p for terms, p in d.explained.probabilities.items() if terms and UNKNOWN not in terms}
+    terms, p = max(shares.items(), key=lambda pair: pair[1], default=(frozenset(), 0.0))
+    if d.explained.terms or p < d.settings.name.rival:
         return ""
     laws = join_names([to_words(find_term(d.after.posterior, key)[0].name) for key in sorted(terms)])
     return f" It may be {laws} as well, with the probability {rounded(p)}."

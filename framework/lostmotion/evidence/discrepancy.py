@@ -26,7 +26,7 @@ from lostmotion.evidence.channel_errors import ChannelError
 from lostmotion.evidence.expansion import Curvature, Expansion, compute_log_evidence
 from lostmotion.evidence.slopes import list_force_slopes
 from lostmotion.inference.curves import compute_coefficient_size
-from lostmotion.inference.fit import list_stencil_points, make_stencil
+from lostmotion.inference.fit import choose_first_steps, list_stencil_points, make_stencil
 from lostmotion.inference.learned import OverPhase, OverPosition, OverTime, OverVelocity, compute_spread
 from lostmotion.likelihood.innovations import Innovations, join_innovations, join_recordings
 from lostmotion.likelihood.posterior import Posterior
@@ -92,6 +92,11 @@ class JointFrame:
     def start(self) -> Array:
         """The coordinates to start from (count,): no discrepancy."""
         return np.concatenate([self.posterior.space.start, np.zeros(len(self.errors))])
+
+    @cached_property
+    def first_steps(self) -> Array:
+        """The finite-difference steps (own,) of own coordinates where no information is known yet."""
+        return choose_first_steps(self.posterior.over(self.posterior.space.free[: self.own]))
 
     @cached_property
     def terms(self) -> frozenset[str]:

@@ -13,7 +13,6 @@ from lostmotion.contracts import Array
 from lostmotion.evidence.discrepancy import JointFrame
 from lostmotion.evidence.expansion import Expansion
 from lostmotion.evidence.hypothesis import Hypothesis, maximise_within
-from lostmotion.inference.fit import choose_first_steps
 from lostmotion.likelihood.observation import Observation
 
 ROUNDS, CLOSE = 6, 1.0
@@ -31,13 +30,12 @@ def score_heldout(found: Hypothesis, pieces: Sequence[tuple[Observation, int]]) 
 
 
 def _score_piece(found: Hypothesis, observation: Observation, begin: int) -> float:
-    frame, fitted = found.frame, found.frame.posterior
-    one = replace(frame, posterior=fitted.on((observation,)))
-    steps = choose_first_steps(fitted.over(fitted.space.free[: frame.own]))
+    frame = found.frame
+    one = replace(frame, posterior=frame.posterior.on((observation,)))
     first = begin * len(observation.sensors)
 
     def expand(step: Array) -> Expansion:
-        return cut_before(one.expand(found.at + step, steps, found.choice), first)
+        return cut_before(one.expand(found.at + step, frame.first_steps, found.choice), first)
 
     def score(step: Array) -> float:
         return _score_point(one, found, found.at + step, first)

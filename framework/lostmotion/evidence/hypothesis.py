@@ -21,7 +21,7 @@ from scipy.stats import chi2
 from lostmotion.contracts import Array
 from lostmotion.evidence.discrepancy import Choice, JointFrame, Quadratic
 from lostmotion.evidence.expansion import Curvature, Expansion
-from lostmotion.inference.fit import STRIDE, choose_first_steps, solve_scaled
+from lostmotion.inference.fit import STRIDE, solve_scaled
 from lostmotion.inference.natural import find_term, sort_slots
 from lostmotion.inference.penalties import is_simpler
 from lostmotion.likelihood.posterior import Posterior
@@ -171,10 +171,9 @@ def fit_hypothesis(
     both explain is not left to the more flexible one because of the point where the fit began. Smooth forces that make
     the evidence smaller are left out.
     """
-    steps = choose_first_steps(frame.posterior.over(frame.posterior.space.free[: frame.own]))
     begin = begin.copy()
     begin[frame.own :][frame.widths(choice or frame.none) == 0.0] = 0.0
-    expansion = frame.expand(begin, steps, choice or frame.none)
+    expansion = frame.expand(begin, frame.first_steps, choice or frame.none)
     made = []
     if choice is None:
         expansion, choice, converged = _maximise(frame, expansion, frame.none, free=False)

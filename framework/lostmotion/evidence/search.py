@@ -19,11 +19,12 @@ from lostmotion.evidence.hypothesis import Hypothesis, fit_hypothesis
 from lostmotion.evidence.sensor_hum import renew_hums
 from lostmotion.inference.candidates import ScoreTest, add_term
 from lostmotion.inference.curves import add_all_curves
-from lostmotion.inference.fit import ROUGHLY, Fit, choose_first_steps, maximise, restart
+from lostmotion.inference.fit import ROUGHLY, Fit, maximise, restart
 from lostmotion.inference.natural import sort_slots
 from lostmotion.inference.penalties import compute_price, compute_unknown_price
 from lostmotion.inference.settling import settle_steps
 from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.posterior import Posterior
 
 MOST_BESIDE, MOST_CLOSE = 3, 4
 """The largest numbers of terms that are fitted from what a hypothesis promises, and of bare fits that are weighed."""
@@ -64,8 +65,7 @@ class ExplanationSearch:
 
     def __post_init__(self) -> None:
         """Prepare the system with every curve, and the usual errors of the channels if they are not given."""
-        whole = {o.name: o for o in (*self.nominal.posterior.observations, *(o for o, _ in self.pieces))}
-        self.errors = self.errors or list_channel_errors(self.nominal, list(whole.values()))
+        self.errors = self.errors or list_channel_errors(self.nominal, self._join_pieces(self.nominal.posterior))
         wide, plain = add_all_curves(self.nominal, self.until), self.nominal.posterior.system
         recordings = self.recordings or self.nominal.posterior.observations
         self.bare = BareFits(wide, plain, self.keys, self.errors, self.budget, recordings, self.temper, self.say)
@@ -198,11 +198,13 @@ class ExplanationSearch:
         """Return a hypothesis with its expansion over the fitted and the held-out data together."""
         if not self.pieces:
             return target
-        frame, fitted = target.frame, target.frame.posterior
-        whole = {o.name: o for o in (*fitted.observations, *(o for o, _ in self.pieces))}
-        wider = replace(frame, posterior=fitted.on(tuple(whole.values())))
-        steps = choose_first_steps(fitted.over(fitted.space.free[: frame.own]))
-        return replace(target, frame=wider, expansion=wider.expand(target.at, steps, target.choice))
+        fitted = target.frame.posterior
+        wider = replace(target.frame, posterior=fitted.on(self._join_pieces(fitted)))
+        return replace(target, frame=wider, expansion=wider.expand(target.at, target.frame.first_steps, target.choice))
+
+    def _join_pieces(self, fitted: Posterior) -> tuple[Observation, ...]:
+        """Return the recordings of a posterior, each with its held-out part, and those that are held out whole."""
+        return tuple({o.name: o for o in (*fitted.observations, *(o for o, _ in self.pieces))}.values())
 
     def _weigh_close(self) -> None:
         """Weigh the bare fits that are close to the best one: a small discrepancy may make them better."""

@@ -102,10 +102,10 @@ def refit_complete(fit: Fit) -> list[Fit]:
 
 
 def _maximise_each(posteriors: Sequence[Posterior], starts: Sequence[Array], fit: Fit, hopeless: float) -> list[Fit]:
-    """Return the converged fits, best first; those that would stay below a log posterior are abandoned."""
+    """Return the converged fits, in order; those that would stay below a log posterior are abandoned."""
     climb = partial(maximise, hopeless=hopeless, tolerance=ROUGHLY, patience=1)
     found = each(lambda pair: climb(*pair), list(zip(posteriors, starts, strict=True)), fit.posterior.jobs)
-    return sorted((f for f in found if f.status == "converged"), key=lambda f: -f.local.log_posterior)
+    return [f for f in found if f.status == "converged"]
 
 
 def _scale_shape(fit: Fit, at: int, factor: float, more: float) -> Array:

@@ -143,14 +143,22 @@ def note_frozen(values: Array, what: str, dt: float, limits: RecordingSettings) 
 def note_far(values: Array, what: str, limits: RecordingSettings) -> Iterator[str]:
     """Yield a note when one value lies far from all others, as a marker of lost samples does."""
     seen = values[np.isfinite(values)]
-    for far in (seen.max(), seen.min()):
+    for far in list_far(seen, limits):
+        yield (
+            f"{what} is {far:.6g} at {int(np.count_nonzero(seen == far))} samples, more than {limits.far:g} times "
+            "the range of all others away: a glitch, or a marker of lost samples? Then empty these cells"
+        )
+
+
+def list_far(seen: Array, limits: RecordingSettings) -> list[float]:
+    """Return the largest and the smallest of some finite values (n,), each if it lies far from all others."""
+    found = []
+    for far in (float(seen.max()), float(seen.min())):
         rest = seen[seen != far]
         width = float(np.ptp(rest)) if rest.size else 0.0
         if width and abs(far - float(np.median(rest))) > limits.far * width:
-            yield (
-                f"{what} is {far:.6g} at {int(np.count_nonzero(seen == far))} samples, more than {limits.far:g} times "
-                "the range of all others away: a glitch, or a marker of lost samples? Then empty these cells"
-            )
+            found.append(far)
+    return found
 
 
 def note_power(
