@@ -173,25 +173,22 @@ class Term(ABC):
 
     `at` names the interface, `physics` is a sentence with the parameters in braces, `formula` the law. A parameter with
     a `null` is an amplitude: where all of these are at their null, the force is exactly zero. `p` holds the values of
-    `params`, then of `needs`: parameters that the interface `holds`, or names in `PSEUDO_NEEDS`. Each of `states`
-    starts at zero, except the first ones, for which `begins` gives their size: a dimension or a parameter. `further`
-    declares the results of `derived`. `equals` names terms that no recording of a machine with constant parameters can
-    tell from this one, `extends` simpler laws that it contains. `force` and `rate` are static, or methods that read
-    numeric fields.
+    `params`, then of `needs`: parameters that the interface `holds`, or names in `PSEUDO_NEEDS`. `states` are names of
+    own states, which start at zero; or a mapping from each name to the size at the start, which is a dimension or the
+    name of an own parameter, None for zero. `equals` names terms that no recording of a machine with constant
+    parameters can tell from this one, `extends` simpler laws that it contains. `force` and `rate` are static, or
+    methods that read numeric fields.
     """
 
     at: str
-    acts: ClassVar[Literal["motion", "drive", "sensor"]] = "motion"
     name: ClassVar[str]
     physics: ClassVar[str]
     formula: ClassVar[str]
     paper: ClassVar[str]
     params: ClassVar[tuple[Param, ...]]
-    states: ClassVar[tuple[str, ...]] = ()
-    begins: ClassVar[tuple[Dimension | str, ...]] = ()
+    states: ClassVar[Mapping[str, Dimension | str | None] | tuple[str, ...]] = ()
     needs: ClassVar[tuple[str, ...]] = ()
     motions: ClassVar[tuple[str, ...]] = ("translation", "rotation")
-    further: ClassVar[tuple[Param, ...]] = ()
     equals: ClassVar[tuple[str, ...]] = ()
     extends: ClassVar[tuple[str, ...]] = ()
 
@@ -213,9 +210,9 @@ class Term(ABC):
         return p
 
     @staticmethod
-    def derived(p: Values) -> Values:
-        """Return the numbers that `further` declares, computed from `p`: for instance a phase from two amplitudes."""
-        return ()
+    def derived(p: Values) -> Mapping[Param, float]:
+        """Return further numbers, the same ones for all `p`: for instance a phase, from two amplitudes."""
+        return {}
 
     @staticmethod
     def shifted(p: Values, by: float) -> Values:
@@ -228,6 +225,16 @@ class Term(ABC):
         The diagnosis then reports these: friction with two nearly equal levels is dry friction plus a constant force.
         """
         return {}
+
+    @property
+    def acts(self) -> Literal["motion", "drive", "sensor"]:
+        """On what the term acts: a `DriveTerm` or a `SensorTerm` belongs to a channel, any other term is a force."""
+        return "motion"
+
+    @property
+    def sizes(self) -> tuple[Dimension | str | None, ...]:
+        """The size at the start of each of the states."""
+        return tuple(self.states.values()) if isinstance(self.states, Mapping) else (None,) * len(self.states)
 
     @property
     def marked(self) -> bool:
@@ -261,7 +268,10 @@ class DriveTerm(_NoForce):
     `at` is the name of the input. Example of a delayed drive, `true`: `return u(t - p[0], order)`.
     """
 
-    acts = "drive"
+    @property
+    def acts(self) -> Literal["drive"]:
+        """The drive."""
+        return "drive"
 
     @staticmethod
     @abstractmethod
@@ -280,9 +290,13 @@ class SensorTerm(_NoForce):
     field) as `x`. A `relative` term is tried only where there are several sensors. `p` is as for `Term.force`.
     """
 
-    acts = "sensor"
     channel: str = "position"
     relative: ClassVar[bool] = False
+
+    @property
+    def acts(self) -> Literal["sensor"]:
+        """A sensor."""
+        return "sensor"
 
     @staticmethod
     def gain(p: Values) -> float:

@@ -10,7 +10,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from lostmotion.quantities import FREQUENCY, Dimension
+from lostmotion.quantities import Dimension
 
 Array = NDArray[np.float64]
 Input = Callable[[Array, int], Array]
@@ -46,10 +46,9 @@ class Param:
     the law is complete there, as a drive that saturates, and half of its prior is at that value. `typical` is the width
     of the prior in natural scales (drive force, rms position and velocity; time of the whole recording if `lasting`).
     `choices` are values that are tried in turn and not fitted, `words` what a sentence says in place of each of them.
-    `far` lists multiples of `typical` that are tried as further starts. `scan` is the smallest and largest multiple of
-    `typical` between which a recording is searched for the number, for an amplitude too if the response is far from
-    linear in it. `wave`: a frequency in units of that of the drive, which a spectrum finds; it is fitted where it is
-    none of `choices`. `angular`: a number per time is in rad/s, not in Hz. Example:
+    With `scale="log"` a spectrum may find another value, which is then fitted. `scan` is the smallest and largest
+    multiple of `typical` between which a recording is searched for the number, for an amplitude too if the response is
+    far from linear in it. Example:
     `Param("coefficient", "viscous damping", DAMPING, low=0.0, null=0.0)`.
     """
 
@@ -65,14 +64,11 @@ class Param:
     choices: tuple[float, ...] = ()
     words: tuple[str, ...] = ()
     lasting: bool = False
-    far: tuple[float, ...] = ()
     scan: tuple[float, float] | None = None
-    wave: bool = False
-    angular: bool = False
 
     def unit(self, motion: str) -> str:
         """Return the SI unit in translation or in rotation."""
-        return "rad/s" if self.angular and self.dimension == FREQUENCY else self.dimension.unit(motion)
+        return self.dimension.unit(motion)
 
 
 @dataclass(frozen=True)

@@ -96,7 +96,8 @@ class Dimension(NamedTuple):
     """Powers of generalised force, length and time: `Dimension(1, -1, 1)` is a damping coefficient.
 
     In rotation, force means torque and length means angle; `metre` is the power of a length in m besides them, and
-    `ampere` that of a current: a voltage is force times speed over current.
+    `ampere` that of a current: a voltage is force times speed over current. `radian` tells an angular frequency (rad/s)
+    from a frequency (Hz).
     """
 
     force: float = 0
@@ -104,13 +105,14 @@ class Dimension(NamedTuple):
     time: float = 0
     metre: float = 0
     ampere: float = 0
+    radian: float = 0
 
     def unit(self, motion: str) -> str:
         """Return the SI unit, for instance `N s/m` in translation and `N m s/rad` in rotation."""
-        named = _NAMED.get((motion, *self))
-        if named:
+        named = _NAMED.get((motion, *self[:5]))
+        if named and not self.radian:
             return named
-        symbols = ("N", "m", "s", "m", "A") if motion == "translation" else ("N m", "rad", "s", "m", "A")
+        symbols = ("N", "m", "s", "m", "A", "rad") if motion == "translation" else ("N m", "rad", "s", "m", "A", "rad")
         powers = list(zip(symbols, self, strict=True))
         above = [_format_power(s, n) for s, n in powers if n > 0] or ["1"]
         below = [_format_power(s, -n) for s, n in powers if n < 0]
@@ -134,6 +136,7 @@ DAMPING = Dimension(1, -1, 1)
 STIFFNESS = Dimension(1, -1, 0)
 NUMBER = Dimension(0, 0, 0)
 FREQUENCY = Dimension(0, 0, -1)
+ANGULAR_FREQUENCY = Dimension(0, 0, -1, radian=1)
 VOLTAGE = Dimension(1, 1, -1, 0, -1)
 CURRENT = Dimension(0, 0, 0, 0, 1)
 RESISTANCE = Dimension(1, 1, -1, 0, -2)

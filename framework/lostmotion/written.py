@@ -14,6 +14,7 @@ from typing import Any, ClassVar, Literal
 from lostmotion.case import WRITTEN
 from lostmotion.contracts import Interface, Model, Motion, Param
 from lostmotion.equations import BodyEquation, Equations, Node, Spring, equations_of
+from lostmotion.quantities import ANGULAR_FREQUENCY, FREQUENCY
 
 _FUNCTIONS = {
     "gap": "({1} * ({0} - min(max({0}, -{2}), {2})))",
@@ -128,7 +129,8 @@ def _make_param(name: str, found: Equations) -> Param:
     meaning = (
         f"mass of {next(b.name for b in found.bodies if b.mass == name)}" if name in masses else f"parameter {name}"
     )
-    return Param(name, meaning, found.params[name], low=low, scale=scale, angular=True)
+    dimension = ANGULAR_FREQUENCY if found.params[name] == FREQUENCY else found.params[name]
+    return Param(name, meaning, dimension, low=low, scale=scale)
 
 
 def _make_interfaces(found: Equations, space: Mapping[str, Callable[..., tuple[float, float]]]) -> list[Interface]:

@@ -2,6 +2,14 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
+
+from lostmotion.parts import Param
+from lostmotion.quantities import NUMBER
+
+PHASE = Param("phase", "phase in rad", NUMBER)
+
 
 def subtract_gap(x: float, half_gap: float) -> float:
     """Return how far `x` lies beyond the gap |x| < `half_gap`, with the sign of `x`; 0 inside the gap."""
@@ -13,3 +21,8 @@ def resist_sliding(v: float, level: float, width: float) -> float:
     if abs(v) >= width:
         return -level if v > 0.0 else (level if v < 0.0 else 0.0)
     return -level * v / width
+
+
+def describe_wave(size: Param, cosine: float, sine: float) -> Mapping[Param, float]:
+    """Return the amplitude of a wave as the number `size`, and its phase (rad): size * cos(angle + phase)."""
+    return {size: math.hypot(cosine, sine), PHASE: math.atan2(-sine, cosine)}

@@ -8,7 +8,7 @@ import pytest
 
 from lostmotion import testing
 from lostmotion.contracts import DriveTerm, Interface, Model, Motion, Param, SensorTerm, Term
-from lostmotion.quantities import DAMPING, INERTIA, LENGTH, NUMBER, TIME
+from lostmotion.quantities import DAMPING, INERTIA, NUMBER, TIME
 
 DRAG = Param("coefficient", "drag", DAMPING, low=0.0, null=0.0)
 MASS = Param("m", "mass", INERTIA, low=0.0, scale="log")
@@ -329,8 +329,7 @@ BAD = [
     ("formula_is_written", Drag, {"formula": " "}, set()),
     ("needs_are_names_of_others", Drag, {"needs": ("coefficient",)}, set()),
     ("motions_are_known", Drag, {"motions": ("sideways",)}, set()),
-    ("begins_are_sizes", Drag, {"begins": (LENGTH,)}, set()),
-    ("begins_are_sizes", Memory, {"begins": ("nothing",)}, set()),
+    ("states_begin_with_sizes", Memory, {"states": {"held": "nothing"}}, set()),
     ("states_and_rate_go_together", Drag, {"states": ("held",)}, set()),
     ("states_and_rate_go_together", Memory, {"states": ()}, set()),
     ("force_is_zero_at_null", Drag, {"force": staticmethod(pushes_always)}, set()),

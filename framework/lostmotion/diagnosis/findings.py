@@ -59,7 +59,8 @@ def _describe_law(facts: Facts, found: FoundTerm, *, bare: bool) -> str:
     words = {q.name: q.words[q.choices.index(parameters[q.name].median)] for q in term.params if q.words}
     turned, phase = dict.fromkeys(found.unlocated or (), "an unknown part"), ""
     if found.unlocated is not None:
-        sizes = [f"{q.meaning}: {numbers[q.name]}; " for q in term.further[:1]]
+        derived = term.derived(tuple(parameters[q.name].median for q in term.params))
+        sizes = [f"{q.meaning}: {numbers[q.name]}; " for q in list(derived)[:1]]
         phase = f" ({''.join(sizes)}the phase is unknown, because no sensor shows the position)"
     sensor = f" (sensor {found.sensor!r})" if found.sensor else ""
     place = f" at the place {found.place!r}" if found.place else ""

@@ -320,9 +320,8 @@ def _compute_derived(outcome: Outcome, term: Term, held: Mapping[str, float]) ->
     after = outcome.diagnosis.after
     columns = {key: i for i, key in enumerate(list_physical_keys(after))}
     rows = [[row[columns[k]] if k in columns else value for k, value in held.items()] for row in outcome.draws_after]
-    made = np.array([term.derived(tuple(row)) for row in rows])
-    motion = after.posterior.system.model.motion
-    return {q.name: _make_interval(column, q.unit(motion)) for q, column in zip(term.further, made.T, strict=True)}
+    made, motion = [term.derived(tuple(row)) for row in rows], after.posterior.system.model.motion
+    return {q.name: _make_interval(np.array([one[q] for one in made]), q.unit(motion)) for q in made[0]}
 
 
 def _make_interval(draws: Array, unit: str) -> Interval:

@@ -11,14 +11,21 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lostmotion.contracts import Array
+from lostmotion.contracts import Array, Param
 from lostmotion.inference.fit import HOPELESS, Fit, maximise, raise_random_force, restart
-from lostmotion.inference.natural import compute_size, list_tried_values
+from lostmotion.inference.natural import compute_size, find_term, list_tried_values
 from lostmotion.inference.random_force import compute_random_force_gain
 from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.space import FreeParameter
 from lostmotion.likelihood.system import Slot
+from lostmotion.quantities import NUMBER, TIME
 
+DELAYS = (-2.0, -1.0, -0.5, -0.2, 0.2, 0.5, 1.0, 1.5, 2.0, 2.8, 4.0, 5.5)
+"""Times of a channel that are tried, in their typical size, the time in which the motion turns by one radian: the
+response grows linearly with a delay only up to a few tenths of it."""
+OFFSETS = (-4.0, -2.0, -1.0, -0.5, 0.5, 1.0, 2.0, 4.0)
+"""Shifts of a channel that are tried, in their typical size: where the model has a gap, a large one resembles a force.
+"""
 SHORT = 1500
 """Samples on which values are tried."""
 MOST_TRIED = 4
@@ -47,10 +54,12 @@ def try_far_values(fit: Fit, slot: Slot, key: str) -> FarValue | None:
     The other parameters are refitted roughly, on the beginning of the recording. It is done for the nominal model
     alone: a missing term of this size is evident there. An amplitude with a scan is tried where a random force beyond
     the usual gains more than a far value must gain, also from the middle of the priors, because a gap makes a spring
-    seem far too soft.
+    seem far too soft. The response to other forces is nearly linear in their size; that to a delay or a shift of a
+    channel is not.
     """
     least = fit.posterior.settings.select.far
-    values = [factor * compute_size(slot.param, fit.posterior.scales) for factor in slot.param.far]
+    far = () if find_term(fit.posterior, key)[0].acts == "motion" else _list_far(slot.param)
+    values = [factor * compute_size(slot.param, fit.posterior.scales) for factor in far]
     scanned = bool(slot.param.scan) and compute_random_force_gain(fit) > least
     if scanned:
         values += list_tried_values(slot.param, fit.posterior.scales)
@@ -75,6 +84,13 @@ def try_far_values(fit: Fit, slot: Slot, key: str) -> FarValue | None:
             if gain > (best.gain if best else least):
                 best = FarValue(values[i], gain, base)
     return best
+
+
+def _list_far(param: Param) -> tuple[float, ...]:
+    """Return the far values of an amplitude of a channel in its typical size; none for a gain or a range to scan."""
+    if param.scan or param.dimension == NUMBER:
+        return ()
+    return DELAYS if param.dimension == TIME else OFFSETS
 
 
 def _shorten(fit: Fit) -> Fit:

@@ -30,7 +30,12 @@ SHAPES = (0.3, 1.0, 3.0)
 
 def find_wave(posterior: Posterior, key: str) -> Slot | None:
     """Return the frequency of the wave of a term; None for a term without one."""
-    return next((slot for slot in sort_slots(posterior, key)[1] if slot.param.wave), None)
+    return next((slot for slot in sort_slots(posterior, key)[1] if _is_wave(slot.param)), None)
+
+
+def _is_wave(param: Param) -> bool:
+    """Return whether a parameter with choices may have any other value, too: the frequency of a wave over the phase."""
+    return bool(param.choices) and param.scale == "log"
 
 
 def compute_size(param: Param, scales: Scales) -> float:
@@ -47,7 +52,7 @@ def make_free_parameters(slots: list[Slot], scales: Scales, start: Mapping[str, 
 def is_choice(slot: Slot, start: Mapping[str, float]) -> bool:
     """Return whether a parameter is held at one of its choices, and not fitted from where it starts."""
     chosen = start.get(slot.key, min(slot.param.choices, default=0.0))
-    return bool(slot.param.choices) and not (slot.param.wave and chosen not in slot.param.choices)
+    return bool(slot.param.choices) and not (_is_wave(slot.param) and chosen not in slot.param.choices)
 
 
 def compute_range(param: Param, scales: Scales) -> tuple[float, float]:

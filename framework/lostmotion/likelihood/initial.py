@@ -59,7 +59,9 @@ def _begin_terms(
     for (key, term), first in zip(system.forces, system.wiring(running.active)[1], strict=True):
         if key not in running.active:
             continue
-        for i, size in enumerate(term.begins):
+        for i, size in enumerate(term.sizes):
+            if size is None:
+                continue
             cov[:, first + i, first + i] = (
                 fulls[:, system.index[f"{key}.{size}"]]
                 if isinstance(size, str)

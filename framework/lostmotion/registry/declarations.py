@@ -8,7 +8,7 @@ from numbers import Real
 from typing import Any
 
 TEXTS = ("name", "physics", "formula", "paper", "motion")
-LISTS = ("states", "inputs", "channels", "needs", "motions", "equals")
+LISTS = ("inputs", "channels", "needs", "motions", "equals")
 _MISSING = object()
 
 Check = Callable[[Any], bool]
@@ -24,9 +24,10 @@ def _find_misfits(cls: type[Any]) -> Iterator[str]:
 
     yield from _check_attributes(cls, TEXTS, _is_text, "text")
     yield from _check_attributes(cls, LISTS, _is_texts, "a tuple of texts")
+    yield from _check_attributes(cls, ("states",), lambda value: _is_texts(tuple(value)), "names of states")
     if hasattr(cls, "params") and not (getattr(cls, "motions", ()) or hasattr(cls, "motion")):
         yield "neither motion nor motions: write 'translation' or 'rotation', or both"
-    lists = {"params": contracts.Param, "further": contracts.Param, "interfaces": contracts.Interface}
+    lists = {"params": contracts.Param, "interfaces": contracts.Interface}
     for key, kind in (lists | ({"places": contracts.Place} if issubclass(cls, contracts.Dynamics) else {})).items():
         entries = getattr(cls, key, ())
         if not isinstance(entries, tuple) or not all(isinstance(entry, kind) for entry in entries):
@@ -47,9 +48,7 @@ def _check_param(param: Any) -> Iterator[str]:
     yield from _check_attributes(param, ("aliases", "words"), _is_texts, "a tuple of texts")
     if getattr(param, "words", ()) and len(param.words) != len(getattr(param, "choices", ())):
         yield f"{len(param.words)} words for {len(param.choices)} choices: write one for each"
-    yield from _check_attributes(
-        param, ("choices", "far"), lambda value: _are_all(value, _is_real), "a tuple of numbers"
-    )
+    yield from _check_attributes(param, ("choices",), lambda value: _are_all(value, _is_real), "a tuple of numbers")
     yield from _check_attributes(param, ("dimension",), lambda value: isinstance(value, Dimension), "a Dimension")
 
 

@@ -165,7 +165,10 @@ def known_failures_are_named(component: Any) -> str:
 @rule(*KINDS, declaration=True)
 def attributes_are_complete(component: Any) -> str:
     """Define every class variable of the contract with its type: a tuple of one word is `("position",)`."""
-    wanted = {"ClassVar[tuple": tuple, "ClassVar[frozenset": frozenset, "ClassVar[str": str, "ClassVar[Literal": str}
+    wanted = {
+        "ClassVar[tuple": tuple, "ClassVar[Mapping": Mapping | tuple, "ClassVar[frozenset": frozenset,
+        "ClassVar[str": str, "ClassVar[Literal": str,
+    }  # fmt: skip
     contract = _contract_of(component)
     notes = {name: note for base in contract.__mro__[::-1] for name, note in inspect.get_annotations(base).items()}
     for name, note in notes.items():
@@ -173,7 +176,7 @@ def attributes_are_complete(component: Any) -> str:
             return f"{name} is missing"
         for start, kind in wanted.items():
             if str(note).startswith(start) and not isinstance(getattr(component, name), kind):
-                return f"{name} is {getattr(component, name)!r}, where a {kind.__name__} is expected"
+                return f"{name} is {getattr(component, name)!r}, where a {getattr(kind, '__name__', kind)} is expected"
     return ""
 
 

@@ -17,7 +17,7 @@ _COMPILED = {"model": ("rhs", "observe"), "term": ("force", "rate")}
 
 def find_repeated(words: Any) -> list[str]:
     """Return the words that occur more than once."""
-    return [word for word, count in Counter(words).items() if count > 1]
+    return [word for word, count in Counter(iter(words)).items() if count > 1]
 
 
 @rule("model", "dynamics", "term", declaration=True)

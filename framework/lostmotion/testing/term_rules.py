@@ -98,13 +98,11 @@ def motions_are_known(term: Term) -> str:
 
 
 @rule("term", declaration=True)
-def begins_are_sizes(term: Term) -> str:
-    """Give in `begins` a dimension or the name of an own parameter, at most one for each of `states`."""
-    own = {q.name for q in term.params}
-    bad = [size for size in term.begins if not isinstance(size, Dimension) and size not in own]
-    if bad:
-        return f"{bad[0]!r} is neither a dimension nor one of its parameters"
-    return "" if len(term.begins) <= len(term.states) else f"{len(term.begins)} sizes for {len(term.states)} states"
+def states_begin_with_sizes(term: Term) -> str:
+    """Give each of `states` no size, a dimension or the name of an own parameter."""
+    own = {None, *(q.name for q in term.params)}
+    bad = [size for size in term.sizes if not isinstance(size, Dimension) and size not in own]
+    return f"{bad[0]!r} is neither a dimension nor one of its parameters" if bad else ""
 
 
 @rule("term", declaration=True)

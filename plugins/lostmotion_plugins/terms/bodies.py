@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
 from lostmotion.contracts import Array, Machine, Param, Term, Values
-from lostmotion.quantities import FREQUENCY, INERTIA, LENGTH, NUMBER, SPEED, TIME
+from lostmotion.quantities import FREQUENCY, INERTIA, LENGTH, NUMBER, SPEED, TIME, Dimension
 
 
 def _is_single_body(at: str, model: Machine) -> bool:
@@ -41,8 +42,7 @@ class HiddenMode(Term):
         ),
         Param("damping", "damping ratio of the hidden mass", NUMBER, low=0.0, scale="log", typical=0.03),
     )  # fmt: skip
-    states = ("hidden_place", "hidden_speed")
-    begins = (LENGTH, SPEED)
+    states: ClassVar[Mapping[str, Dimension]] = {"hidden_place": LENGTH, "hidden_speed": SPEED}
     needs = ("inertia", "shake_input")
 
     def fits(self, model: Machine) -> bool:

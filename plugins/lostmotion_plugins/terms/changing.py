@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
 from lostmotion.contracts import Array, Param, Term, Values
 from lostmotion.quantities import NUMBER, SPEED
-from lostmotion_plugins.laws import subtract_gap
+from lostmotion_plugins.laws import describe_wave, subtract_gap
 
-RATIO = Param("ratio", "frequency over that of the drive", NUMBER, low=0.0, scale="log", wave=True)
+RATIO = Param("ratio", "frequency over that of the drive", NUMBER, low=0.0, scale="log")
 """The frequency of a wave; a term gives it the choices that are usual for its cause."""
+DEPTH = Param("depth", "share of the stiffness that pulsates", NUMBER)
 
 
 @dataclass(frozen=True)
@@ -34,7 +36,6 @@ class ParametricStiffness(Term):
         Param("sine", "share of the stiffness that pulsates as sin(ratio omega t)", NUMBER, null=0.0, typical=0.2),
         replace(RATIO, choices=(1.0, 2.0, 3.0, 0.5)),
     )
-    further = (Param("depth", "share of the stiffness that pulsates", NUMBER), Param("phase", "phase in rad", NUMBER))
     needs = ("stiffness", "play", "omega")
 
     @staticmethod
@@ -46,8 +47,8 @@ class ParametricStiffness(Term):
         return -(p[0] * math.cos(angle) + p[1] * math.sin(angle)) * p[3] * beyond
 
     @staticmethod
-    def derived(p: Values) -> Values:
-        return math.hypot(p[0], p[1]), math.atan2(-p[1], p[0])
+    def derived(p: Values) -> Mapping[Param, float]:
+        return describe_wave(DEPTH, p[0], p[1])
 
 
 @dataclass(frozen=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
@@ -10,12 +11,10 @@ import numpy as np
 
 from lostmotion.contracts import Array, DriveTerm, Input, Param, Values
 from lostmotion.quantities import FORCE, NUMBER, TIME
-from lostmotion_plugins.terms.changing import RATIO, ParametricStiffness
+from lostmotion_plugins.laws import describe_wave
+from lostmotion_plugins.terms.changing import RATIO
 
-FAR_DELAYS = (-2.0, -1.0, -0.5, -0.2, 0.2, 0.5, 1.0, 1.5, 2.0, 2.8, 4.0, 5.5)
-"""Delays that are tried, in units of the time in which the motion turns by one radian.
-
-A score test assumes that the response grows linearly with the delay, which ends at a few tenths of that time."""
+SHARE = Param("share", "share of the amplitude of the drive", NUMBER)
 
 
 @dataclass(frozen=True)
@@ -38,7 +37,6 @@ class ExcitationHarmonic(DriveTerm):
         Param("sine", "share of the drive as sin(ratio omega t)", NUMBER, null=0.0, typical=0.1),
         replace(RATIO, choices=(2.0, 3.0, 4.0, 5.0, 0.5, 1.5)),
     )
-    further = (Param("share", "share of the amplitude of the drive", NUMBER), Param("phase", "phase in rad", NUMBER))
     needs = ("omega", "amplitude")
 
     @staticmethod
@@ -48,7 +46,9 @@ class ExcitationHarmonic(DriveTerm):
         harmonic = p[0] * np.cos(angle) + p[1] * np.sin(angle)
         return np.asarray(u(t, order) + p[4] * omega**order * harmonic)
 
-    derived = staticmethod(ParametricStiffness.derived)
+    @staticmethod
+    def derived(p: Values) -> Mapping[Param, float]:
+        return describe_wave(SHARE, p[0], p[1])
 
 
 @dataclass(frozen=True)
@@ -76,7 +76,7 @@ class ExcitationDelay(DriveTerm):
     physics: ClassVar[str] = "The drive acts {delay} after it was recorded"
     formula: ClassVar[str] = "u(t - delay)"
     paper: ClassVar[str] = "Ljung, System Identification: Theory for the User (1999), section 4.2"
-    params = (Param("delay", "delay of the drive", TIME, null=0.0, far=FAR_DELAYS),)
+    params = (Param("delay", "delay of the drive", TIME, null=0.0),)
     equals = ("sensor_delay",)
 
     @staticmethod

@@ -16,6 +16,7 @@ OFFSET_SHARE = 0.25
 """Two levels that differ by less than this share of their sum are reported as one level and a constant force.
 
 The forces are the same at any speed and at rest, and an offset of the drive or of the sensor occurs on every rig."""
+SLOWER = Param("slower", "longer time constant", TIME)
 
 
 @dataclass(frozen=True)
@@ -176,7 +177,6 @@ class FrictionDriftTwice(Term):
             "ratio", "the longer one over the shorter", NUMBER, low=1.0, scale="log", typical=10.0, scan=(0.11, 10.0)
         ),
     )
-    further = (Param("slower", "longer time constant", TIME),)
     needs = ("mobility",)
 
     def commoner(self, values: Mapping[str, float]) -> Mapping[str, Mapping[str, float]]:
@@ -198,5 +198,5 @@ class FrictionDriftTwice(Term):
         return resist_sliding(v, level, level * p[5])
 
     @staticmethod
-    def derived(p: Values) -> Values:
-        return (p[3] * p[4],)
+    def derived(p: Values) -> Mapping[Param, float]:
+        return {SLOWER: p[3] * p[4]}

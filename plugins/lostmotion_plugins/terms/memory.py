@@ -3,18 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
 from lostmotion.contracts import Array, Param, Term, Values
 from lostmotion.quantities import FORCE, LENGTH, SPEED
-
-_SIMILAR_TERMS = ("coulomb_friction", "stribeck_friction", "dahl_friction", "lugre_friction", "bouc_wen_hysteresis")
-
-
-def _list_others(name: str) -> tuple[str, ...]:
-    """Return the similar terms without the one of this name."""
-    return tuple(other for other in _SIMILAR_TERMS if other != name)
 
 
 @dataclass(frozen=True)
@@ -36,8 +30,7 @@ class DahlFriction(Term):
         Param("force", "sliding friction force", FORCE, low=0.0, null=0.0),
         Param("deflection", "elastic travel before sliding", LENGTH, low=0.0, scale="log", typical=0.05),
     )
-    states = ("bristle_force",)
-    begins = ("force",)
+    states: ClassVar[Mapping[str, str]] = {"bristle_force": "force"}
     needs = ("step",)
 
     @staticmethod
@@ -75,8 +68,7 @@ class LuGreFriction(Term):
         Param("velocity", "Stribeck velocity", SPEED, low=0.0, scale="log", typical=0.1),
         Param("deflection", "elastic travel before sliding", LENGTH, low=0.0, scale="log", typical=0.05),
     )
-    states = ("bristle_force",)
-    begins = ("force",)
+    states: ClassVar[Mapping[str, str]] = {"bristle_force": "force"}
     needs = ("step",)
 
     force = staticmethod(DahlFriction.force)
@@ -106,8 +98,7 @@ class BoucWenHysteresis(Term):
         Param("force", "yield force", FORCE, low=0.0, null=0.0),
         Param("travel", "yield force over the initial stiffness", LENGTH, low=0.0, scale="log", typical=0.3),
     )
-    states = ("hysteretic_force",)
-    begins = ("force",)
+    states: ClassVar[Mapping[str, str]] = {"hysteretic_force": "force"}
     needs = ("step",)
 
     force = staticmethod(DahlFriction.force)

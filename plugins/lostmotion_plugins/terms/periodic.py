@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
 from lostmotion.contracts import Array, Param, Term, Values
-from lostmotion.quantities import FORCE, LENGTH, NUMBER
-from lostmotion_plugins.laws import resist_sliding
-from lostmotion_plugins.terms.changing import ParametricStiffness
+from lostmotion.quantities import FORCE, LENGTH
+from lostmotion_plugins.laws import describe_wave, resist_sliding
 
 TYPICAL_PITCH, PITCH_RANGE = 0.3, (0.1, 4.2)
 """The usual pitch in amplitudes of the motion, and the range of pitches that are tried in units of that.
@@ -21,6 +21,8 @@ PITCH = Param(
     "pitch", "travel or turn after which it repeats", LENGTH, low=0.0, scale="log", typical=TYPICAL_PITCH,
     scan=PITCH_RANGE,
 )  # fmt: skip
+AMPLITUDE = Param("force", "amplitude of the force", FORCE)
+VARIATION = Param("wave", "amplitude of the variation", FORCE)
 
 
 def turn_wave(cosine: float, sine: float, angle: float) -> tuple[float, float]:
@@ -43,8 +45,10 @@ class Cogging(Term):
         Param("sine", "force as sin(2 pi x / pitch)", FORCE, null=0.0, typical=0.1),
         PITCH,
     )
-    further = (Param("force", "amplitude of the force", FORCE), Param("phase", "phase in rad", NUMBER))
-    derived = staticmethod(ParametricStiffness.derived)
+
+    @staticmethod
+    def derived(p: Values) -> Mapping[Param, float]:
+        return describe_wave(AMPLITUDE, p[0], p[1])
 
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
@@ -78,7 +82,6 @@ class PositionDependentFriction(Term):
         Param("sine", "friction as sin(2 pi x / pitch)", FORCE, null=0.0, typical=0.3),
         PITCH,
     )
-    further = (Param("wave", "amplitude of the variation", FORCE), Param("phase", "phase in rad", NUMBER))
     needs = ("mobility",)
 
     @staticmethod
@@ -88,8 +91,8 @@ class PositionDependentFriction(Term):
         return resist_sliding(v, level, (abs(p[0]) + abs(p[1]) + abs(p[2])) * p[4])
 
     @staticmethod
-    def derived(p: Values) -> Values:
-        return ParametricStiffness.derived(p[1:])
+    def derived(p: Values) -> Mapping[Param, float]:
+        return describe_wave(VARIATION, p[1], p[2])
 
     @staticmethod
     def shifted(p: Values, by: float) -> Values:

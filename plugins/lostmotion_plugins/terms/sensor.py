@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -10,8 +11,7 @@ import numpy as np
 
 from lostmotion.contracts import Array, Param, SensorTerm, Values
 from lostmotion.quantities import LENGTH, NUMBER, TIME
-from lostmotion_plugins.terms.changing import ParametricStiffness
-from lostmotion_plugins.terms.drive import FAR_DELAYS
+from lostmotion_plugins.laws import describe_wave
 from lostmotion_plugins.terms.periodic import PITCH_RANGE, TYPICAL_PITCH
 
 _LEAST_DIFFERENCES = 30
@@ -20,10 +20,7 @@ measurement recorded."""
 _LATTICE_TOLERANCE = 0.01
 """So far 99 % of these differences may lie from a whole multiple of the step, as a share of the step. Chosen by
 experience; no measurement recorded."""
-_FAR_OFFSETS = (-4.0, -2.0, -1.0, -0.5, 0.5, 1.0, 2.0, 4.0)
-"""Offsets in amplitudes that are tried beside the score test, which sees small ones only.
-
-Where the model has a gap, a large offset resembles a force."""
+SIZE = Param("size", "amplitude of the error", LENGTH)
 
 
 @dataclass(frozen=True)
@@ -55,7 +52,7 @@ class SensorOffset(SensorTerm):
     physics: ClassVar[str] = "The sensor reads {offset} where the machine is at zero"
     formula: ClassVar[str] = "x + offset"
     paper: ClassVar[str] = "Pintelon, Schoukens, System Identification: a Frequency Domain Approach (2012), section 1.6"
-    params = (Param("offset", "reading of the sensor at zero", LENGTH, null=0.0, typical=0.3, far=_FAR_OFFSETS),)
+    params = (Param("offset", "reading of the sensor at zero", LENGTH, null=0.0, typical=0.3),)
     relative: ClassVar[bool] = True
 
     @staticmethod
@@ -72,7 +69,7 @@ class SensorDelay(SensorTerm):
     physics: ClassVar[str] = "The sensor of the response is delayed by {delay}"
     formula: ClassVar[str] = "x(t - delay)"
     paper: ClassVar[str] = "Ljung, System Identification: Theory for the User (1999), section 4.2"
-    params = (Param("delay", "delay of the sensor", TIME, low=0.0, null=0.0, far=FAR_DELAYS),)
+    params = (Param("delay", "delay of the sensor", TIME, low=0.0, null=0.0),)
     equals = ("excitation_delay",)
 
     @staticmethod
@@ -102,8 +99,10 @@ class PositionRipple(SensorTerm):
             scan=PITCH_RANGE,
         ),
     )  # fmt: skip
-    further = (Param("size", "amplitude of the error", LENGTH), Param("phase", "phase in rad", NUMBER))
-    derived = staticmethod(ParametricStiffness.derived)
+
+    @staticmethod
+    def derived(p: Values) -> Mapping[Param, float]:
+        return describe_wave(SIZE, p[0], p[1])
 
     @staticmethod
     def bent(x: Array, p: Values) -> Array:
