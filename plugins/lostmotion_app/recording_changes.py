@@ -15,7 +15,7 @@ from lostmotion.recording.spec import Channel, RecordingSpec
 from lostmotion.recording.table import Table
 from lostmotion.recording.units import is_unit
 from lostmotion.recording.value_checks import LARGEST, runs_of
-from lostmotion.recording.warnings import BACKWARD, list_far
+from lostmotion.recording.warnings import BACKWARD, list_far, list_frozen
 from lostmotion.settings import DEFAULT, RecordingSettings
 from lostmotion_app.case_content import Content, list_channels
 
@@ -125,7 +125,6 @@ def mark_faulty(values: Array, limits: RecordingSettings) -> NDArray[np.bool_]:
         for far in list_far(values[seen], limits):
             faulty |= values == far
     with np.errstate(invalid="ignore"):
-        runs = runs_of(np.diff(values) == 0.0)
-    for first, last in runs[np.diff(runs, axis=1)[:, 0] >= limits.frozen]:
-        faulty[first : last + 1] = True
+        for first, last in list_frozen(values, limits):
+            faulty[first:last] = True
     return faulty

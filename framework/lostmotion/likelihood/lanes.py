@@ -106,7 +106,7 @@ class Lanes(RunningSystem):
         sensing = points.noise
         levels = np.stack([sensing.white, sensing.clock, points.gain, points.offset, points.lag], axis=2)
         kinds = np.concatenate([sensing.shown[..., None], sensing.transition, sensing.driving, sensing.first], axis=2)
-        mean, covariance = _compute_start(self, points)
+        mean, covariance = self.compute_start(points)
         kernels = build_filter(n, self.compiled)
         many = sensing.shown.shape[1]
         blocks = (
@@ -188,13 +188,3 @@ def _list_noise(running: RunningSystem, points: Points, dt: float) -> tuple[Arra
         (np.full(len(points), float(b.row)), points.process / points.params[:, b.inertia] ** 2) for b in plan.bodies
     ]
     return np.column_stack([column for row in rows for column in row]), len(rows), 0
-
-
-def _compute_start(running: RunningSystem, points: Points) -> tuple[Array, Array]:
-    """Return mean and covariance of all states at the first sample, random forces included."""
-    m, n = running.states, running.states + running.forces
-    mean, covariance = np.zeros((len(points), n)), np.zeros((len(points), n, n))
-    mean[:, :m], covariance[:, :m, :m] = points.mean, points.covariance
-    if running.random == "latent":
-        covariance[:, m, m] = 0.5 * points.process * points.pace
-    return mean, covariance

@@ -195,16 +195,12 @@ class _Run:
         """Return the filter at the first sample; noise states have the mean `noise` and the covariances `shared`."""
         if points.readings is not None:
             observation = replace(observation, readings=points.readings[0])
-        nsub, n, m = count_fine_steps(running.nsub), running.states, len(observation.sensors)
-        total = n + running.forces
+        nsub = count_fine_steps(running.nsub)
         machine = _Machine.of(running, points, nsub)
-        y, cov = np.zeros(total), np.zeros((total, total))
-        y[:n], cov[:n, :n] = points.mean[0], points.covariance[0]
-        if running.random == "latent":
-            cov[n, n] = 0.5 * points.process[0] * points.pace[0]
+        y, cov = (start[0] for start in running.compute_start(points))
         first = points.noise.first[0]
-        shared = np.concatenate([np.zeros((len(first), total)), first], axis=1)
-        shape = (observation.samples, m)
+        shared = np.concatenate([np.zeros((len(first), len(y))), first], axis=1)
+        shape = (observation.samples, len(observation.sensors))
         errors, variances = np.zeros(shape), np.full(shape, UNREAD_VARIANCE)
         return cls(machine, observation, points, nsub, y, cov, np.zeros(len(first)), shared, errors, variances, nsub)
 

@@ -58,6 +58,18 @@ class RunningSystem(ABC):
         """Return how many of some points are filtered in one call, where `jobs` cores share them."""
         return min(count_lanes(-(-points // jobs)), TOGETHER)
 
+    def compute_start(self, points: Points) -> tuple[Array, Array]:
+        """Return mean (points, n) and covariance (points, n, n) of all states at the first sample.
+
+        They include random forces: one with a memory starts with its stationary variance, held ones start at zero.
+        """
+        m, n = self.states, self.states + self.forces
+        mean, covariance = np.zeros((len(points), n)), np.zeros((len(points), n, n))
+        mean[:, :m], covariance[:, :m, :m] = points.mean, points.covariance
+        if self.random == "latent":
+            covariance[:, m, m] = 0.5 * points.process * points.pace
+        return mean, covariance
+
     @abstractmethod
     def filter_and_keep(self, observation: Observation, points: Points, kept: Kept | None) -> Innovations:
         """Return the same as `filter`, and write what a smoother needs of the first point into `kept` (`make_kept`).

@@ -98,13 +98,11 @@ class _Filter:
     @classmethod
     def of(cls, running: RunningSystem, observation: Observation, points: Points) -> _Filter:
         """Return the filter before the first sample."""
-        n, noise = running.states, points.noise
-        size, count = n + running.forces, len(points)
+        noise, size, count = points.noise, running.states + running.forces, len(points)
         whole = size + noise.shown.shape[1]
         state, cov = np.zeros((count, whole)), np.zeros((count, whole, whole))
-        state[:, :n], cov[:, :n, :n], cov[:, size:, size:] = points.mean, points.covariance, noise.first
-        if running.random == "latent":
-            cov[:, n, n] = 0.5 * points.process * points.pace
+        state[:, :size], cov[:, :size, :size] = running.compute_start(points)
+        cov[:, size:, size:] = noise.first
         shape = (count, observation.samples, len(observation.sensors))
         unread, reached = np.full(shape, UNREAD_VARIANCE), np.zeros(count, dtype=np.int64)
         return cls(running, observation, points, size, state, cov, np.zeros(shape), unread, reached)

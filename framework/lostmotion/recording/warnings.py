@@ -127,17 +127,25 @@ def note_units(excitation: CheckedChannel, response: CheckedChannel, limits: Rec
 
 def note_frozen(values: Array, what: str, dt: float, limits: RecordingSettings) -> Iterator[str]:
     """Yield a note when the samples (n,) are constant over a long run, and hardly ever repeat elsewhere."""
+    for first, last in (runs := list_frozen(values, limits))[:1].tolist():
+        yield (
+            f"{what} stays at exactly {values[first]:.6g} for {last - first} samples from {first * dt:.6g} s "
+            f"after its start, {len(runs)} such runs in all, and hardly ever repeats a value elsewhere: the sensor "
+            "may have been stuck; cut these runs out with t_start and t_end"
+        )
+
+
+def list_frozen(values: Array, limits: RecordingSettings) -> NDArray[np.intp]:
+    """Return the first sample and the sample after the last of each long run of one value (runs, 2).
+
+    There is none if the samples (n,) often repeat a value elsewhere, as those of a coarse converter do.
+    """
     runs = runs_of(np.diff(values) == 0.0)
     lengths = np.diff(runs, axis=1)[:, 0]
     long = lengths >= limits.frozen
-    if not long.any() or lengths[~long].sum() > limits.repeats * values.size:
-        return
-    first = int(runs[long, 0][0])
-    yield (
-        f"{what} stays at exactly {values[first]:.6g} for {int(lengths[long][0]) + 1} samples from {first * dt:.6g} s "
-        f"after its start, {int(long.sum())} such runs in all, and hardly ever repeats a value elsewhere: the sensor "
-        "may have been stuck; cut these runs out with t_start and t_end"
-    )
+    if lengths[~long].sum() > limits.repeats * values.size:
+        return runs[:0]
+    return np.array([0, 1]) + runs[long]
 
 
 def note_far(values: Array, what: str, limits: RecordingSettings) -> Iterator[str]:
