@@ -11,6 +11,7 @@ import pytest
 from lostmotion.contracts import Series
 from lostmotion.results import Embedding, Estimate
 from lostmotion.settings import DEFAULT
+from lostmotion_chaos.analysis.denoise import Denoised
 from lostmotion_chaos.analysis.motion import _find_common_period, judge_motion
 from lostmotion_chaos.analysis.motion_options import OPTIONS
 from lostmotion_chaos.analysis.period import BasePeriod, MotionEvidence
@@ -48,10 +49,10 @@ def evidence(*, exponent=NOTHING, dimension=NOTHING, entropy=NOTHING, ranks=(0.0
     """Return what was measured of noise, which never comes back, with estimates of any kind beside it."""
     x = np.random.default_rng(3).normal(size=1500) if x is None else x
     raw = Series(x, dt, Embedding(4, 4, 20), period)
-    level = SimpleNamespace(value=0.0, low=0.0, high=0.001)
+    level = Estimate(0.0, 0.0, 0.001, "ok")
     tests = tuple(ranked(p, m) for p, m in zip(ranks, ("iaaft", "pseudo_periodic"), strict=False))
     base = BasePeriod(period, "given" if period else "none")
-    return MotionEvidence(base, raw, SimpleNamespace(series=raw, before=level), exponent, dimension, entropy, tests)
+    return MotionEvidence(base, raw, Denoised(raw, level, level), exponent, dimension, entropy, tests)
 
 
 def state(it, key):

@@ -1,20 +1,22 @@
 """Identification: known posteriors are recovered, a seed gives the same bytes, and no interval without convergence."""
 
 from dataclasses import dataclass, field
-from types import SimpleNamespace
 
 import arviz_stats
 import numpy as np
 import pytest
 import xarray as xr
+from made_fits import MadePosterior, make_fit
 
 from lostmotion.errors import CaseError, DataError
 from lostmotion.identification.convergence import group_walkers, measure_quality
 from lostmotion.identification.moves import make_state
 from lostmotion.identification.sampling import SamplingPlan, ShownCoordinate, Task, TMixture, identify, make_task
-from lostmotion.likelihood.sensors import Sensor
+from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.space import FreeParameter, ParameterSpace
+from lostmotion.likelihood.system import System
 from lostmotion.storage import save_datasets
+from lostmotion_plugins.models.basic import LinearOscillator
 
 MEAN = np.array([1.0, -2.0, 0.3])
 COVARIANCE = np.array([[0.04, 0.015, 0.0], [0.015, 0.01, 0.0], [0.0, 0.0, 0.25]])
@@ -51,19 +53,14 @@ def task_at(posterior, theta=MEAN, covariance=COVARIANCE):
 
 def fit_of(theta=(0.1, -5.0, 1.0, 2.0, -3.0), log_posterior=0.0, log_evidence=0.0):
     """Return a fit of two recordings of a rotation, as far as a task needs one."""
+    values, none = np.sin(np.arange(40.0)), np.zeros((40, 1))
     observations = (
-        SimpleNamespace(name="one", dt=0.01, sensors=(Sensor("position"),)),
-        SimpleNamespace(name="two", dt=0.04, sensors=(Sensor("velocity"),)),
-    )
+        Observation.of("one", values, none, 0.01, "position"), Observation.of("two", values, none, 0.04, "velocity"),
+    )  # fmt: skip
     keys = ("c", "x0", "offset[two]", "log_noise[two]", "log_random_force[two]")
     free = tuple(FreeParameter(k, "?", 0.0, -40.0, 40.0, log=k == "x0") for k in keys)
-    posterior = SimpleNamespace(
-        space=ParameterSpace(free),
-        observations=observations,
-        system=SimpleNamespace(model=SimpleNamespace(motion="rotation")),
-    )
-    local = SimpleNamespace(covariance=np.eye(5), log_posterior=log_posterior)
-    return SimpleNamespace(posterior=posterior, theta=np.array(theta), local=local, log_evidence=log_evidence)
+    posterior = MadePosterior(ParameterSpace(free), observations, System(LinearOscillator("rotation")))
+    return make_fit(posterior, theta, log_posterior, evidence=log_evidence)
 
 
 def draw(seed=0, plan=None, **settings):

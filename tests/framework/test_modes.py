@@ -9,6 +9,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from made_fits import make_fit
 from scipy.linalg import expm
 
 from lostmotion.case import CaseFile, Prior, SensorSpec
@@ -85,11 +86,10 @@ class Hills:
     def log_density(self, points):
         return self.log_likelihood(points)
 
-    def fit(self, at: float, sd: float = 1.0):
-        """Return what `distinct` asks of a fit that stopped at a place."""
+    def fit(self, at: float, sd: float = 1.0, lower: float = 0.0):
+        """Return a fit that stopped at a place, or claims a log posterior that is lower."""
         height = float(self.log_likelihood(np.array([[at]]))[0])
-        local = SimpleNamespace(log_posterior=height)
-        return SimpleNamespace(posterior=self, theta=np.array([at]), sd={"x": sd}, local=local, log_evidence=height)
+        return make_fit(self, [at], height - lower, sd=sd)
 
 
 @pytest.mark.parametrize(
@@ -111,9 +111,7 @@ def test_a_dip_makes_two_hills_and_roughness_does_not(hills: Hills, ends: tuple[
 
 def test_low_hills_and_fits_that_came_to_nothing_are_left_out() -> None:
     hills = Hills((0.0, 8.0))
-    low, lost = hills.fit(8.0), hills.fit(4.0)
-    low.local.log_posterior -= 25.0
-    lost.local.log_posterior = -math.inf
+    low, lost = hills.fit(8.0, lower=25.0), hills.fit(4.0, lower=math.inf)
     best = hills.fit(0.0)
     assert select_modes([low, lost, best], 20.0) == [best]
     assert select_modes([low, lost, best], 30.0) == [best, low]

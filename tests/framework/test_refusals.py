@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from made_fits import MadePosterior, make_fit
 
 from lostmotion.case import CaseFile, Prior
 from lostmotion.contracts import Param, Term
@@ -117,7 +117,7 @@ class Lost:
 def test_a_term_without_a_finite_force_is_refused():
     """Where a filter diverged with a correct term, the term promises nothing, and no error is attributed to it."""
     observation = Observation.of("seen", np.sin(np.arange(40.0)), np.zeros((40, 1)), 0.1, "position")
-    fit = SimpleNamespace(posterior=SimpleNamespace(system=oscillator(Rootless, Plain), observations=(observation,)))
+    fit = make_fit(MadePosterior(None, (observation,), oscillator(Rootless, Plain)), [0.0])
     with pytest.raises(ContractError, match="force of rootless is not a finite number"):
         _solve_score_test(fit, "rootless", (None,), {}, Lost())
     assert _solve_score_test(fit, "plain", (None,), {}, Lost()).gain == 0.0

@@ -1,24 +1,9 @@
 """Laws that predict the same readings share their probability."""
 
-from types import SimpleNamespace
-
-import numpy as np
 import pytest
+from made_fits import make_hypothesis as hypothesis
 
 from lostmotion.evidence.explanations import Explanations
-
-
-def hypothesis(score, *terms, error=0.0):
-    """Return what is asked of a hypothesis with a score, and the same error of each of its 100 predictions."""
-    return SimpleNamespace(
-        terms=frozenset(terms),
-        frame=SimpleNamespace(own=2),
-        scatter=1.0,
-        expansion=SimpleNamespace(here=SimpleNamespace(errors=np.full(100, error), variances=np.ones(100))),
-        price=0.0,
-        log_profile=0.0,
-        score=lambda temper=1.0: score / temper,
-    )
 
 
 @pytest.mark.parametrize(("error", "shared"), [(0.1, True), (0.4, False)])

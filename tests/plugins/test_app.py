@@ -13,7 +13,6 @@ import time
 import urllib.error
 import urllib.request
 from pathlib import Path
-from types import SimpleNamespace
 
 import click
 import numpy as np
@@ -24,6 +23,7 @@ from lostmotion.case.reading import parse_case
 from lostmotion.cli import main
 from lostmotion.errors import CaseError, DataError
 from lostmotion.evidence.bare import Budget, make_weighed
+from lostmotion.likelihood.observation import Observation
 from lostmotion.progress import show_progress
 from lostmotion.recording.outline import GivenRoles
 from lostmotion.registry import Registry, default
@@ -245,7 +245,8 @@ def test_sets_of_terms_are_told_with_their_scores_while_a_search_runs(tmp_path, 
 
 
 def test_the_recording_of_held_out_readings_is_found():
-    made = [SimpleNamespace(time=np.arange(9.0), dt=1.0, readings=np.full((9, 1), k)) for k in (1.0, 2.0, 3.0)]
+    ripple = 0.1 * np.sin(np.arange(9.0))
+    made = [Observation.of("seen", k + ripple, np.zeros((9, 1)), 1.0, "position") for k in (1.0, 2.0, 3.0)]
     assert find_recording(made, np.arange(4.0, 8.0), np.full(4, 2.0)) == 1
 
 

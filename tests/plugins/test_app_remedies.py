@@ -3,16 +3,17 @@
 import sys
 from dataclasses import replace
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from lostmotion.case import dump_case
 from lostmotion.errors import CaseError, DataError
+from lostmotion.provenance import origin_of
 from lostmotion.recording.outline import GivenRoles
 from lostmotion.registry import default
-from lostmotion.results.expectation import WrongScale
+from lostmotion.results import Interval
+from lostmotion.results.expectation import CaseCheck, Expectation, ParameterPair, WrongScale
 
 pytest.importorskip("panel", reason="no page: Panel is absent (the extra `app`)")
 sys.path.insert(0, str(Path(__file__).parent))
@@ -200,12 +201,18 @@ def test_uneven_stamps_are_replaced_by_a_rate(open_desk, tmp_path):
 def test_a_check_offers_the_factor_and_a_known_value(open_desk):
     desk = open_desk(simulate())
     content = desk.content
-    result = SimpleNamespace(
+    pairs = tuple(ParameterPair(one="m", other=name, correlation=0.99) for name in ("k", "x"))
+    told = {name: Interval(median, median, median, "1") for name, median in (("m", 1.0), ("c", 0.7))}
+    result = CaseCheck(
+        title="",
+        says=(),
+        model="",
+        yardstick="the drive",
+        expected=Expectation(parameters=told, pairs=pairs, effects=(), unseen=()),
+        improvements=(),
+        notes=(),
+        provenance=origin_of("check", {}, 0, {}),
         scales=(WrongScale(column="force [N]", factor=1000.0, says="the unit with a factor of 1000", left=0.01),),
-        expected=SimpleNamespace(
-            pairs=(SimpleNamespace(one="m", other="k"), SimpleNamespace(one="m", other="x")),
-            parameters={"m": SimpleNamespace(median=1.0), "c": SimpleNamespace(median=0.7)},
-        ),
     )
     content["model"]["estimate"]["c"] = {"low": 0.7, "high": 70.0, "scale": "log"}
     scale, bound, pair = list_check_warnings(result, content)

@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -97,7 +96,7 @@ def test_an_amplitude_whose_region_reaches_zero_is_vague(rubbing, deviations, va
 @pytest.mark.parametrize(("low", "vague"), [(-0.1, ["force"]), (0.1, [])])
 def test_an_amplitude_whose_stated_interval_reaches_zero_is_vague_as_well(rubbing, low, vague):
     told = {"coulomb_friction.force": Interval(0.8, low, 1.5, "N")}
-    assert list(_list_reaching(SimpleNamespace(after=rubbing.chosen), "coulomb_friction", told)) == vague
+    assert list(_list_reaching(rubbing.chosen.posterior, "coulomb_friction", told)) == vague
 
 
 def test_a_refuted_set_has_no_probability_and_the_next_one_is_the_best(rubbing):

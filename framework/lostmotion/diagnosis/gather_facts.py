@@ -32,6 +32,7 @@ from lostmotion.inference.penalties import compute_penalty
 from lostmotion.inference.unseen import BodyPosition, smooth_body_position
 from lostmotion.likelihood.initial import shows_place
 from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.sensor_noise import compute_variance
 from lostmotion.likelihood.system import key_of
 from lostmotion.quantities import TIME, unit_of
@@ -229,16 +230,17 @@ def _make_found(outcome: Outcome, key: str, intervals: Mapping[str, Interval]) -
 def _make_support(d: SearchResult, key: str, intervals: Mapping[str, Interval]) -> Support:
     return Support(
         gain=d.explained.gain_beside(key),
-        vague=tuple(dict.fromkeys((*list_vague(d.explained.best, key), *_list_reaching(d, key, intervals)))),
+        vague=tuple(
+            dict.fromkeys((*list_vague(d.explained.best, key), *_list_reaching(d.after.posterior, key, intervals)))
+        ),
         moved=tuple(_list_moved(d, key)),
         delay=_count_delay(d.after, key),
         complete=tuple(_list_complete(d, key)),
     )
 
 
-def _list_reaching(d: SearchResult, key: str, intervals: Mapping[str, Interval]) -> Iterator[str]:
+def _list_reaching(posterior: Posterior, key: str, intervals: Mapping[str, Interval]) -> Iterator[str]:
     """Yield the amplitudes whose interval, averaged over all explanations, contains the value that does nothing."""
-    posterior = d.after.posterior
     slots = sort_slots(posterior, key)[0]
     for group in group_amplitudes(posterior, key, slots):
         own, told = slots[group[0]].param, intervals.get(slots[group[0]].key)
