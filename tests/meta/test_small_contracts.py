@@ -1,4 +1,4 @@
-"""What the author of a term or of a parameter declares stays few: what an algorithm needs is computed, or in a table."""
+"""What the author of a term or a parameter declares stays few: what an algorithm needs is computed, or in a table."""
 
 from dataclasses import fields
 
