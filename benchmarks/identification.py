@@ -26,13 +26,13 @@ from lostmotion.inference.fit import Fit, maximise
 from lostmotion.inference.setup import choose_steps, find_modes, make_posterior, polish_modes
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.posterior import Posterior
-from lostmotion.likelihood.reference import Reference
 from lostmotion.likelihood.space import RANDOM
 from lostmotion.likelihood.system import System
 from studies import TRUE, case_of, system_of
 
 from cramer_rao import bounds  # isort: skip - beside the tests, as `studies` has made known
 from independent import Machine, Recording, recording  # isort: skip
+from reference import Reference  # isort: skip
 
 LEVELS = {"periodic, 1/alpha 2.6": 200.0 / 2.6, "periodic, 1/alpha 4.1": 200.0 / 4.1, "chaotic": 100.0}
 """Amplitudes of the force (N) on Case 1."""

@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(ROOT / "tests" / "science"))
+sys.path[:0] = [str(ROOT / "tests" / "science"), str(ROOT / "tests" / "framework")]
 
 from truths import FORCE, FRICTION, TRUE, case_of, observation_of, system_of  # noqa: E402 - they lie beside the tests
 

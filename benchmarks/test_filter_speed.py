@@ -7,12 +7,12 @@ import math
 
 import numpy as np
 import pytest
+from reference import Reference
 
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.lanes import Lanes
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.points import Points, SensorNoises
-from lostmotion.likelihood.reference import Reference
 from lostmotion.likelihood.system import System
 from lostmotion.noises import NoiseBlock
 from lostmotion_plugins.models.lin import LinBacklash

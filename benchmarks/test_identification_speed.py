@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from reference import Reference
 
 from identification import Machine, fitted, measured, posed
-from lostmotion.likelihood.reference import Reference
 from yardstick import ratio_of
 
 LEAST = 500.0

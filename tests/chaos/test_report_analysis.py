@@ -17,7 +17,6 @@ from lostmotion.errors import DataError
 from lostmotion.report.words import power_of_ten, shorten
 from lostmotion_chaos.analysis.report.measures import convert_to_natural
 from lostmotion_chaos.analysis.report.page import SECTIONS, render, write_analysis
-from lostmotion_chaos.analysis.report.summary import save_summary
 from lostmotion_chaos.analysis.report.tables import make_estimate_row, name_verdict, split_opening
 from lostmotion_chaos.analysis.report.view import read_analysis
 from lostmotion_chaos.results import DrivePeriod, Measure, Sign
@@ -246,13 +245,6 @@ def test_ticks_and_cut_words():
     assert [power_of_ten(v) for v in (1.0, 1e-5, 2e-5, 10.0, 1e6)] == ["1", "10⁻⁵", "2·10⁻⁵", "10¹", "10⁶"]
     assert shorten("a  b\nc", 10) == "a b c"
     assert shorten("abcdefgh", 4) == "abc…"
-
-
-@pytest.mark.parametrize("kind", list(made.KINDS))
-def test_summary_is_one_small_picture(folders, kind):
-    picture = save_summary(folders[kind])
-    assert picture == folders[kind] / "summary.png"
-    assert 5_000 < picture.stat().st_size < 250_000
 
 
 def test_facts_are_those_of_the_contract(folders, whole):

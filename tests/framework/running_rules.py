@@ -16,13 +16,13 @@ from functools import cache
 from typing import Any
 
 import numpy as np
+from reference import Reference
 
 from lostmotion.contracts import Array, Interface, Model, Param, Term, Values
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.innovations import Innovations
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.points import Points, SensorNoises
-from lostmotion.likelihood.reference import Reference
 from lostmotion.likelihood.running import Random, RunningSystem
 from lostmotion.likelihood.sensors import Sensor
 from lostmotion.likelihood.system import System

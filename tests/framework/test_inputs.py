@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from reference import Reference
 
 from lostmotion.contracts import Assembly
 from lostmotion.errors import ContractError, DataError
@@ -13,7 +14,6 @@ from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.lanes import Lanes
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.posterior import Posterior
-from lostmotion.likelihood.reference import Reference
 from lostmotion.likelihood.space import RANDOM, FreeParameter, ParameterSpace, Scales
 from lostmotion.likelihood.system import Clock, System
 from lostmotion.noises import NOISE

@@ -39,7 +39,7 @@ def asked(x, v):
     """Return what a diagnosis asks of a force along a motion in a gap of 5 mm."""
     model = default().make("model", "lin_backlash")
     observation = Observation.of("seen", x, np.cos(2.0 * np.pi * np.arange(SAMPLES) / PERIOD)[:, None], DT, "position")
-    missing = LatentForce(np.zeros(SAMPLES), np.zeros(SAMPLES), np.stack([x, v], axis=1), 0.0, 0.0, 0.0)
+    missing = LatentForce(np.zeros(SAMPLES), np.zeros(SAMPLES), np.stack([x, v], axis=1), 0.0, 0.0)
     table = list_covariates(model, observation, missing)
     return table, {k: Covariate((c,)) for k, c in table.items()} | list_further_covariates(
         model, observation, missing, {"ground": 0.005}
@@ -125,7 +125,7 @@ def two_places(force, rng):
     model = default().make("model", "robot_joint")
     observation = Observation.of("seen", x, inputs, DT, "position")
     made = force(x - base, v - inputs[:, 1]) + 0.3 * smoothed_noise(rng)
-    missing = LatentForce(made, np.zeros(SAMPLES), np.stack([x, v], axis=1), 0.0, 0.0, 0.0)
+    missing = LatentForce(made, np.zeros(SAMPLES), np.stack([x, v], axis=1), 0.0, 0.0)
     return locate(model, observation, missing, plays={"base": 0.005}, rng=rng)
 
 

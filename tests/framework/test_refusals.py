@@ -127,7 +127,7 @@ def test_a_term_without_a_finite_force_is_refused():
 def test_a_filter_that_ran_away_is_no_diagnosis(size):
     system = oscillator()
     observation = Observation.of("seen", np.zeros(4), np.zeros((4, 1)), 0.1, "position")
-    missing = LatentForce(np.full(4, size), np.zeros(4), np.zeros((4, 2)), 0.0, 0.0, 0.0)
+    missing = LatentForce(np.full(4, size), np.zeros(4), np.zeros((4, 2)), 0.0, 0.0)
     with pytest.raises(DataError, match=r"^seen: the model cannot follow this recording"):
         locate(system.model, observation, missing)
 

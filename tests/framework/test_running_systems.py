@@ -7,9 +7,9 @@ from functools import partial
 import numpy as np
 import pytest
 import running_rules as rules
+from reference import Reference
 
 from lostmotion.likelihood.lanes import Lanes
-from lostmotion.likelihood.reference import Reference
 
 SLOW = [pytest.param(partial(Lanes, compiled=False), marks=pytest.mark.slow, id="twin"),
         pytest.param(Reference, marks=pytest.mark.slow, id="reference")]  # fmt: skip

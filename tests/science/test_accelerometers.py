@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from made_facts import make_facts
+from reference import Reference
 from scipy.stats import binom
 
 from lostmotion.diagnosis.gather_facts import find_position
@@ -20,7 +21,6 @@ from lostmotion.inference.setup import choose_steps, compute_scales, make_poster
 from lostmotion.inference.unseen import smooth_body_position
 from lostmotion.likelihood.noise_levels import compute_usual_level
 from lostmotion.likelihood.observation import Observation, window_force
-from lostmotion.likelihood.reference import Reference
 from lostmotion.likelihood.space import RANDOM
 from lostmotion.likelihood.system import System
 from lostmotion.noises import NOISE

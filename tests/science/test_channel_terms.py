@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from explained import explain
+from reference import Reference
 
 from lostmotion.inference.fit import maximise
 from lostmotion.inference.setup import make_noise_levels
@@ -17,7 +18,6 @@ from lostmotion.likelihood.drive import DriveHarmonic
 from lostmotion.likelihood.lanes import Lanes
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.posterior import Posterior
-from lostmotion.likelihood.reference import Reference
 from lostmotion.likelihood.space import FreeParameter, ParameterSpace, Scales
 from lostmotion.likelihood.system import System
 from lostmotion_plugins.models.basic import LinearOscillator

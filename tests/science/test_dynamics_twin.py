@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from model_steps import step_model
 
 from lostmotion.case import Prior
 from lostmotion.inference.setup import make_posterior
-from lostmotion.likelihood.model_steps import step_model
 from lostmotion.likelihood.stepped import SteppedSystem, make_system
 from lostmotion.likelihood.steps import Steps
 from lostmotion.likelihood.tangents import linearise_filter

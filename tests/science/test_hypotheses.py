@@ -96,16 +96,6 @@ def test_profiling_is_the_regression_on_the_own_coordinates():
     assert gradient == pytest.approx(-residuals @ expansion.here.errors, rel=1e-6, abs=1e-9)
 
 
-def test_the_cosine_of_two_blocks_is_one_where_no_data_can_tell_them_apart():
-    rng = np.random.default_rng(2)
-    a = rng.standard_normal(400)
-    b = rng.standard_normal(400)
-    errors = np.stack([rng.standard_normal(400), a, 3.0 * a + 1e-6 * b, b])
-    assert make_expansion(errors).compute_cosine("a", "b") == pytest.approx(1.0, abs=1e-6)
-    apart = make_expansion(np.stack([errors[0], a, b, rng.standard_normal(400)]))
-    assert apart.compute_cosine("a", "b") < 0.3
-
-
 def test_the_scatter_of_independent_scores_is_one_and_that_of_correlated_ones_is_larger():
     rng = np.random.default_rng(4)
     slopes = rng.standard_normal((24, 8000))

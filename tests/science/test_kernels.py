@@ -8,13 +8,13 @@ from itertools import product
 import numpy as np
 import pytest
 from independent import Machine, lin_oscillator, recording
+from reference import Reference
 
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.innovations import Smoothed
 from lostmotion.likelihood.lanes import Lanes
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.points import Points, SensorNoises
-from lostmotion.likelihood.reference import Reference
 from lostmotion.likelihood.sensors import Sensor
 from lostmotion.likelihood.system import Clock, System
 from lostmotion.noises import AR1, NoiseBlock, White

@@ -9,7 +9,6 @@ section 7.1).
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -38,16 +37,6 @@ def compute_block_scores(fit: Fit, piece: HeldOutStretch) -> Array:
     """
     parts = np.array_split(_compute_log_densities(fit, piece, _draw_near(fit)), BLOCKS, axis=1)
     return np.array([_average(np.sum(part, axis=1)) / part.shape[1] for part in parts if part.shape[1]])
-
-
-def score_heldout(fit: Fit, pieces: Sequence[HeldOutStretch]) -> float:
-    """Return the log density of all held-out data: that at the maximum, or the mean over the posterior if larger.
-
-    The mean over a few draws is too small for a model with many parameters. It is minus infinity if a filter diverges.
-    """
-    thetas = _draw_near(fit)
-    total = sum(np.sum(_compute_log_densities(fit, piece, thetas), axis=1) for piece in pieces)
-    return max(float(total[0]), _average(total))
 
 
 def _average(log_densities: Array) -> float:

@@ -281,7 +281,7 @@ def find_quantised(fit: Fit, observations: Sequence[Observation]) -> dict[str, t
 
 
 _EMPTY = np.zeros(0)
-_NOT_LOCATED = ForceLocation(LatentForce(_EMPTY, _EMPTY, np.zeros((0, 2)), 0.0, 0.0, 0.0), {}, {}, "")
+_NOT_LOCATED = ForceLocation(LatentForce(_EMPTY, _EMPTY, np.zeros((0, 2)), 0.0, 0.0), {}, {}, "")
 
 
 def _locate_forces(bare: SearchResult, rng: np.random.Generator) -> SearchResult:

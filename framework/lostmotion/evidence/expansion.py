@@ -124,16 +124,6 @@ class Expansion:
             return 1.0
         return max(1.0, float(np.median(sums.var(axis=0)[told] * BLOCKS / stated[told])))
 
-    def compute_cosine(self, one: str, other: str) -> float:
-        """Return the cosine between the effects of two blocks on one-step errors: 1 where no data can tell them apart.
-
-        It is the largest canonical correlation of the two blocks in the metric of the information.
-        """
-        rows, columns = self.list_indices(one), self.list_indices(other)
-        whitened = [_compute_inverse_root(self.information[np.ix_(i, i)]) for i in (rows, columns)]
-        cross = whitened[0].T @ self.information[np.ix_(rows, columns)] @ whitened[1]
-        return float(min(np.linalg.svd(cross, compute_uv=False)[0], 1.0)) if cross.size else 0.0
-
 
 def differentiate_density(here: Innovations) -> tuple[Array, Array]:
     """Return the derivatives (readings,) of the log-likelihood over one-step errors and over their variances."""
@@ -169,10 +159,3 @@ def compute_log_evidence(gradient: Array, information: Array, widths: Array) -> 
         return -math.inf
     pulled = dtrtrs(lower, d * gradient[used], lower=1)[0]
     return 0.5 * float(pulled @ pulled) - float(np.sum(np.log(np.diag(lower))))
-
-
-def _compute_inverse_root(information: Array) -> Array:
-    """Return a matrix R (n, k) with R' H R = I on the directions in which there is information."""
-    values, vectors = np.linalg.eigh(information)
-    kept = values > 1e-10 * max(values[-1], 1e-300)
-    return np.asarray(vectors[:, kept] / np.sqrt(values[kept]))

@@ -57,7 +57,6 @@ MUTE = 1e-6
 """An amplitude of typical size with less information than this has no effect while the others are zero."""
 
 
-Shapes = Mapping[str, Sequence[Mapping[str, float]]]
 """The values of shape parameters that are tried in addition to the usual ones, by key of the term."""
 
 

@@ -28,8 +28,8 @@ class LatentForce:
     `states` (samples, n) are the smoothed states of model and terms.
 
     `share` is its prior standard deviation in units of the drive and `time` its correlation time in s, both chosen by
-    the likelihood; `log_gain` is its gain in log-likelihood over a latent force of `SHARES[0]`. `levers` are those of
-    `System.lever` by place; `body` are the states that are position and velocity of the first body.
+    the likelihood. `levers` are those of `System.lever` by place; `body` are the states that are position and velocity
+    of the first body.
     """
 
     force: Array
@@ -37,7 +37,6 @@ class LatentForce:
     states: Array
     share: float
     time: float
-    log_gain: float
     levers: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
     body: tuple[int, int] = (0, 1)
 
@@ -63,17 +62,14 @@ def smooth_latent_force(posterior: Posterior, theta: Array, index: int = 0) -> L
     step = single.observations[0].dt / posterior.scales.time
     grid = [(s, p) for p in PACES if p == min(PACES) or p * step < FASTEST for s in SHARES]
     forced, thetas = _add_force(single, theta, grid)
-    heights = forced.log_likelihood(thetas)
-    best = int(np.argmax(heights))
+    best = int(np.argmax(forced.log_likelihood(thetas)))
     seen = forced.filters[0].smooth(thetas[best])
-    base = min(h for (s, _), h in zip(grid, heights, strict=True) if s == SHARES[0])
     sd = np.sqrt(np.maximum(seen.covariance[:, -1, -1], 0.0))
     share, pace = grid[best]
-    gain = float(heights[best] - base)
     full, places = single.recordings[0].full(theta), posterior.system.model.places
     levers = {place.name: posterior.system.lever(full, place) for place in places}
     time, body = posterior.scales.time / pace, posterior.system.model.first_body
-    return LatentForce(seen.states[:, -1], sd, seen.states[:, :-1], share, time, gain, levers, body)
+    return LatentForce(seen.states[:, -1], sd, seen.states[:, :-1], share, time, levers, body)
 
 
 def smooth_expected_force(posterior: Posterior, theta: Array, index: int = 0) -> tuple[Array, Array]:

@@ -32,7 +32,7 @@ class RunningSystem(ABC):
 
     A random force acts on each body; one with a memory (`latent`) on the first body alone. With `held` and `latent`
     each force is a state of its own, after those of model and terms. The methods are thread-safe. A point that diverges
-    raises no error: `Innovations.of` marks it, as in `likelihood.reference`.
+    raises no error: `Innovations.of` marks it, with the status of the filter.
     """
 
     system: System

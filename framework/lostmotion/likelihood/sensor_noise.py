@@ -51,11 +51,6 @@ def list_levels(noise: Noise) -> tuple[NoiseParameter, ...]:
     return noise.parameters(_ANY)
 
 
-def find_noise_of(sensor: Sensor, level: str) -> tuple[Noise, NoiseParameter] | None:
-    """Return the noise of a sensor that has a parameter of this name, and the parameter."""
-    return next(((n, one) for n in sensor.noises for one in list_levels(n) if one.name == level), None)
-
-
 def read_values(sensor: Sensor, read: Callable[[str], Array]) -> list[Array]:
     """Return for each noise of a sensor its parameters (points, parameters); `read` returns a logarithm by its name."""
     rows = [[np.exp(read(level.name)) for level in list_levels(noise)] for noise in sensor.noises]
