@@ -57,7 +57,7 @@ def test_workers_that_are_killed_in_the_middle_of_a_trial_lose_nothing(workers, 
 
 
 def conceal(out, cluster=""):
-    blind = Blind(seed=4, most=600, world="imperfect")
+    blind = Blind(seed=4, most=600)
     steps = TrialSteps(out, 2, 1, lambda *_: {"seed": 4}, cluster=cluster)
     return steps.run("conceal", partial(conceal_case, blind, out), ConcealedCase, {})
 

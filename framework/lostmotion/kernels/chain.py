@@ -13,10 +13,10 @@ from __future__ import annotations
 
 import math
 
-import numba
 import numpy as np
 
 from lostmotion.kernels.joint_laws import average_laws, clip_moments
+from lostmotion.kernels.stored import stored
 from lostmotion.kernels.vector import STRIDE
 
 STEEP = 0.01
@@ -25,7 +25,7 @@ RUNAWAY = 1e6
 """A velocity (SI) that no machine reaches: the filter has diverged."""
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@stored(nogil=True, error_model="numpy")
 def filter_chain(  # type: ignore[no-untyped-def]
     z, picks, dt, coarse, fine, inverses, Kq, KV, h, q0, v0, tau, S, R, motors, gears, joints, addresses, firsts,
     widths, needs, numbers, begin, x0, P0, errors, variances, states, accelerations, gains, moves, pushes,
@@ -299,7 +299,7 @@ def filter_chain(  # type: ignore[no-untyped-def]
     return N
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@stored(nogil=True, error_model="numpy")
 def differentiate_errors(picks, gains, moves, pushes, links, drives, begins, shifts, found):  # type: ignore[no-untyped-def]
     """Write the derivatives of one-step errors with respect to coefficients of forces into `found`.
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import numba
 import numpy as np
 
 from lostmotion.kernels import vector
+from lostmotion.kernels.stored import stored
 from lostmotion.kernels.vector import STRIDE
 
 pointer: Any = vector.pointer
@@ -22,7 +22,7 @@ MANY, MANY_SHARES = _MANY[0], _MANY[1] / _MANY[1].sum()
 _RT2, _RT2PI = math.sqrt(2.0), math.sqrt(2.0 * math.pi)
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@stored(nogil=True, error_model="numpy")
 def clip_moments(m, s, c):  # type: ignore[no-untyped-def]
     """Return mean, slope and remaining variance of clip(d, -c, c) for d of mean `m` and standard deviation `s`."""
     a, b = (-c - m) / s, (c - m) / s
@@ -39,7 +39,7 @@ def clip_moments(m, s, c):  # type: ignore[no-untyped-def]
     return mean, p, max(square - mean * mean - p * p * s * s, 0.0)
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@stored(nogil=True, error_model="numpy")
 def average_laws(t, q, v, sq, sv, j, mobility, step, joints, addresses, firsts, widths, needs, numbers, own, desk):  # type: ignore[no-untyped-def]
     """Return the mean force of the laws of a joint, its slopes over position and velocity, and its variance."""
     spread = 6.0 * sv
@@ -90,7 +90,7 @@ def average_laws(t, q, v, sq, sv, j, mobility, step, joints, addresses, firsts, 
     return mean, slant, slope, max(square - mean * mean - slope * slope * sv * sv, 0.0)
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@stored(nogil=True, error_model="numpy")
 def evaluate_law(address, numbers, t, q, v, found):  # type: ignore[no-untyped-def]
     """Write the force of a law with all its `numbers` at times, positions and velocities (samples,) into `found`."""
     own, desk = np.zeros((16, STRIDE)), np.zeros((8, STRIDE))

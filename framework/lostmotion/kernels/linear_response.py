@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-import numba
 import numpy as np
 
+from lostmotion.kernels.stored import stored
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+
+@stored(nogil=True, error_model="numpy")
 def respond(steps, ahead, slopes, spread, transition, driving, first, dt, rates, seen):  # type: ignore[no-untyped-def]
     """Return the derivatives (count, samples, sensors) of one-step errors with respect to some small changes.
 

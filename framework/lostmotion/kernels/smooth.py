@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
+
+from lostmotion.kernels.stored import stored
 
 Array = NDArray[np.float64]
 SURE = 1e-9
@@ -31,7 +32,7 @@ def smooth(seen_states: Array, seen_cov: Array, ahead_states: Array, ahead_cov: 
     return states, cov
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@stored(nogil=True, error_model="numpy")
 def _sweep_back(states, cov, ahead_states, ahead_cov, gains, work):  # type: ignore[no-untyped-def]
     """Correct the filtered states by all later samples; `gains` (samples - 1, n, n) are transposed."""
     samples, n = states.shape

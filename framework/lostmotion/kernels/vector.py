@@ -19,6 +19,8 @@ from numba.core import cgutils
 from numba.core.typing.templates import AbstractTemplate, infer_global, signature
 from numba.extending import intrinsic, lower_builtin, models, register_model
 
+from lostmotion.kernels.stored import stored
+
 WIDTH = 8
 """Points in one vector of a kernel."""
 STRIDE = 32
@@ -31,7 +33,7 @@ INNER: dict[str, Any] = {**BARE, "no_cpython_wrapper": True, "no_cfunc_wrapper":
 
 jit = numba.njit(**INNER)
 """Compiles a function of a kernel that other compiled functions call."""
-whole = numba.njit(**BARE, cache=True)
+whole = stored(**BARE)
 """Compiles a kernel that Python calls; it is cached on disk."""
 
 

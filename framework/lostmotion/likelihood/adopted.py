@@ -13,7 +13,6 @@ import hashlib
 import math
 import os
 import sys
-import tempfile
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from types import CodeType, FunctionType, ModuleType
@@ -24,6 +23,7 @@ import numpy as np
 
 from lostmotion.errors import ContractError
 from lostmotion.kernels import elementary
+from lostmotion.kernels.stored import make_cache_folders
 from lostmotion.kernels.vector import BARE
 
 Code = Callable[..., Any]
@@ -94,23 +94,11 @@ _MATH = ModuleType("math")
 _MATH.__dict__.update({name: elementary.QUICK.get(f, f) if callable(f) else f for name, f in vars(math).items()})
 
 
-def list_cache_folders() -> tuple[Path, ...]:
-    """Return the folders in which compiled kernels may be cached, in order of preference."""
-    home = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "lostmotion"
-    spare = Path(tempfile.gettempdir()) / f"lostmotion-{Path.home().name}"
-    return (Path(os.environ["LOSTMOTION_CACHE"]), spare) if "LOSTMOTION_CACHE" in os.environ else (home, spare)
-
-
 def store_text(text: str, also: str = "") -> Path:
     """Return the file that holds `text`; its name changes with the text, with `also`, and with numba."""
     key = hashlib.sha256(f"{text}{also}{numba.__version__}{sys.version_info[:2]}{BARE}".encode()).hexdigest()[:24]
-    for folder in list_cache_folders():
+    for folder in make_cache_folders():
         try:
-            folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-            if (
-                hasattr(os, "getuid") and folder.stat().st_uid != os.getuid()
-            ):  # what others have left there would be run
-                continue
             path = folder / f"lostmotion_kernel_{key}.py"
             if not path.exists():
                 fresh = path.with_suffix(f".{os.getpid()}.tmp")

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 
+from lostmotion.kernels.stored import stored
 
-@numba.njit(cache=True, nogil=True)
+
+@stored(nogil=True)
 def sort_points(first, second, size, low, shape):  # type: ignore[no-untyped-def]
     """Return the order (n,) of points by box, and offsets (boxes + 1,) of the boxes, row by row.
 
@@ -31,7 +32,7 @@ def sort_points(first, second, size, low, shape):  # type: ignore[no-untyped-def
     return order, offsets
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy", fastmath={"reassoc", "nsz", "contract"})
+@stored(nogil=True, error_model="numpy", fastmath={"reassoc", "nsz", "contract"})
 def average_neighbours(points, values, radius, offsets, shape, rows, out):  # type: ignore[no-untyped-def]
     """Write into `out` (n,) the mean of `values` over the point and its neighbours within `radius` (maximum norm).
 
@@ -52,7 +53,7 @@ def average_neighbours(points, values, radius, offsets, shape, rows, out):  # ty
                 out[i] = values[i] + total / count
 
 
-@numba.njit(cache=True, nogil=True, fastmath={"reassoc", "nsz", "contract"})
+@stored(nogil=True, fastmath={"reassoc", "nsz", "contract"})
 def _sum_neighbours(points, values, i, begin, end, radius, dim):  # type: ignore[no-untyped-def]
     """Return the sum of values minus that of point i, and the number, of the points begin..end within `radius` of i.
 

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
+
+from lostmotion.kernels.stored import stored
 
 SQUARINGS = 7
 """Number of times a matrix is squared: two eigenvalues that differ by 5 % then have a ratio of 500."""
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def find_neighbours(points, i, radius, offsets, shape, home, found):  # type: ignore[no-untyped-def]
     """Write into `found` which points (n, dim), sorted by box, lie within `radius` of point i; return their number."""
     dim, count = points.shape[1], 0
@@ -26,7 +27,7 @@ def find_neighbours(points, i, radius, offsets, shape, home, found):  # type: ig
     return count
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def fill_neighbourhoods(points, order, radius, offsets, shape, rows, least, members, sizes):  # type: ignore[no-untyped-def]
     """Write into `members` (n, most) the neighbours of points that have none yet and at least `least` within `radius`.
 
@@ -52,7 +53,7 @@ def fill_neighbourhoods(points, order, radius, offsets, shape, rows, least, memb
             sizes[own] = used
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@stored(nogil=True, error_model="numpy")
 def project(x, dim, keep, members, sizes, span, correction):  # type: ignore[no-untyped-def]
     """Write into `correction` (n, dim - 2) the part of each window outside of the subspace of its neighbours.
 
@@ -74,7 +75,7 @@ def project(x, dim, keep, members, sizes, span, correction):  # type: ignore[no-
         correction[i] = rest
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@stored(nogil=True, error_model="numpy")
 def remove_means(members, sizes, correction, span, out):  # type: ignore[no-untyped-def]
     """Write into `out` (n, k) the corrections minus their mean over the neighbourhood, which is due to curvature."""
     for i in range(span[0], span[1]):
@@ -85,7 +86,7 @@ def remove_means(members, sizes, correction, span, out):  # type: ignore[no-unty
             out[i, k] = correction[i, k] - total / sizes[i]
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@stored(nogil=True, error_model="numpy")
 def compute_covariance(x, members, mean, matrix):  # type: ignore[no-untyped-def]
     """Write mean (dim,) and covariance (dim, dim) of the windows of `x` that begin at `members`."""
     dim, many = len(mean), len(members)
@@ -106,7 +107,7 @@ def compute_covariance(x, members, mean, matrix):  # type: ignore[no-untyped-def
             matrix[m, k] = matrix[k, m]
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@stored(nogil=True, error_model="numpy")
 def regress_on_ends(matrix, slopes, inside):  # type: ignore[no-untyped-def]
     """Write the regression of the inner samples on the ends, `slopes` (dim - 2, 2), and the residual covariance."""
     end = len(matrix) - 1
@@ -123,7 +124,7 @@ def regress_on_ends(matrix, slopes, inside):  # type: ignore[no-untyped-def]
             inside[k, m] = matrix[k + 1, m + 1] - ends
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@stored(nogil=True, error_model="numpy")
 def remove_widest_axis(inside, power, room, rest):  # type: ignore[no-untyped-def]
     """Remove the widest axis of the covariance `inside` (k, k) from it and from the vector `rest` (k,)."""
     k = len(rest)
@@ -156,7 +157,7 @@ def remove_widest_axis(inside, power, room, rest):  # type: ignore[no-untyped-de
             inside[a, b] -= width * axis[a] * axis[b] / (size * size)
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def square_matrix(matrix, out):  # type: ignore[no-untyped-def]
     """Write the product of a symmetric matrix (k, k) with itself into `out`."""
     k = len(matrix)

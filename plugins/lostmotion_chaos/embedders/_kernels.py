@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 
-import numba
 import numpy as np
 
+from lostmotion.kernels.stored import stored
 from lostmotion_chaos.kernels.seek import seek
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def _count_pairs(codes, bins, lag, counts):  # type: ignore[no-untyped-def]
     """Fill counts (2, bins * bins) with the pairs (x(t), x(t + lag)).
 
@@ -28,7 +28,7 @@ def _count_pairs(codes, bins, lag, counts):  # type: ignore[no-untyped-def]
         first[codes[i] * bins + codes[i + lag]] += 1
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def _sum_entropies(counts, bins, table, rows, columns):  # type: ignore[no-untyped-def]
     """Return the sums of c ln c over all cells and over the margins, and how many more cells than margins are filled.
 
@@ -52,7 +52,7 @@ def _sum_entropies(counts, bins, table, rows, columns):  # type: ignore[no-untyp
     return total, margins, extra
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def fill_binned(codes, bins, begin, end, table, ami, bias):  # type: ignore[no-untyped-def]
     """Fill `ami` and `bias` (nats) at the lags begin..end; `table` holds c ln c for all counts c."""
     counts = np.empty((2, bins * bins), np.int32)
@@ -65,7 +65,7 @@ def fill_binned(codes, bins, begin, end, table, ami, bias):  # type: ignore[no-u
         bias[lag] = extra / (2.0 * pairs)
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def compute_scatter(codes, bins, lag):  # type: ignore[no-untyped-def]
     """Return the standard error (nats) of the mutual information at a lag, as if the pairs were independent."""
     counts = np.empty((2, bins * bins), np.int32)
@@ -86,7 +86,7 @@ def compute_scatter(codes, bins, lag):  # type: ignore[no-untyped-def]
     return math.sqrt(max(second - first * first, 0.0) / (len(codes) - lag))
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def _expect_poisson(rate):  # type: ignore[no-untyped-def]
     """Return the expectation of c ln c, and of c > 0, for a Poisson count c with this rate."""
     if rate > 50.0:
@@ -99,7 +99,7 @@ def _expect_poisson(rate):  # type: ignore[no-untyped-def]
     return mean, 1.0 - empty
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def expect_by_chance(margin, corrected):  # type: ignore[no-untyped-def]
     """Return the mutual information (nats) expected of independent pairs with counts `margin` (bins,) on both axes.
 
@@ -121,7 +121,7 @@ def expect_by_chance(margin, corrected):  # type: ignore[no-untyped-def]
     return found - extra / (2.0 * pairs) if corrected else found
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def _count_closer(ordered, here, reach):  # type: ignore[no-untyped-def]
     """Return how many of the sorted values differ from `here` by less than `reach`."""
     low = np.searchsorted(ordered, here - reach, side="left")
@@ -137,7 +137,7 @@ def _count_closer(ordered, here, reach):  # type: ignore[no-untyped-def]
     return high - low
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def fill_gains(tree, axes, queries, k, psi, work, gained):  # type: ignore[no-untyped-def]
     """Fill gained (q,) with psi(k) + psi(n) - psi(n_x + 1) - psi(n_y + 1) at each query; `psi[c]` is that of c."""
     first, second = axes

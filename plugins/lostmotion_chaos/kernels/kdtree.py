@@ -11,9 +11,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
+
+from lostmotion.kernels.stored import stored
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -41,7 +42,7 @@ class Tree(NamedTuple):
 SAME = -(2**62)
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def _select(keys, order, begin, end, middle):  # type: ignore[no-untyped-def]
     """Sort keys and order between begin and end in part: none before `middle` is larger than any after it."""
     low, high = begin, end - 1
@@ -66,7 +67,7 @@ def _select(keys, order, begin, end, middle):  # type: ignore[no-untyped-def]
             return
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def _compute_bounds(points, order, begin, end, box):  # type: ignore[no-untyped-def]
     """Write the tight bounds of some points into `box` (2, dim), and return the widest dimension and its width."""
     dim = points.shape[1]
@@ -85,7 +86,7 @@ def _compute_bounds(points, order, begin, end, box):  # type: ignore[no-untyped-
     return widest, box[1, widest] - box[0, widest]
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def _choose_cut(keys, order, begin, end):  # type: ignore[no-untyped-def]
     """Reorder between begin and end and return where to cut, near the middle, with equal keys on one side of it.
 
@@ -109,7 +110,7 @@ def _choose_cut(keys, order, begin, end):  # type: ignore[no-untyped-def]
     return low if low > begin and (middle - low <= high - middle or high == end) else high
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def _enlarge(array, rows):  # type: ignore[no-untyped-def]
     """Return an array of twice as many rows that begins with the old ones (a loop: slices compile slowly)."""
     grown = np.empty((2 * rows, *array.shape[1:]), array.dtype)
@@ -119,7 +120,7 @@ def _enlarge(array, rows):  # type: ignore[no-untyped-def]
     return grown
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def _divide_nodes(points, order):  # type: ignore[no-untyped-def]
     """Return span, link, axis and box of all nodes and the number of buckets; `order` is sorted by node."""
     n, dim = points.shape
@@ -152,7 +153,7 @@ def _divide_nodes(points, order):  # type: ignore[no-untyped-def]
     return span[:nodes].copy(), link[:nodes, 0].copy(), link[:nodes, 1].copy(), box[:nodes].copy(), buckets
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def _fill_leaves(points, order, span, link, ages, buckets):  # type: ignore[no-untyped-def]
     """Fill `ages` from the leaves up, and `buckets` (buckets, dim, BUCKET), padded with infinity."""
     for a in range(len(span) - 1, -1, -1):
@@ -169,7 +170,7 @@ def _fill_leaves(points, order, span, link, ages, buckets):  # type: ignore[no-u
                     buckets[-1 - link[a], k, p - begin] = points[order[p], k]
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def build_tree(points):  # type: ignore[no-untyped-def]
     """Return the arrays of the tree of `points` (n, dim), n >= 1: order, span, link, axis, ages, box, buckets."""
     n, dim = points.shape

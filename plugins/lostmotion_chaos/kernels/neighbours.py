@@ -10,11 +10,11 @@ from __future__ import annotations
 
 from typing import Literal
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.errors import DataError
+from lostmotion.kernels.stored import stored
 from lostmotion.kernels.threads import spread
 from lostmotion_chaos.kernels.kdtree import Tree, build_tree
 from lostmotion_chaos.kernels.seek import LEAN, apart, bench, collect, seek
@@ -126,7 +126,7 @@ def _select_queries(tree: Tree, queries: Indices | None) -> Indices:
     return np.arange(len(tree.points)) if queries is None else np.ascontiguousarray(queries, dtype=np.int64)
 
 
-@numba.njit(**LEAN)
+@stored(**LEAN)
 def _bound_distance(points, i, j, law):  # type: ignore[no-untyped-def]
     """Return the distance of j from i if j is admissible as its neighbour, else infinity."""
     theiler, least, euclidean = law
@@ -136,7 +136,7 @@ def _bound_distance(points, i, j, law):  # type: ignore[no-untyped-def]
     return far if far > least else np.inf
 
 
-@numba.njit(**LEAN)
+@stored(**LEAN)
 def _search_nearest(tree, wanted, hints, law, index, distance, work):  # type: ignore[no-untyped-def]
     """Fill index and distance (q,); in a continuous flow the successor of the last neighbour gives a bound."""
     last, before = -1, -2
@@ -149,14 +149,14 @@ def _search_nearest(tree, wanted, hints, law, index, distance, work):  # type: i
         last, before = index[a], i
 
 
-@numba.njit(**LEAN)
+@stored(**LEAN)
 def _search_several(tree, wanted, law, index, distance, work):  # type: ignore[no-untyped-def]
     """Fill index and distance (q, k)."""
     for a in range(len(wanted)):
         seek(tree, wanted[a], law, np.inf, index[a], distance[a], work)
 
 
-@numba.njit(**LEAN)
+@stored(**LEAN)
 def _sort_by_marks(room, many, marks):  # type: ignore[no-untyped-def]
     """Sort the first `many` of `room`, all different, by marking and sweeping: fast where they are most points."""
     for p in range(many):
@@ -169,7 +169,7 @@ def _sort_by_marks(room, many, marks):  # type: ignore[no-untyped-def]
             marks[j] = False
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def _search_within(tree, wanted, law, radius, counts, work):  # type: ignore[no-untyped-def]
     """Fill counts (q,) and return the neighbours of all queries, one after the other, sorted for each query."""
     room = np.empty(len(tree.points), np.int64)

@@ -9,15 +9,14 @@ from __future__ import annotations
 
 from typing import Any
 
-import numba
 import numpy as np
 
+from lostmotion.kernels.stored import stored
 from lostmotion_chaos.kernels.kdtree import BUCKET, SAME, Array, Indices
 
 DEPTH = 128
 """Size of the stack of a search: twice the depth of any tree that fits in memory."""
 LEAN: dict[str, Any] = {
-    "cache": True,
     "nogil": True,
     "_nrt": False,
     "fastmath": {"nnan", "nsz"},
@@ -31,7 +30,7 @@ def bench() -> tuple[Indices, Array, Array]:
     return np.empty(DEPTH, np.int64), np.empty(DEPTH), np.empty(BUCKET)
 
 
-@numba.njit(**LEAN)
+@stored(**LEAN)
 def apart(points, i, j, euclidean):  # type: ignore[no-untyped-def]
     """Return the distance of two points; squared if `euclidean`."""
     far = 0.0
@@ -41,7 +40,7 @@ def apart(points, i, j, euclidean):  # type: ignore[no-untyped-def]
     return far
 
 
-@numba.njit(**LEAN)
+@stored(**LEAN)
 def _compute_gap(box, a, points, i, euclidean):  # type: ignore[no-untyped-def]
     """Return the distance of point i from the nearest point of box a, squared if `euclidean`."""
     far = 0.0
@@ -51,7 +50,7 @@ def _compute_gap(box, a, points, i, euclidean):  # type: ignore[no-untyped-def]
     return far
 
 
-@numba.njit(**LEAN)
+@stored(**LEAN)
 def _refine_gap(tree, a, i, euclidean, gap, bound):  # type: ignore[no-untyped-def]
     """Return the distance of point i from node a, at least `gap`; 0 is returned unchanged, unless it must be exact."""
     if gap > bound or (gap == 0.0 and tree.link[a] != SAME):
@@ -59,7 +58,7 @@ def _refine_gap(tree, a, i, euclidean, gap, bound):  # type: ignore[no-untyped-d
     return _compute_gap(tree.box, a, tree.points, i, euclidean)
 
 
-@numba.njit(**LEAN)
+@stored(**LEAN)
 def _compute_reach(box, a, points, i, euclidean):  # type: ignore[no-untyped-def]
     """Return the distance of point i from the farthest point of box a, squared if `euclidean`."""
     far = 0.0
@@ -69,7 +68,7 @@ def _compute_reach(box, a, points, i, euclidean):  # type: ignore[no-untyped-def
     return far
 
 
-@numba.njit(**LEAN)
+@stored(**LEAN)
 def _scan_bucket(buckets, b, points, i, euclidean, far):  # type: ignore[no-untyped-def]
     """Write the distances of bucket b from point i into `far` (BUCKET,), and return the smallest."""
     for p in range(BUCKET):
@@ -89,14 +88,14 @@ def _scan_bucket(buckets, b, points, i, euclidean, far):  # type: ignore[no-unty
     return least
 
 
-@numba.njit(**LEAN)
+@stored(**LEAN)
 def _is_beaten(d, j, index, distance, found):  # type: ignore[no-untyped-def]
     """Return whether a candidate at distance d, with index j or more, is not among the best."""
     k = len(index)
     return found == k and (d > distance[k - 1] or (d == distance[k - 1] and j > index[k - 1]))
 
 
-@numba.njit(**LEAN)
+@stored(**LEAN)
 def _insert(d, j, index, distance, found):  # type: ignore[no-untyped-def]
     """Insert a candidate among the `found` best so far, and return how many there are now."""
     if _is_beaten(d, j, index, distance, found):
@@ -111,7 +110,7 @@ def _insert(d, j, index, distance, found):  # type: ignore[no-untyped-def]
     return min(found + 1, len(index))
 
 
-@numba.njit(**LEAN)
+@stored(**LEAN)
 def _insert_repeats(tree, a, i, rules, d, best):  # type: ignore[no-untyped-def]
     """Insert the equal points of node a, which lie at distance d, as far as they are admissible."""
     index, distance, found = best
@@ -127,7 +126,7 @@ def _insert_repeats(tree, a, i, rules, d, best):  # type: ignore[no-untyped-def]
     return found
 
 
-@numba.njit(**LEAN)
+@stored(**LEAN)
 def _insert_bucket(tree, a, i, rules, bound, best, far):  # type: ignore[no-untyped-def]
     """Insert the admissible points of leaf a, and return how many have been found."""
     index, distance, found = best
@@ -143,7 +142,7 @@ def _insert_bucket(tree, a, i, rules, bound, best, far):  # type: ignore[no-unty
     return found
 
 
-@numba.njit(**LEAN)
+@stored(**LEAN)
 def _push_children(tree, a, i, euclidean, bound, stack):  # type: ignore[no-untyped-def]
     """Push the children of node a that are within the bound on the stack, the nearer on top; return its height.
 
@@ -168,7 +167,7 @@ def _push_children(tree, a, i, euclidean, bound, stack):  # type: ignore[no-unty
     return top
 
 
-@numba.njit(**LEAN)
+@stored(**LEAN)
 def _is_excluded(tree, a, i, rules, gap):  # type: ignore[no-untyped-def]
     """Return whether the rules exclude all points of node a, which is `gap` away."""
     theiler, least, euclidean = rules
@@ -177,7 +176,7 @@ def _is_excluded(tree, a, i, rules, gap):  # type: ignore[no-untyped-def]
     return least > 0.0 and gap <= least and _compute_reach(tree.box, a, tree.points, i, euclidean) <= least
 
 
-@numba.njit(**LEAN)
+@stored(**LEAN)
 def seek(tree, i, rules, bound, index, distance, work):  # type: ignore[no-untyped-def]
     """Write the k nearest neighbours of point i into `index` and `distance` (k,), and return how many were found.
 
@@ -210,7 +209,7 @@ def seek(tree, i, rules, bound, index, distance, work):  # type: ignore[no-untyp
     return found
 
 
-@numba.njit(**LEAN)
+@stored(**LEAN)
 def _is_all_wanted(tree, a, i, rules, radius, gap):  # type: ignore[no-untyped-def]
     """Return whether every point of node a is within the radius and the rules exclude none."""
     theiler, least, euclidean = rules
@@ -218,7 +217,7 @@ def _is_all_wanted(tree, a, i, rules, radius, gap):  # type: ignore[no-untyped-d
     return apart_in_time and gap > least and _compute_reach(tree.box, a, tree.points, i, euclidean) <= radius
 
 
-@numba.njit(**LEAN)
+@stored(**LEAN)
 def _pick_points(tree, a, i, rules, radius, found, many):  # type: ignore[no-untyped-def]
     """Append the admissible points of leaf a to `found`, and return how many there are now."""
     theiler, least, euclidean = rules
@@ -230,7 +229,7 @@ def _pick_points(tree, a, i, rules, radius, found, many):  # type: ignore[no-unt
     return many
 
 
-@numba.njit(**LEAN)
+@stored(**LEAN)
 def collect(tree, i, rules, radius, found, work):  # type: ignore[no-untyped-def]
     """Write all points no farther than `radius` from point i into `found` (n,), unsorted, and return how many."""
     nodes, gaps, _ = work

@@ -10,11 +10,13 @@ from __future__ import annotations
 import numba
 import numpy as np
 
+from lostmotion.kernels.stored import stored
+
 CODES = 256
 """The number of codes; those in use end at 241, which stands for the whole range."""
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def encode(grid, begin, lag, count, out):  # type: ignore[no-untyped-def]
     """Write the codes of |grid[i + lag] - grid[i]| for `count` values of i from `begin` into `out`."""
     for i in range(count):
@@ -47,7 +49,7 @@ def _tally(joint, count, part, m):  # type: ignore[no-untyped-def]
         part[m, 0, joint[i]] += 1
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def count_tile(grid, lag, span, lags, wanted, counts):  # type: ignore[no-untyped-def]
     """Add the pairs (i, i + k) of one tile, k in `lags`, to `counts` (dims, CODES): all dimensions in one pass.
 
@@ -79,7 +81,7 @@ def count_tile(grid, lag, span, lags, wanted, counts):  # type: ignore[no-untype
                 counts[m, code] += np.int64(part[m, four, code])
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def sort_cells(grid, lag, n, side, cells):  # type: ignore[no-untyped-def]
     """Return the points in the order of their cells (n,), and where each cell begins (cells^2 + 1,).
 
@@ -99,7 +101,7 @@ def sort_cells(grid, lag, n, side, cells):  # type: ignore[no-untyped-def]
     return order, begins
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def count_near(grid, lag, span, cells, order, begins, theiler, block, counts):  # type: ignore[no-untyped-def]
     """Add all pairs closer than the side of a cell, to `counts` (blocks, dims, CODES) by the block of the later point.
 

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import math
 
-import numba
 import numpy as np
+
+from lostmotion.kernels.stored import stored
 
 LOG, FAR, NEAR, COUNT = 0, 1, 2, 3
 """The sums of `follow`: logarithm of the distance, distance, share of pairs within the noise, number of references."""
 MANTISSA, ONE, ROOT = 0x000FFFFFFFFFFFFF, 0x3FF0000000000000, math.sqrt(2.0)
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def compute_square(points, i, j, flow):  # type: ignore[no-untyped-def]
     """Return the squared distance of two points; with `flow` only the part perpendicular to the mean motion.
 
@@ -29,7 +30,7 @@ def compute_square(points, i, j, flow):  # type: ignore[no-untyped-def]
     return max(total - along * along / speed, 0.0) if speed > 0.0 else total
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def _insert(found, far, j, d):  # type: ignore[no-untyped-def]
     """Insert j with the distance d into the sorted lists and drop the farthest entry."""
     p = len(found) - 1
@@ -41,7 +42,7 @@ def _insert(found, far, j, d):  # type: ignore[no-untyped-def]
     found[p] = j
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def find_same_phase(points, wanted, phase, found, skipped):  # type: ignore[no-untyped-def]
     """Fill `found` (q, k) with the nearest points that lie whole drive periods away, to half a sample.
 
@@ -67,7 +68,7 @@ def find_same_phase(points, wanted, phase, found, skipped):  # type: ignore[no-u
                 _insert(found[a], far, j, d)
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def select_visits(near, apart, limit, found):  # type: ignore[no-untyped-def]
     """Fill `found` (q, k) with those of the sorted neighbours `near` (q, m) that belong to different visits."""
     for a in range(len(near)):
@@ -84,7 +85,7 @@ def select_visits(near, apart, limit, found):  # type: ignore[no-untyped-def]
                     break
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@stored(nogil=True, error_model="numpy")
 def take_logarithms(values, bits):  # type: ignore[no-untyped-def]
     """Replace values (t,) > 0 by their natural logarithms, to 1e-15; `bits` (t,) is work space for integers.
 
@@ -106,7 +107,7 @@ def take_logarithms(values, bits):  # type: ignore[no-untyped-def]
         values[t] = power * 0.6931471805599453 + 2.0 * s * series
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@stored(nogil=True, error_model="numpy")
 def _fill_squares(points, i, j, total):  # type: ignore[no-untyped-def]
     """Fill `total` (t,) with the squared distances of the paths (dim, n) from i and from j on."""
     total[:] = 0.0
@@ -116,7 +117,7 @@ def _fill_squares(points, i, j, total):  # type: ignore[no-untyped-def]
             total[t] += (here[t] - there[t]) ** 2
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@stored(nogil=True, error_model="numpy")
 def _remove_along(points, motion, i, j, total, room):  # type: ignore[no-untyped-def]
     """Remove from the squares `total` (t,) the part along the mean direction of `motion` (dim, n)."""
     along, speed = room
@@ -134,7 +135,7 @@ def _remove_along(points, motion, i, j, total, room):  # type: ignore[no-untyped
         total[t] = max(total[t] - part, 0.0)
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@stored(nogil=True, error_model="numpy")
 def _add_pair(total, law, sums, bits):  # type: ignore[no-untyped-def]
     """Add squared distances (t,) of one pair to sums (4, t); those of repeats and of paths that touch are left out.
 
@@ -155,7 +156,7 @@ def _add_pair(total, law, sums, bits):  # type: ignore[no-untyped-def]
         log[t] += 0.5 * total[t]
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@stored(nogil=True, error_model="numpy")
 def _add_reference(one, sums, before, total, bits):  # type: ignore[no-untyped-def]
     """Add the means over one reference's neighbours, from their sums `one` (4, t), to the `sums` (4, t) of all."""
     many = one[COUNT]
@@ -174,7 +175,7 @@ def _add_reference(one, sums, before, total, bits):  # type: ignore[no-untyped-d
         sums[COUNT, t] += min(many[t], 1.0)
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@stored(nogil=True, error_model="numpy")
 def follow(points, motion, wanted, groups, law, sums):  # type: ignore[no-untyped-def]
     """Add up over references: `sums` (g, 4, times) of ln distance, distance, share within the noise, and number.
 
@@ -201,7 +202,7 @@ def follow(points, motion, wanted, groups, law, sums):  # type: ignore[no-untype
             _add_reference(one, sums[g], before, total, bits)
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def walk(points, near, rules, gained):  # type: ignore[no-untyped-def]
     """Fill `gained` (pieces, 3) along Wolf's chain of pairs, and return the number of pieces.
 

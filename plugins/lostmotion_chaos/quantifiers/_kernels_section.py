@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
+
+from lostmotion.kernels.stored import stored
 
 CODES = 256
 """Code c holds distances from `edges()[c]` up to the next edge; code 0 all that are smaller, code 249 begins at one."""
@@ -17,7 +18,7 @@ def compute_edges() -> NDArray[np.float64]:
     return bits.view(np.float32).astype(float)
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def count_pairs(points, theiler, block, counts):  # type: ignore[no-untyped-def]
     """Add all pairs of points (n, dims) more than `theiler` apart in time to `counts` (blocks, blocks, CODES).
 

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
+
+from lostmotion.kernels.stored import stored
 
 BITS = 11
 """Bits of one pass of the sort; two passes resolve one part in 4e6 of the range, as fine as single precision."""
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@stored(nogil=True, error_model="numpy")
 def impose(spectrum, wanted):  # type: ignore[no-untyped-def]
     """Give `spectrum` (k,) the amplitudes `wanted` (k,) and keep its phases; return sum((|S| - wanted)^2) of before."""
     off = 0.0
@@ -25,7 +26,7 @@ def impose(spectrum, wanted):  # type: ignore[no-untyped-def]
     return off
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def arrange(like, values, places, out):  # type: ignore[no-untyped-def]
     """Write the ascending `values` (n,) into `out` (n,) by the ranks of `like` (n,); return how many entries changed.
 
@@ -61,7 +62,7 @@ def arrange(like, values, places, out):  # type: ignore[no-untyped-def]
     return moved
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def walk(start, chances, following, weights, visited):  # type: ignore[no-untyped-def]
     """Write into `visited` (n,) the points of a walk that starts at `start`.
 

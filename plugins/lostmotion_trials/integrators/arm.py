@@ -12,9 +12,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
+
+from lostmotion.kernels.stored import stored
 
 Array = NDArray[np.float64]
 GRAVITY = 9.81
@@ -155,7 +156,7 @@ def record_motion(
     return Log(np.asarray(dt * np.arange(samples), dtype=float), told + errors, seen)
 
 
-@numba.njit(cache=True, error_model="numpy")
+@stored(error_model="numpy")
 def _accelerate(y, torque, length, bodies, table, out):  # type: ignore[no-untyped-def]
     """Write the rates of the state (positions and velocities of links, then of motors) under motor torques (2,)."""
     pull, push = np.zeros(2), np.zeros(2)
@@ -194,7 +195,7 @@ def _accelerate(y, torque, length, bodies, table, out):  # type: ignore[no-untyp
         out[6 + j] = motors[j] if table[9, j] >= 0.0 else out[2 + j]
 
 
-@numba.njit(cache=True, error_model="numpy")
+@stored(error_model="numpy")
 def _integrate(q, v, feed, noise, kicks, gains, length, bodies, table, late, gain, steps, dt):  # type: ignore[no-untyped-def]
     """Return encoder readings and commanded torques (samples, 2) under a controller that holds its torque."""
     samples = len(q)

@@ -11,10 +11,10 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from lostmotion.kernels.stored import stored
 from lostmotion_trials.integrators.arm import GRAVITY, Log, add_waves
 
 Array = NDArray[np.float64]
@@ -132,14 +132,14 @@ def record_chain(
     return Log(np.asarray(dt * np.arange(samples), dtype=float), told + errors, seen)
 
 
-@numba.njit(cache=True, error_model="numpy")
+@stored(error_model="numpy")
 def _cross(a, b, out):  # type: ignore[no-untyped-def]
     out[0] = a[1] * b[2] - a[2] * b[1]
     out[1] = a[2] * b[0] - a[0] * b[2]
     out[2] = a[0] * b[1] - a[1] * b[0]
 
 
-@numba.njit(cache=True, error_model="numpy")
+@stored(error_model="numpy")
 def _turn(turn, angle, x, out, back):  # type: ignore[no-untyped-def]
     """Write a vector of the frame before a joint in that of its body, or back."""
     c, s, ct, st = math.cos(angle), math.sin(angle), math.cos(turn), math.sin(turn)
@@ -151,7 +151,7 @@ def _turn(turn, angle, x, out, back):  # type: ignore[no-untyped-def]
         out[0], out[1], out[2] = c * x[0] + s * b, -s * x[0] + c * b, e
 
 
-@numba.njit(cache=True, error_model="numpy")
+@stored(error_model="numpy")
 def _invert(q, v, a, gravity, turn, place, mass, centre, inertia, tau):  # type: ignore[no-untyped-def]
     """Write the torques (n,) of a motion."""
     n = len(q)
@@ -191,7 +191,7 @@ def _invert(q, v, a, gravity, turn, place, mass, centre, inertia, tau):  # type:
                 moments[i - 1, k] += t2[k] + t3[k]
 
 
-@numba.njit(cache=True, error_model="numpy")
+@stored(error_model="numpy")
 def _integrate(q, v, feed, noise, kicks, gains, turn, place, mass, centre, inertia, table, late, steps, dt):  # type: ignore[no-untyped-def]
     """Return encoder readings and commanded torques (samples, n) under a controller that holds its torque."""
     samples, n = q.shape

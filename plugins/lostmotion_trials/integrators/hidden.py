@@ -10,8 +10,9 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-import numba
 import numpy as np
+
+from lostmotion.kernels.stored import stored
 
 DAHL, LUGRE, BOUC_WEN = 1.0, 2.0, 3.0
 """The kinds of a force with a state of its own."""
@@ -90,7 +91,7 @@ class Hidden(NamedTuple):
     onset: float = -1e9
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def _springs(t, x, gap, body, h):  # type: ignore[no-untyped-def]
     """Return the force (N) of everything that depends on position and time."""
     wave = 1.0 + h.depth * math.cos(h.pace * t + h.phase)
@@ -118,7 +119,7 @@ def _springs(t, x, gap, body, h):  # type: ignore[no-untyped-def]
     return force
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def _drags(t, x, v, gap, slide, body, h):  # type: ignore[no-untyped-def]
     """Return the force (N) of every drag but the viscous one of the model and dry friction."""
     square = v if h.square_place == 0.0 else slide
@@ -128,7 +129,7 @@ def _drags(t, x, v, gap, slide, body, h):  # type: ignore[no-untyped-def]
     return force - h.mixed * x * x * v - h.slant * abs(v) - h.aging * max(t, 0.0) * v
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def _ridden(far, fast_far, middle, fast, step, h):  # type: ignore[no-untyped-def]
     """Return the force (N) of a hidden mass on the body, and position and velocity of that mass after one step."""
     between = h.mode_stiffness * (far + 0.5 * step * fast_far - middle) + h.mode_drag * (fast_far - fast)
@@ -136,7 +137,7 @@ def _ridden(far, fast_far, middle, fast, step, h):  # type: ignore[no-untyped-de
     return between, far + step * fast_far, fast_far
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def _levels(t, rub, place, load, h):  # type: ignore[no-untyped-def]
     """Return the level of dry friction (N) against motion in positive and in negative direction."""
     level = h.friction + h.excess * math.exp(-((rub / h.velocity) ** 2)) + h.rough * (place / h.rough_length) ** 2
@@ -148,7 +149,7 @@ def _levels(t, rub, place, load, h):  # type: ignore[no-untyped-def]
     return level, level if h.friction_back < 0.0 else h.friction_back
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def _pressing(force, gap, body):  # type: ignore[no-untyped-def]
     """Return the load (N) on the parts: the contact force, or the drive where there is no contact."""
     if body.k0 > 0.0:
@@ -156,7 +157,7 @@ def _pressing(force, gap, body):  # type: ignore[no-untyped-def]
     return abs(force)
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def _remembered(z, v, step, h):  # type: ignore[no-untyped-def]
     """Return the state of a force with memory after one step at the velocity `v`: the force (N), or its share."""
     if h.memory == BOUC_WEN:
@@ -181,7 +182,7 @@ def move(force, base, body, hidden, state, clock, every):  # type: ignore[no-unt
     return _moved(force, base, body, hidden, Hidden(), state, clock, every)
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def _moved(force, base, body, hidden, nothing, state, clock, every):  # type: ignore[no-untyped-def]
     """Return the result of `move`; before the onset `nothing` replaces the hidden effects."""
     begin, step = clock

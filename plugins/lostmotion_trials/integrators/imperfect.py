@@ -9,9 +9,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numba
 import numpy as np
 
+from lostmotion.kernels.stored import stored
 from lostmotion_trials.integrators.hidden import (
     BOUC_WEN,
     Hidden,
@@ -44,7 +44,7 @@ class Flaws(NamedTuple):
     far_compliance: float = 0.0
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def _read(table, z):  # type: ignore[no-untyped-def]
     """Return the value of a curve (CELLS + 1,) over [-REACH, REACH] at `z`, by straight lines between its nodes."""
     at = min(max((z + REACH) * CELLS / (2.0 * REACH), 0.0), CELLS - 1e-9)
@@ -62,7 +62,7 @@ def move_rough(force, base, body, hidden, flaws, curves, state, clock, every):  
     return _moved(force, base, body, hidden, Hidden(), flaws, curves, state, clock, every)
 
 
-@numba.njit(cache=True, nogil=True)
+@stored(nogil=True)
 def _moved(force, base, body, hidden, nothing, flaws, curves, state, clock, every):  # type: ignore[no-untyped-def]
     """Return what `move_rough` does; before its onset `nothing` stands for what is hidden."""
     begin, step = clock

@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import math
 
-import numba
 import numpy as np
 
+from lostmotion.kernels.stored import stored
 
-@numba.njit(cache=True, nogil=True)
+
+@stored(nogil=True)
 def slide(push, base, numbers, start, every):  # type: ignore[no-untyped-def]
     """Return relative position (deg), relative velocity (deg/s) and share of time stuck, (samples, 3), in a joint.
 

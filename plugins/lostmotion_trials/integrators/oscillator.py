@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import math
 
-import numba
 import numpy as np
 
+from lostmotion.kernels.stored import stored
 
-@numba.njit(cache=True, nogil=True)
+
+@stored(nogil=True)
 def rattle(push, lean, still, numbers, state, every):  # type: ignore[no-untyped-def]
     """Return the position (samples,) relative to the base before every `every` steps; `state` moves on to the end.
 
