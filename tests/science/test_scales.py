@@ -67,11 +67,16 @@ MACHINES: dict[str, dict[str, Any]] = {
 }
 
 
-def machine(model: str, scale: dict[str, float], units: dict[str, str], **more: Any) -> Prepared:
-    """Return the case of a simulated machine, whose columns are multiplied by `scale` and said to be in `units`."""
+def machine(
+    model: str, scale: dict[str, float], units: dict[str, str], *, duration: float = 20.0, **more: Any
+) -> Prepared:
+    """Return the case of a simulated machine, whose columns are multiplied by `scale` and said to be in `units`.
+
+    Each of its three recordings lasts `duration` s.
+    """
     spec = MACHINES[model]
     made = lm.simulate(
-        model, values=spec["values"], drives=DRIVES, duration=20.0, rate=200.0, noise=0.002,
+        model, values=spec["values"], drives=DRIVES, duration=duration, rate=200.0, noise=0.002,
         motion="rotation" if "rad" in "".join(units.values()) else None, **more,
     )  # fmt: skip
     drive = "torque" if any("N m" in unit for unit in units.values()) else "force"
@@ -104,7 +109,7 @@ WRONG: dict[str, tuple[str, dict[str, float], dict[str, str], str]] = {
 def test_a_wrong_unit_is_told_with_its_factor(
     model: str, scale: dict[str, float], units: dict[str, str], says: str
 ) -> None:
-    (said,) = describe(machine(model, scale, units))
+    (said,) = describe(machine(model, scale, units, duration=6.0))
     assert re.search(says, said), said
 
 

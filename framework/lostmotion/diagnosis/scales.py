@@ -80,7 +80,10 @@ class _Scaled:
 
 @dataclass(frozen=True)
 class _Trial:
-    """A scale that was tried: the gain in log-likelihood, and the missing force as a share of the drive."""
+    """A scale that was tried: the gain in log-likelihood, and the missing force as a share of the drive.
+
+    Only the missing force of a gain that is large enough is measured; others are infinite.
+    """
 
     scaled: _Scaled
     gain: float
@@ -142,10 +145,10 @@ def _try_scale(nominal: Fit, case: CaseFile, scaled: _Scaled, rng: np.random.Gen
     )
     try:
         fit = search_maximum(changed, rng)
-        missing = _measure_missing(fit)
+        gain = fit.log_likelihood - scaled.measure(observations) - nominal.log_likelihood
+        return _Trial(scaled, gain, _measure_missing(fit) if gain > GAIN else math.inf)
     except (np.linalg.LinAlgError, DataError):  # the model diverges with this scale
         return _Trial(scaled, -math.inf, math.inf)
-    return _Trial(scaled, fit.log_likelihood - scaled.measure(observations) - nominal.log_likelihood, missing)
 
 
 def _refine_ratio(nominal: Fit, case: CaseFile, scaled: _Scaled, seed: int) -> _Trial:

@@ -84,12 +84,15 @@ class _StoredLocator(caching._CacheLocator):
 
     @classmethod
     def from_function(cls, py_func: Any, py_file: str) -> _StoredLocator | None:
-        """Return the place of a function of `stored`; None for others, and where `NUMBA_CACHE_DIR` names a folder."""
-        package = sys.modules.get(py_func.__module__.partition(".")[0])
+        """Return the place of a function of `stored`; None for others, and where `NUMBA_CACHE_DIR` names a folder.
+
+        A generated module has no file of its own: its name is an address already.
+        """
+        source = getattr(sys.modules.get(py_func.__module__.partition(".")[0]), "__file__", None)
         named: Any = numba.config
-        if py_func not in _MARKED or named.CACHE_DIR or package is None or package.__file__ is None:
+        if py_func not in _MARKED or named.CACHE_DIR or source is None:
             return None
-        address = compute_address(Path(py_file).parent, Path(package.__file__).parent)
+        address = compute_address(Path(py_file).parent, Path(source).parent)
         for folder in make_cache_folders():
             place: Any = cls(py_func, folder, address)
             try:
