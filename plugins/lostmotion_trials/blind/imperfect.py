@@ -232,8 +232,8 @@ def _scale_curve(raw: Array, z: Array, seen: Array, rms: float) -> Array:
 def fit_line(values: Array, over: Array) -> tuple[Array, Array]:
     """Return the straight line (2,) through values (n,) over their arguments (n,), and what it leaves (n,)."""
     rows = np.column_stack([np.ones_like(over), over])
-    line = np.linalg.lstsq(rows, values, rcond=None)[0]
-    return line, values - rows @ line
+    line = np.asarray(np.linalg.lstsq(rows, values, rcond=None)[0], dtype=float)
+    return line, np.asarray(values - rows @ line, dtype=float)
 
 
 def simulate_imperfect(
