@@ -214,7 +214,8 @@ def level_curve(raw: Array, z: Array, seen: Array) -> Array:
     """
     line, _ = fit_line(np.interp(seen, z, raw), seen)
     near = np.minimum(np.abs(z), float(np.max(seen)))
-    return np.maximum(1.0 + np.interp(near, z, raw) - line[0] - line[1] * near, LEAST_LEVEL)
+    level: Array = 1.0 + np.interp(near, z, raw) - line[0] - line[1] * near
+    return np.maximum(level, LEAST_LEVEL)
 
 
 def _scale_curve(raw: Array, z: Array, seen: Array, rms: float) -> Array:
