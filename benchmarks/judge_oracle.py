@@ -41,7 +41,7 @@ from judge_truth import load_truth
 from lostmotion.codec import from_plain
 from lostmotion_trials.blind.commitment import CLEAN, RARE
 from lostmotion_trials.blind.hiding import convert_effects
-from lostmotion_trials.blind.imperfect import EFFECT_SIZES, World, simulate_imperfect
+from lostmotion_trials.blind.imperfect import EFFECT_SIZES, World, fit_line, simulate_imperfect
 from lostmotion_trials.blind.imperfect import draw_effect as draw_random
 from lostmotion_trials.blind.mechanisms import NOISY, TABLE, UNKNOWN, Effect, Pilot
 from lostmotion_trials.blind.sealed import SealedTruth
@@ -73,9 +73,12 @@ class View:
 
     @cached_property
     def friction_waves(self) -> np.ndarray:
-        """Return the shape of a friction over the speed (samples, 8), of unit level, with its usual sizes."""
+        """Return the shape of a friction over the speed (samples, 8), of unit level, with its usual sizes.
+
+        A constant level is the friction itself, a slope is viscous damping.
+        """
         z = np.abs(self.pilot.v) / self.world.flaws["velocity"]
-        waves = [w(0.5 * math.pi * k * z) / k for k in range(1, 5) for w in (np.cos, np.sin)]
+        waves = [fit_line(w(0.5 * math.pi * k * z) / k, z)[1] for k in range(1, 5) for w in (np.cos, np.sin)]
         return 0.12 / math.sqrt(1.42) * np.stack(waves, axis=1)
 
 

@@ -146,6 +146,17 @@ def test_smooth_forces_over_the_motion_have_their_size_and_no_straight_line(kind
     assert found >= 5
 
 
+@pytest.mark.parametrize("kind", [KINDS[0], *(pytest.param(kind, marks=pytest.mark.slow) for kind in KINDS[1:])])
+def test_the_level_of_friction_is_one_and_has_no_slope_over_the_speed(kind):
+    """Or the true friction and damping would not be defined; the level still changes by a few per cent."""
+    for seed in range(8):
+        pilot, world, _ = machine(kind, seed)
+        z: Array = np.abs(pilot.v) / world.flaws["velocity"]
+        level = np.interp(z, np.linspace(-REACH, REACH, CELLS + 1), world.curves["friction"])
+        assert np.polyfit(z, level, 1) == pytest.approx([0.0, 1.0], abs=0.02)
+        assert 0.002 < np.std(level) < 0.4
+
+
 def test_smooth_forces_over_phase_have_their_size():
     found = 0
     for seed in range(8):

@@ -17,12 +17,13 @@ from lostmotion.inference.origin import shift_origin
 def draw_mixture(d: SearchResult, rng: np.random.Generator, stretches: Array | None = None) -> Array:
     """Return draws (draws, keys) of the parameters of the model after the diagnosis.
 
-    They are those of the hypotheses, in which the discrepancy is integrated. Where the profile of a parameter is wider
-    than a normal one (`stretches`, as `measure_stretches` returns them), the draws about the fit are added to it.
+    They are those of the hypotheses, in which the discrepancy is integrated. Where the draws about the fit without a
+    discrepancy are wider, as the profile of a parameter may be (`stretches`, as `measure_stretches` returns them),
+    they are taken in their place, moved from the maximum of that fit to the one of the best hypothesis.
     """
     after, keys = d.after, list_physical_keys(d.after)
     made = d.explained.draw(keys, DRAWS, rng)
-    alone = draw_parameters(after, rng, stretches)
+    alone = draw_parameters(after, rng, stretches, d.explained.best.values)
     lost = ~np.isfinite(made)
     made[lost] = alone[lost]
     flat = np.flatnonzero(np.std(alone, axis=0) > np.std(made, axis=0))

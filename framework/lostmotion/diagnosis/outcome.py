@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -33,15 +34,20 @@ class Outcome:
     draws_after: Array = field(default_factory=lambda: np.zeros((0, 0)))
 
 
-def draw_parameters(fit: Fit, rng: np.random.Generator, stretches: Array | None = None) -> Array:
+def draw_parameters(
+    fit: Fit, rng: np.random.Generator, stretches: Array | None = None, about: Mapping[str, float] | None = None
+) -> Array:
     """Return draws (DRAWS, keys) of the physical parameters from the posterior about a fit.
 
-    Their deviations are multiplied by `stretches`, as `measure_stretches` returns them.
+    Their deviations are multiplied by `stretches`, as `measure_stretches` returns them. Draws of coordinates in `about`
+    are moved from the maximum of the fit to the values there.
     """
-    free = fit.posterior.space.free
+    free, about = fit.posterior.space.free, about or {}
     theta = draw_posterior(fit, rng, DRAWS)
     if stretches is not None:
         theta = stretch_draws(fit, theta, stretches)
+    moved = np.array([about.get(f.key, at) - at for f, at in zip(free, fit.theta, strict=True)])
+    theta = fit.posterior.space.clip(theta + moved)
     physical = set(list_physical_keys(fit))
     kept = [i for i, f in enumerate(free) if f.key in physical]
     return np.array([[free[i].value(row[i]) for i in kept] for row in theta])

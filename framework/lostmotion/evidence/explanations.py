@@ -18,10 +18,10 @@ from scipy.special import softmax
 from lostmotion.contracts import Array
 from lostmotion.evidence.bare import Terms
 from lostmotion.evidence.hypothesis import UNKNOWN, Hypothesis
+from lostmotion.evidence.posterior_draws import draw_own
 from lostmotion.evidence.search import ExplanationSearch, compute_probabilities, measure_temper
 from lostmotion.inference.curves import drop_all_curves
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.mixture import compute_root
 
 TIED = math.log(20.0)
 """Two laws are not distinguished where the expected log likelihood ratio of one to the other is less than this."""
@@ -162,9 +162,7 @@ def _draw(found: Hypothesis, keys: list[str], count: int, rng: np.random.Generat
     """Return draws (count, keys) of parameters from the posterior of one hypothesis; NaN where it lacks one."""
     free = found.frame.posterior.space.free[: found.frame.own]
     places = {f.key: i for i, f in enumerate(free) if f.physical}
-    root = compute_root(found.scatter * found.covariance)
-    low, high = (np.array([getattr(f, end) for f in free]) for end in ("low", "high"))
-    theta = np.clip(found.theta + rng.standard_normal((count, len(free))) @ root.T, low, high)
+    theta = draw_own(found, count, rng)
     made = np.full((count, len(keys)), np.nan)
     for column, key in enumerate(keys):
         if key in places:

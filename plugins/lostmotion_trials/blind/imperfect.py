@@ -46,6 +46,8 @@ SMOOTH_SIZES = (0.005, 0.05)
 """Range of the rms of all smooth forces together over the amplitude of the drive, or of the inertia force if less."""
 WAVES = 4
 """Waves of a random function."""
+LEAST_LEVEL = 0.1
+"""The least level of friction over the speed, in shares of its usual one."""
 FITTED = 1.0 - DEFAULT.heldout.share
 """The share of a recording that a diagnosis fits; the rest is held out."""
 Curve = tuple[tuple[float, float], ...]
@@ -199,8 +201,21 @@ def _tabulate_curves(world: World, pilot: Pilot, rng: np.random.Generator) -> di
             raw = _evaluate_waves(blemish.waves, 0.5 * math.pi * z / 2.0 + 0.25 * math.pi)
             seen = moved[blemish.over] / world.flaws[blemish.over]
             tables[blemish.over] += _scale_curve(raw, z, seen, blemish.rms)
-    friction = np.exp(level * shape / max(float(np.std(shape)), 1e-12))
+    uneven = np.exp(level * shape / max(float(np.std(shape)), 1e-12))
+    friction = level_curve(uneven, z, np.abs(pilot.v) / world.flaws["velocity"])
     return {name: tuple(table.tolist()) for name, table in {"friction": friction, **tables}.items()}
+
+
+def level_curve(raw: Array, z: Array, seen: Array) -> Array:
+    """Return a curve of the level of friction over `z` whose straight line over the speeds `seen` (samples,) is 1.
+
+    A level that changes in proportion to the speed is viscous damping. Without this the true force and damping would be
+    known to the size of the curve only. Beyond the largest speed that was seen the curve is constant.
+    """
+    line, _ = fit_line(np.interp(seen, z, raw), seen)
+    near = np.minimum(np.abs(z), float(np.max(seen)))
+    level: Array = 1.0 + np.interp(near, z, raw) - line[0] - line[1] * near
+    return np.maximum(level, LEAST_LEVEL)
 
 
 def _scale_curve(raw: Array, z: Array, seen: Array, rms: float) -> Array:
@@ -209,11 +224,17 @@ def _scale_curve(raw: Array, z: Array, seen: Array, rms: float) -> Array:
     The straight line is removed because terms of the library describe it: a constant is an offset, a slope a stiffness
     or a damping.
     """
-    along = np.interp(seen, z, raw)
-    line = np.linalg.lstsq(np.column_stack([np.ones_like(seen), seen]), along, rcond=None)[0]
-    rest = float(np.std(along - line[0] - line[1] * seen))
+    line, left = fit_line(np.interp(seen, z, raw), seen)
+    rest = float(np.std(left))
     curve = (raw - line[0] - line[1] * z) * rms / max(rest, 1e-300)
     return np.asarray(np.where(np.abs(z) < REACH, curve, np.interp(z, z[1:-1], curve[1:-1])), dtype=float)
+
+
+def fit_line(values: Array, over: Array) -> tuple[Array, Array]:
+    """Return the straight line (2,) through values (n,) over their arguments (n,), and what it leaves (n,)."""
+    rows = np.column_stack([np.ones_like(over), over])
+    line = np.asarray(np.linalg.lstsq(rows, values, rcond=None)[0], dtype=float)
+    return line, np.asarray(values - rows @ line, dtype=float)
 
 
 def simulate_imperfect(
