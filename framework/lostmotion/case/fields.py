@@ -81,13 +81,6 @@ class Fields:
             raise self.wrong(key, "a positive number")
         return value
 
-    def truth(self, key: str) -> bool:
-        """Return true or false; false where the key is absent."""
-        value = self.values.get(key, False)
-        if not isinstance(value, bool):
-            raise self.wrong(key, "true or false, without quotes")
-        return value
-
     def flag(self, key: str) -> bool:
         """Return true or false; false where the key is absent."""
         value = self.values.get(key, False)

@@ -299,6 +299,6 @@ def read_prior(fields: Fields, more: tuple[str, ...] = ()) -> Prior:
     scale = fields.choice("scale", ("linear", "log")) if "scale" in fields.values else "linear"
     numbers = {key: fields.number(key) for key in fields.values if key not in ("scale", "each")}
     try:
-        return Prior(scale=cast(Scale, scale), each=fields.truth("each"), **numbers)
+        return Prior(scale=cast(Scale, scale), each=fields.flag("each"), **numbers)
     except CaseError as err:
         raise fields.error(str(err)) from err
