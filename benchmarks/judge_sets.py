@@ -37,10 +37,14 @@ def find_names(name: str, *, rough: bool = False) -> tuple[str, ...]:
 
 
 def convert_effect(effect: Effect, rig: BlindMachine, *, rough: bool = False) -> Hiding:
-    """Return a hidden effect with its parameters under the names of the library."""
+    """Return a hidden effect with its parameters under the names of the library.
+
+    A law outside the library has no name there; if `rough`, friction is right for dry friction of such a law as well.
+    """
     numbers = dict(effect.parameters)
     full = numbers if effect.what else complete_parameters(numbers, rig.values, rig.signal)
-    accept = () if effect.what else find_names(effect.mechanism, rough=rough)
+    outside = FRICTION_TERMS if rough and effect.what.startswith("friction") else ()
+    accept = tuple(sorted(outside)) if effect.what else find_names(effect.mechanism, rough=rough)
     short = effect.mechanism in LATE and max(abs(v) for v in numbers.values()) < 0.5 / rig.rate
     return Hiding(effect.what or effect.mechanism, effect.at, full, tuple(sorted(LATE)) if short else accept)
 

@@ -4,11 +4,11 @@
     python benchmarks/validation.py draw
     python benchmarks/validation.py check
 
-`store` condenses a raw run (OUT/SET of `judge.py run`, OUT/oracle of `judge.py oracle`, the folder of a
-`lostmotion prove`, or that of `absent.py`, `check.py` or `beside_peers.py`) into `benchmarks/results/NAME.json`. `draw`
-writes the tables of the page between their marks; the build of the documentation draws the figures. `check` fails if a
-table is not that of the results. Reasons of misses are written by hand into `benchmarks/results/reasons.toml`; `store`
-leaves them alone.
+`store` condenses a raw run (OUT/SET of `judge.py run`, OUT/oracle of `judge.py oracle`, the folder of a `lostmotion
+prove`, or that of `absent.py`, `check.py`, `beside_peers.py` or `real_rigs.py`) into `benchmarks/results/NAME.json`.
+`draw` writes the tables of the page between their marks; the build of the documentation draws the figures. `check`
+fails if a table is not that of the results. Reasons of misses are written by hand into
+`benchmarks/results/reasons.toml`; `store` leaves them alone.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from pathlib import Path
 
 from validation_peers import PEER_TABLES
 from validation_results import read_reasons, read_results
+from validation_rigs import RIG_TABLES
 from validation_tables import TABLES, find_unused_reasons
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "validation.md"
@@ -28,7 +29,7 @@ BLOCK = re.compile(
 )
 
 
-BLOCKS = TABLES | PEER_TABLES
+BLOCKS = TABLES | PEER_TABLES | RIG_TABLES
 
 
 def write_blocks(text: str) -> str:

@@ -15,7 +15,7 @@ from lostmotion_trials.rates import Rate, estimate_rate
 
 RESULTS = Path(__file__).resolve().parent / "results"
 SCHEMA = "lostmotion.validation/1"
-ORACLE, PEERS, ARMS, STUDIES = "oracle", "peers", ("arms",), ("absent", "check", "locate")
+ORACLE, PEERS, RIGS, ARMS, STUDIES = "oracle", "peers", "rigs", ("arms",), ("absent", "check", "locate")
 FAMILIES = {
     "hysteresis": "bouc_wen_hysteresis",
     "damping": "viscous_damping quadratic_damping directional_damping damping_drift contact_damping"
@@ -53,7 +53,7 @@ class Result:
     @property
     def judged(self) -> bool:
         """Whether the rows are diagnosed machines with one hidden effect or more, or with none."""
-        return self.set not in (ORACLE, PEERS, *ARMS, *STUDIES)
+        return self.set not in (ORACLE, PEERS, RIGS, *ARMS, *STUDIES)
 
     @property
     def ended(self) -> list[dict]:

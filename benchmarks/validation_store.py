@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from judge_rows import VAGUE, check_intervals, is_right, is_sure, list_names, list_stated, names_effect, read_rows
-from validation_results import ORACLE, PEERS, RESULTS, read_results, write_result
+from validation_results import ORACLE, PEERS, RESULTS, RIGS, read_results, write_result
 
 DIGITS = 4
 """Decimals of a stored probability or share."""
@@ -49,7 +49,12 @@ def find_condenser(run: Path) -> tuple[Path, Callable[..., tuple[dict, list[dict
     if (run / "proof.json").exists():
         schema = json.loads((run / "proof.json").read_text())["schema"]
         return run / "proof.json", condense_arms if "arms" in schema else condense_proof
-    for study, condense in (("absent", condense_absent), ("check", condense_check), ("peers", condense_peers)):
+    for study, condense in (
+        ("absent", condense_absent),
+        ("check", condense_check),
+        ("peers", condense_peers),
+        ("rigs", condense_rigs),
+    ):
         if (run / f"{study}.jsonl").exists():
             return run / f"{study}.jsonl", condense
     path = run / "rows.jsonl"
@@ -57,7 +62,7 @@ def find_condenser(run: Path) -> tuple[Path, Callable[..., tuple[dict, list[dict
     if not first or "truth" not in first[0]:
         raise SystemExit(
             f"{run} is no run that can be stored: give a folder with the rows.jsonl of judge.py (as OUT/imperfect), the"
-            " proof.json of `lostmotion prove`, or the absent.jsonl, check.jsonl or peers.jsonl of these studies"
+            " proof.json of `lostmotion prove`, or the absent.jsonl, check.jsonl, peers.jsonl or rigs.jsonl of a study"
         )
     return path, condense_oracle if "best" in first[0] else condense_judged
 
@@ -317,6 +322,17 @@ def condense_peers(run: Path, _: Mapping) -> tuple[dict, list[dict]]:
         {key: round(row[key], 5) if key == "error" and row[key] is not None else row[key] for key in keys}
         for row in rows
     ]
+
+
+def condense_rigs(run: Path, options: Mapping) -> tuple[dict, list[dict]]:
+    """Return head and rows of `benchmarks/real_rigs.py`, of one version; the last row of a rig counts."""
+    rows = read_rows(run / "rigs.jsonl")
+    code = str(options.get("code") or rows[-1]["code"])
+    kept = list(
+        {row["key"]: {k: v for k, v in row.items() if k != "code"} for row in rows if row["code"] == code}.values()
+    )
+    commands = ["python benchmarks/real_rigs.py --out OUT"]
+    return {"set": RIGS, "machines": "real rigs", "of": len(kept), "commands": commands, "code": code}, kept
 
 
 def describe_study(name: str, machines: int) -> dict:

@@ -59,6 +59,14 @@ def test_a_further_name_beside_a_discrepancy_that_explains_more_is_likely(more, 
     assert list_doubts(facts, rub) == ()
 
 
+@pytest.mark.parametrize(("after", "sure"), [(0.06, False), (0.05004, True), (0.04, True)])
+def test_a_name_that_makes_free_runs_worse_is_likely(after, sure):
+    """The errors that the page shows are 5 %, and 6 %, 5 % or 4 %."""
+    predicted = {"before": make_prediction(0.05), "after": make_prediction(after)}
+    said = ["rises from 5 % to 6 %" in doubt for doubt in doubts_of(make_found(FRICTION), **predicted)]
+    assert said == ([] if sure else [True])
+
+
 def test_a_single_name_needs_its_probability_only():
     assert doubts_of(make_found(FRICTION, gain=10.0), leftover=300.0) == ()
 

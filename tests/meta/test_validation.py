@@ -139,3 +139,24 @@ def test_a_case_of_a_blind_trial_is_condensed_to_the_same_row(stored):
     counts = load("validation_results").count_rows([row])
     assert (counts.right.hits, counts.right.of, counts.named.hits, counts.held.hits) == (1, 2, 1, 1)
     assert (row["stated"], row["sensor"], row["drive"]) == ([[0.99, True]], "velocity", "tones")
+
+
+def test_real_machines_are_of_one_version_and_published_values_outside_an_interval_are_said(tmp_path):
+    row = {
+        "key": "emps", "page": "emps", "published": "dry friction", "found": [True, False], "further": ["cogging"],
+        "names": [["coulomb_friction", 0.99, "named"], ["cogging", 0.97, "likely"]], "errors": [0.1, None],
+        "compared": [["m", 95.0, 95.5, 94.0, 97.0, "kg"], ["c", 200.0, 210.0, 205.0, 215.0, "N s/m"]], "cpu": 12.4,
+    }  # fmt: skip
+    rows = [{**row, "code": "old"}, {**row, "cpu": 99.0, "code": "new"}, {**row, "code": "new"}]
+    (tmp_path / "rigs.jsonl").write_text("\n".join(map(json.dumps, rows)))
+    head, kept = load("validation_store").condense_rigs(tmp_path, {})
+    assert (head["code"], head["of"], kept) == ("new", 1, [row])
+    result = load("validation_results").Result(
+        **{**head, "committed": "", "date": "today", "name": "", "rows": kept}, note=""
+    )
+    tables = load("validation_rigs")
+    said = tables.write_rigs([result], {}).splitlines()[-1]
+    assert "| coulomb friction | cogging (0.97, likely) | 1 of 2 | cogging | 10 % to not finite | 12 |" in said
+    assert not result.judged
+    inside = [line.split(" | ")[-1] for line in tables.write_published([result], {}).splitlines()[2:]]
+    assert inside == ["yes |", "no, +5.0 % |"]

@@ -121,6 +121,20 @@ def note_gauge_noise(facts: Facts) -> Iterator[str]:
             )
 
 
+@remark("recordings")
+def note_outliers(facts: Facts) -> Iterator[str]:
+    """Yield a note for each recording of which single readings were left out."""
+    for one in facts.recordings:
+        if one.outliers:
+            where = f" of {one.name}" if len(facts.recordings) > 1 else ""
+            what = "single reading is an outlier" if one.outliers == 1 else "single readings are outliers"
+            yield (
+                f"{one.outliers} {what}, of {one.readings.size}{where}: so far from the prediction that noise does not"
+                " explain it, while the readings after it agree with the model. The diagnosis does not use"
+                f" {'it' if one.outliers == 1 else 'them'}."
+            )
+
+
 @remark("position")
 def note_unknown_position(facts: Facts) -> Iterator[str]:
     """Yield a note if no sensor measures the position and its estimate is uncertain."""
@@ -156,6 +170,7 @@ NOTES: tuple[Remark, ...] = (
     note_short_delays,
     note_budget,
     note_gauge_noise,
+    note_outliers,
     note_repeated_motion,
     note_unknown_position,
 )

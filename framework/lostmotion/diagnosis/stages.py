@@ -11,6 +11,7 @@ from lostmotion.case import CaseFile
 from lostmotion.contracts import Array, Machine, SensorTerm, Values
 from lostmotion.diagnosis.compare import cut_heldout
 from lostmotion.diagnosis.moving import check_motion, cut_rest
+from lostmotion.diagnosis.outliers import leave_out_outliers
 from lostmotion.diagnosis.periodic_drive import leave_out_gauge_noise
 from lostmotion.diagnosis.scales import describe_wrong_scales, find_wrong_scales
 from lostmotion.errors import DataError
@@ -178,6 +179,7 @@ def diagnose(
     say("fit of the nominal model")
     nominal = search_maximum(make_posterior(system, case, train, jobs=jobs, settings=settings), rng)
     nominal, observations = leave_out_gauge_noise(nominal, observations)
+    nominal, observations = leave_out_outliers(nominal, observations)
     train, held = split_heldout(observations, settings.heldout)
     scale = describe_wrong_scales(find_wrong_scales(nominal, case, rng.spawn(1)[0]))
     pieces = [(piece.observation, piece.begin) for piece in cut_heldout(observations, held)]

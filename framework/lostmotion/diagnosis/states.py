@@ -113,6 +113,20 @@ def doubt_rest(facts: Facts, found: FoundTerm) -> Iterator[str]:
         )
 
 
+@doubt()
+def doubt_free_runs(facts: Facts, _: FoundTerm) -> Iterator[str]:
+    """Yield a doubt if free runs over held-out data are worse with all that was found, as far as the page shows it.
+
+    Of a model that is not valid the error is given already.
+    """
+    before, after = facts.before.nrmse, facts.after.nrmse
+    if is_valid(facts) and after > before and percent(after) != percent(before):
+        yield (
+            f"With all that was found, the error of free runs over held-out data rises from {percent(before)} to"
+            f" {percent(after)}: one-step predictions support the term, longer ones do not."
+        )
+
+
 @doubt("moved")
 def doubt_moved_amplitudes(facts: Facts, found: FoundTerm) -> Iterator[str]:
     """Yield a doubt for each amplitude of another found term that changes strongly when this one is added."""
@@ -150,7 +164,7 @@ def doubt_early_change(facts: Facts, found: FoundTerm) -> Iterator[str]:
             )
 
 
-WEAK: tuple[Doubt, ...] = (doubt_probability, doubt_vague_size, doubt_rest)
+WEAK: tuple[Doubt, ...] = (doubt_probability, doubt_vague_size, doubt_rest, doubt_free_runs)
 """The doubts about any found term."""
 
 

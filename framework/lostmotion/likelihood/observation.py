@@ -52,7 +52,8 @@ class Observation:
     that were recorded, none where the machine is left to itself; `lead` is the column of the one that drives it and
     `slope` that of its time derivative, where the model has this as an input of its own. `begun` are mean (n,) and
     covariance (n, n) of the states of the model at the first sample, where more is known than the first readings show.
-    `gauge_noise` is the standard deviation of what was left out of a periodic force.
+    `gauge_noise` is the standard deviation of what was left out of a periodic force, `outliers` the number of readings
+    of the whole recording that were left out.
     """
 
     name: str
@@ -68,6 +69,7 @@ class Observation:
     slope: int | None = None
     begun: tuple[Array, Array] | None = None
     gauge_noise: float = 0.0
+    outliers: int = 0
 
     @classmethod
     def of(cls, name: str, response: Array, inputs: Array, dt: float, channel: str, **more: Any) -> Observation:
