@@ -9,8 +9,10 @@ from explained import explain_machine
 from scipy.special import softmax
 
 from lostmotion.evidence.discrepancy import Quadratic
+from lostmotion.evidence.effects import linearise_all
 from lostmotion.evidence.hypothesis import compute_step
-from lostmotion.evidence.posterior_draws import draw_own, sample_choices
+from lostmotion.evidence.posterior_draws import draw_own, find_shares, sample_choices
+from lostmotion.inference.natural import find_term
 
 DRAWS = 4000
 
@@ -47,9 +49,14 @@ def test_choices_are_drawn_by_their_evidence(pushed):
 
 def test_draws_have_mean_and_deviation_of_the_mixture_over_all_choices(pushed):
     choices, shares = list_shares(pushed)
-    own = pushed.frame.own
-    middle = np.array([pushed.theta + compute_step(pushed.frame, pushed.expansion, one)[0][:own] for one in choices])
-    within = np.array([pushed.scatter * np.diag(replace(pushed, choice=one).covariance) for one in choices])
+    own, shares_of = pushed.frame.own, find_shares(pushed)
+    middle, within = np.zeros((2, len(choices), own))
+    for i, choice in enumerate(choices):
+        other = replace(pushed, choice=choice)
+        at = pushed.at + compute_step(pushed.frame, pushed.expansion, choice)[0]
+        whole = np.eye(own, len(at)) + shares_of
+        middle[i] = whole @ at
+        within[i] = pushed.scatter * np.diag(whole[:, other.used] @ other.joint_covariance @ whole[:, other.used].T)
     mean = shares @ middle
     deviation = np.sqrt(shares @ (within + (middle - mean) ** 2))
     drawn = draw_own(pushed, DRAWS, np.random.default_rng(1))
@@ -59,7 +66,18 @@ def test_draws_have_mean_and_deviation_of_the_mixture_over_all_choices(pushed):
         assert drawn[:, k].std() == pytest.approx(deviation[k], rel=0.1)
 
 
-def test_an_interval_is_wider_than_with_the_best_smooth_forces_alone(pushed):
-    fixed = np.sqrt(pushed.scatter * np.diag(pushed.covariance))
-    drawn = draw_own(pushed, DRAWS, np.random.default_rng(2))
-    assert drawn[:, pushed.frame.names.index("c")].std() > 1.05 * fixed[pushed.frame.names.index("c")]
+def test_laws_take_over_what_is_along_them_of_a_smooth_force(pushed):
+    """The slow twin evaluates force of spring, damper and curve along the filtered motion."""
+    frame, found = pushed.frame, find_shares(pushed)
+    posterior = frame.place(pushed.at)
+    one = linearise_all(posterior, pushed.at[: len(posterior.space.free)])[0]
+    x, v = one.states.T
+    c, k = (float(np.exp(pushed.theta[frame.names.index(name)])) for name in ("c", "k"))
+    for force in frame.forces:
+        term = find_term(posterior, force.key)[0]
+        middle, half = (one.full[posterior.system.index[f"{force.key}.{name}"]] for name in ("middle", "half"))
+        place = ((v if term.over == "velocity" else x) - middle) / half
+        curve = term.basis(place)[:, : force.columns.stop - force.columns.start]
+        slow = np.linalg.lstsq(np.column_stack([-c * v, -k * x]), curve, rcond=None)[0]
+        quick = found[[frame.names.index(name) for name in ("c", "k")], force.columns]
+        assert quick == pytest.approx(slow, rel=1e-3, abs=1e-3 * np.abs(slow).max())

@@ -11,6 +11,7 @@ import numpy as np
 from lostmotion.contracts import Array
 from lostmotion.diagnosis.outcome import DRAWS, draw_parameters
 from lostmotion.diagnosis.stages import SearchResult, list_physical_keys
+from lostmotion.evidence.posterior_draws import find_middle
 from lostmotion.inference.origin import shift_origin
 
 
@@ -23,7 +24,7 @@ def draw_mixture(d: SearchResult, rng: np.random.Generator, stretches: Array | N
     """
     after, keys = d.after, list_physical_keys(d.after)
     made = d.explained.draw(keys, DRAWS, rng)
-    alone = draw_parameters(after, rng, stretches, d.explained.best.values)
+    alone = draw_parameters(after, rng, stretches, find_middle(d.explained.best))
     lost = ~np.isfinite(made)
     made[lost] = alone[lost]
     flat = np.flatnonzero(np.std(alone, axis=0) > np.std(made, axis=0))

@@ -2,6 +2,10 @@
 
 The fit has the smooth forces of the largest evidence. The data seldom tell one size or length from its neighbours, or a
 small force along a parameter from none: with one choice the intervals of parameters are too narrow.
+
+A smooth force can take over a part of a law, as one over velocity does of dry friction: the data tell their sum only.
+What is stated are the parameters of the laws that are closest to all forces together, along the recorded motion. The
+rest of the smooth forces is then orthogonal to the laws (Plumlee, J. Am. Stat. Assoc. 112 (2017) 1274-1285).
 """
 
 from __future__ import annotations
@@ -13,8 +17,13 @@ from scipy.special import softmax
 
 from lostmotion.contracts import Array
 from lostmotion.evidence.discrepancy import Choice, Quadratic
+from lostmotion.evidence.effects import linearise_all
 from lostmotion.evidence.hypothesis import Hypothesis, compute_step
 from lostmotion.inference.mixture import compute_root
+from lostmotion.inference.natural import sort_slots
+
+SMALL = 1e-3
+"""Derivatives are taken over this share of the standard deviation of a coordinate."""
 
 
 def draw_own(found: Hypothesis, count: int, rng: np.random.Generator) -> Array:
@@ -22,15 +31,56 @@ def draw_own(found: Hypothesis, count: int, rng: np.random.Generator) -> Array:
 
     Given the smooth forces they are normal: one-step errors are nearly linear near the maximum.
     """
-    choices = sample_choices(found, count, rng)
-    made = rng.standard_normal((count, found.frame.own))
+    choices, shares = sample_choices(found, count, rng), find_shares(found)
+    made = np.zeros((count, found.frame.own))
     for choice in dict.fromkeys(choices):
         rows = [i for i, one in enumerate(choices) if one == choice]
-        step, _ = compute_step(found.frame, found.expansion, choice)
-        root = compute_root(found.scatter * replace(found, choice=choice).covariance)
-        made[rows] = found.theta + step[: found.frame.own] + made[rows] @ root.T
+        other, (step, _) = replace(found, choice=choice), compute_step(found.frame, found.expansion, choice)
+        root = compute_root(found.scatter * other.joint_covariance)
+        drawn = (found.at + step)[other.used] + rng.standard_normal((len(rows), len(other.used))) @ root.T
+        made[rows] = drawn[:, : found.frame.own] + drawn @ shares[:, other.used].T
     low, high = (bound[: found.frame.own] for bound in found.frame.bounds)
     return np.clip(made, low, high)
+
+
+def find_middle(found: Hypothesis) -> dict[str, float]:
+    """Return the own coordinates at the maximum by name, with what the laws take over of the smooth forces."""
+    middle = found.theta + find_shares(found) @ found.at
+    return dict(zip(found.frame.names[: found.frame.own], map(float, middle), strict=True))
+
+
+def find_shares(found: Hypothesis) -> Array:
+    """Return by how much own coordinates grow (own, count) if laws take over what is along them of smooth forces.
+
+    It is the least-squares solution for the accelerations along the filtered motion. Model parameters and amplitudes of
+    laws take part; shapes and levels do not. Zero where the filter has no linearisation.
+    """
+    frame, own = found.frame, found.frame.own
+    made = np.zeros((own, frame.count))
+    posterior = frame.place(found.at)
+    theta = found.at[: len(posterior.space.free)]
+    laws = [i for i, f in enumerate(posterior.space.free[:own]) if f.physical and is_amplitude(found, f.key)]
+    waves = np.concatenate([np.arange(force.columns.start, force.columns.stop) for force in frame.forces])
+    filtered = linearise_all(posterior, theta)
+    if not filtered or not laws:
+        return made
+    steps = np.concatenate([SMALL * np.sqrt(np.diag(found.covariance)[laws]), np.ones(len(waves))])
+    moved = theta + np.vstack([np.zeros(len(theta)), steps[:, None] * np.eye(len(theta))[[*laws, *waves]]])
+    effects = []
+    for one in filtered:
+        rates, _ = one.compute_effects(one.posterior.recordings[0].full(moved), posterior.active)
+        model = rates[:, :, : len(posterior.system.model.states)]
+        effects.append((model[1:] - model[0]).reshape(len(steps), -1))
+    rows = np.concatenate(effects, axis=1)
+    along, taken = rows[: len(laws)].T, rows[len(laws) :].T
+    made[np.ix_(laws, waves)] = steps[: len(laws), None] * np.linalg.lstsq(along, taken, rcond=None)[0]
+    return made
+
+
+def is_amplitude(found: Hypothesis, key: str) -> bool:
+    """Return whether a parameter is one of the model, or an amplitude of a law."""
+    term = key.rpartition(".")[0]
+    return not term or key in {slot.key for slot in sort_slots(found.frame.posterior, term)[0]}
 
 
 def sample_choices(found: Hypothesis, count: int, rng: np.random.Generator) -> list[Choice]:
