@@ -22,6 +22,7 @@ from lostmotion.recording.table import Table
 from lostmotion.registry import Registry
 from lostmotion.robots.arm_effects import ArmCoordinate
 from lostmotion.robots.arm_model import HOLDS, SIDES, TOLERANCE, WHICH_SIDE, RobotModel, make_simulator
+from lostmotion.robots.clock_errors import correct_stamps
 from lostmotion.robots.log import RobotLog, find_stale, measure_clock, resample
 from lostmotion.simulators import INVERSE, Simulator
 
@@ -132,6 +133,8 @@ def _read_log(fields: Fields, folder: Path, simulator: Simulator) -> tuple[Robot
     if stale.any():
         notes = (*notes, f"{stale.sum()} samples repeat all readings of the one before and are left out.")
         time, columns = time[~stale], columns[~stale]
+    time, corrected = correct_stamps(time, columns[:, n : 2 * n])
+    notes = (*notes, *corrected)
     clock = measure_clock(time, path.name)
     hold = fields.choice("hold", HOLDS) if "hold" in fields.values else "step"
     u, _ = resample(time, columns[:, :n], clock, step=hold == "step")
