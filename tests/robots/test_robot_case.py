@@ -190,7 +190,7 @@ def test_the_side_of_the_torque_is_asked_for(tmp_path):
     ("old", "new", "says"),
     [
         ("shoulder.torque", "sholder.torque", "did you mean 'shoulder'?"),
-        ("elbow.torque", "elbow.setpoint", "set points need the controller in the model"),
+        ("elbow.torque", "elbow.setpoint", "the gains of its controller are not known"),
         ("my_model.py:inverse", "other.py:inverse", "no file 'other.py' beside the case"),
         ("my_model.py:inverse", "my_model.py:invers", "did you mean 'inverse'?"),
         ("[model]\n", "[model]\ntolerence = 0.1\n", "did you mean 'tolerance'?"),

@@ -55,7 +55,7 @@ class JointScales:
 
 def measure_scales(arm: TapedArm) -> tuple[JointScales, ...]:
     """Return the natural scales of each joint, from its torque and its motion."""
-    torque, path, span = arm.log.torque, arm.tape.path, arm.log.samples * arm.log.dt
+    torque, path, span = arm.torque, arm.tape.path, arm.log.samples * arm.log.dt
     rms = np.sqrt(np.mean(path.v**2, axis=0))
     sizes = zip(np.std(torque, axis=0), np.std(path.q, axis=0), rms, strict=True)
     return tuple(JointScales(*(max(float(x), 1e-12) for x in (*size, span))) for size in sizes)

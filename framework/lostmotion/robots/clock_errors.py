@@ -98,7 +98,7 @@ def _find_deviations(time: Array, positions: Array, half: int) -> tuple[Array, A
         products += (weight[:, None] * powers[:, : ORDER + 1])[:, :, None] * (positions[at] - positions)[:, None, :]
     normal = moments[:, np.add.outer(np.arange(ORDER + 1), np.arange(ORDER + 1))]
     found = np.linalg.solve(normal, products)
-    return found[:, 0], found[:, 1] / unit
+    return np.asarray(found[:, 0]), np.asarray(found[:, 1] / unit)
 
 
 def _find_lateness(away: Array, speed: Array) -> tuple[Array, NDArray[np.bool_]]:
@@ -123,4 +123,4 @@ def _compare_joints(away: Array, speed: Array) -> Array:
         late, sure = _find_lateness(away[:, rest], speed[:, rest])
         fast = sure & (np.abs(speed[:, j]) > np.median(np.abs(speed[:, j])))
         found.append(np.corrcoef(late[fast] * speed[fast, j], away[fast, j])[0, 1])
-    return np.nan_to_num(np.array(found))
+    return np.asarray(np.nan_to_num(np.array(found)))
