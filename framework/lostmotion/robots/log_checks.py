@@ -303,7 +303,7 @@ def _check_scale(arm: TapedArm, simulator: Simulator, base: _Fit, tolerance: flo
                 f"The {word} of {joint} is {slope:.3g} times that of the model: it may be in {hint}; give its unit or"
                 " a factor.", stop=True,
             )  # fmt: skip
-        elif not agrees and unsure[j] > CLEAR:
+        elif unsure[j] > CLEAR and base.left[j] > CLEAR:
             unit = "N m" if simulator.moves[j] == "rotation" else "N"
             yield Check(
                 "resonance", joint, False,
