@@ -233,3 +233,15 @@ def test_a_batch_diagnoses_robots_and_sets_faults_aside(tmp_path):
         stream.write("\n")
     assert CliRunner().invoke(main, command).exit_code == 1
     assert result.stat().st_mtime_ns != made
+
+
+def test_the_command_check_tells_how_torques_agree(tmp_path):
+    done = CliRunner().invoke(main, ["check", str(write(tmp_path / "case")), "--quiet"])
+    assert done.exit_code == 0, done.output
+    assert "Torque and inverse dynamics of elbow correlate with" in " ".join(done.output.split())
+
+
+def test_the_command_check_refuses_what_a_diagnosis_refuses(tmp_path):
+    done = CliRunner().invoke(main, ["check", str(write(tmp_path / "case", change=negate)), "--quiet"])
+    assert done.exit_code == 2
+    assert "torque of elbow has the opposite sign" in " ".join(done.output.split())

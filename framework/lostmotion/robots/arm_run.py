@@ -97,6 +97,19 @@ def run_robot(
     return made.result
 
 
+def check_robot(path: Path, registry: Registry) -> tuple[str, ...]:
+    """Return what is looked at before any fit of the case of a robot, in sentences; raise `CaseError` if it stops.
+
+    Notes on the log come first.
+    """
+    case = load_robot_case(path, registry)
+    arm = make_arm(case.model.simulator, case.log, case.model.side, known=case.known, parts=False)
+    checks = check_log(arm, case.model.simulator, case.model.tolerance)
+    if stopped := [check.says for check in checks if check.stop]:
+        raise CaseError(" ".join(stopped))
+    return (*case.log.notes, *(check.says for check in checks))
+
+
 @hold_linear_algebra()
 def diagnose_robot(
     case: RobotCase,
