@@ -34,7 +34,7 @@ LEG = """<mujoco model="front left leg">
 </worldbody></mujoco>
 """
 """One leg of the Unitree Go2, its base fixed: lengths, masses and inertias of the maker's description."""
-PENDULUM = '''"""Two links that hang: angles from hanging, the second one relative to the first (design C.0, model 3.0)."""
+PENDULUM = '''"""Two links: angles from hanging, the second one relative to the first (design C.0, model 3.0)."""
 
 import numpy as np
 
@@ -93,7 +93,12 @@ def write_pendulum(data: Path, folder: Path) -> str:
     (folder / "pendulum.py").write_text(PENDULUM)
     joints, log = ("shoulder", "elbow"), (data / "dfki_double_pendulum" / "sys_id_C0.csv").resolve()
     lists = format_lists(joints, ("tau_meas1", "tau_meas2"), ("pos_meas1", "pos_meas2"))
-    known = {"shoulder.frictionloss": 0.093, "elbow.frictionloss": 0.078, "shoulder.damping": 1e-3, "elbow.damping": 1e-3}
+    known = {
+        "shoulder.frictionloss": 0.093,
+        "elbow.frictionloss": 0.078,
+        "shoulder.damping": 1e-3,
+        "elbow.damping": 1e-3,
+    }
     if not log.is_file():
         raise FileNotFoundError(2, "no recording", str(log))
     return (

@@ -1,12 +1,15 @@
 """Checks before any fit: joints with hardly anything but friction pass, motions near a resonance are explained."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from lostmotion.robots.arm_preparation import make_arm
+from lostmotion.robots.arm_preparation import SearchOptions, make_arm, prepare_search
 from lostmotion.robots.log import RobotLog
 from lostmotion.robots.log_checks import check_log
 from lostmotion.robots.user import FunctionSimulator
+from lostmotion_trials.integrators.arm import Arm
 
 DT, SAMPLES = 0.002, 5000
 TIME = DT * np.arange(SAMPLES)
@@ -65,3 +68,13 @@ def test_a_motion_near_the_resonance_is_refused_with_its_reason(wrong):
 def test_a_motion_far_from_the_resonance_is_not():
     found = check((BUSY, BUSY), [compute_torque(BUSY, 1.05 * INERTIA)] * 2)
     assert all(one.passed for one in found)
+
+
+def test_the_nominal_fit_reaches_the_random_force_of_a_log_that_the_model_does_not_explain(helpers):
+    """Its friction holds joints that move: from 2 % of the torque alone the fit ended four millions below."""
+    log = helpers.record(Arm())
+    wrong = replace(log, torque=np.roll(log.torque, 50, axis=0))
+    simulator, known = helpers.make_simulator(), {"shoulder.frictionloss": 0.2, "elbow.frictionloss": 0.2}
+    search, start = prepare_search(make_arm(simulator, wrong, known=known), simulator, (), {}, SearchOptions(most=1))
+    assert search.frame.read(start)["shoulder.random_force"] > 0.3 * np.std(log.torque[:, 0])
+    assert search.frame.run(start).seen.log_likelihood > 0.0
