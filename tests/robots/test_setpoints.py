@@ -106,6 +106,27 @@ def test_what_needs_the_size_of_a_torque_is_not_tried(write, registry, terms):
     assert {term.name for term in laws if isinstance(term, DriveTerm)} == {"excitation_delay", "actuator_lag"}
 
 
+def test_a_sensor_behind_the_gear_does_not_saturate_and_has_no_gain_near_zero(write, registry, terms):
+    case = load_robot_case(
+        write(
+            0.25,
+            CASE.replace("setpoint", "torque")
+            .replace('"s1", unit = "rad"', '"s1", unit = "N m"')
+            .replace('"s2", unit = "rad"', '"s2", unit = "N m"'),
+        ),
+        registry,
+    )
+    tried = {}
+    for side in ("motor", "link"):
+        arm = make_arm(case.model.simulator, case.log, side)
+        search, _ = prepare_search(arm, case.model.simulator, terms, {}, SearchOptions())
+        tried[side] = {effect.key: effect for effect in search.screen.effects}
+    assert "drive_saturation@left.torque" in tried["motor"]
+    assert {"drive_saturation", "drive_dead_zone"}.isdisjoint(key.partition("@")[0] for key in tried["link"])
+    (gain,) = tried["link"]["excitation_gain@left.torque"].coordinates
+    assert (gain.low, gain.high) == (-0.6, 1.5)
+
+
 def test_set_points_without_gains_are_refused_with_the_remedy(write, registry):
     case = CASE.replace("right = { kp = 20.0, kd = 1.5 }", "")
     with pytest.raises(CaseError, match=r'set point of right.*\[model.gains\], "right" = \{ kp'):

@@ -2,7 +2,8 @@
 
 A computer that stamps what it receives is late by a varying time. What the readings deviate from smooth motions is then
 the same time in all joints, by which the stamps can be corrected. Errors that vary more slowly than the windows of the
-smooth motions cannot be told from another motion, and stay.
+smooth motions cannot be told from another motion. They are seen where the corrected steps are whole multiples of one
+step: the robot has read its joints by an even clock, and some readings have been lost.
 """
 
 from __future__ import annotations
@@ -21,6 +22,10 @@ FEWEST = 8
 """The smallest number of samples in half a window."""
 ROUNDS = 2
 """The number of times that motions are smoothed, each time with the stamps as corrected so far."""
+WHOLE, MOST = 0.1, 0.95
+"""Steps are multiples of one step if they are within this share of it, for so many of them."""
+SLIP = 0.5
+"""The largest error (steps) of the mean stamp of a tenth of a log: a reading that was miscounted is one step."""
 AGREE = 0.9
 """The correlation of the deviations of a joint with those that the other joints predict, above which they agree."""
 
@@ -57,11 +62,32 @@ def correct_stamps(time: Array, positions: Array) -> tuple[Array, tuple[str, ...
     found = find_clock_errors(time, np.stack([fill_missing(column) for column in positions.T], axis=1))
     if found is None or not found.clear:
         return time, ()
+    corrected = np.maximum.accumulate(time - found.late)
+    even = _count_steps(corrected, time)
+    error = float(np.std(time - (corrected if even is None else even)))
     note = (
-        f"The readings of all joints show the same errors of the time stamps, {1e3 * found.size:.3g} ms (sd): the"
-        " stamps are corrected by them."
+        f"The readings of all joints show the same errors of the time stamps, {1e3 * error:.3g} ms (sd): the stamps are"
+        " corrected by them."
     )
-    return np.maximum.accumulate(time - found.late), (note,)
+    if even is None:
+        return corrected, (note,)
+    return even, (note, f"The joints were read by an even clock, every {1e3 * np.min(np.diff(even)):.4g} ms.")
+
+
+def _count_steps(corrected: Array, time: Array) -> Array | None:
+    """Return the times (samples,) of an even clock from nearly correct ones; None where these are not even.
+
+    Its step and its beginning are those that fit the stamps best.
+    """
+    steps = np.diff(corrected)
+    counts = np.round(steps / np.median(steps))
+    if np.min(counts) < 1.0 or np.mean(np.abs(steps / np.median(steps) - counts) < WHOLE) < MOST:
+        return None
+    number = np.concatenate([[0.0], np.cumsum(counts)])
+    step, begin = np.polyfit(number, time, 1)
+    even = begin + step * number
+    slips = [abs(float(np.mean(part))) for part in np.array_split(time - even, 10)]
+    return np.asarray(even) if max(slips) < SLIP * step else None
 
 
 def find_clock_errors(time: Array, positions: Array) -> ClockErrors | None:

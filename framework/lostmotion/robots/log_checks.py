@@ -16,6 +16,7 @@ from lostmotion.parts import Array
 from lostmotion.quantities import name_force
 from lostmotion.results.robots import Check
 from lostmotion.robots.arm import TapedArm
+from lostmotion.robots.arm_effects import GAINS
 from lostmotion.robots.arm_model import TOLERANCE
 from lostmotion.robots.arm_preparation import estimate_noise
 from lostmotion.robots.tape import Tape, smooth_path
@@ -292,11 +293,13 @@ def _check_scale(arm: TapedArm, simulator: Simulator, base: _Fit, tolerance: flo
     stops = bool(np.median(np.where(base.explained, 1.0, base.correlation)) < AGREES)
     for j, joint in enumerate(arm.joints):
         slope, agrees = float(base.slope[j]), base.correlation[j] > AGREES
-        if agrees and not 0.4 < slope < 2.5:
+        if agrees and not GAINS[0] < slope < GAINS[1]:
             word = name_force(simulator.moves[j])
             small, large = ("N mm", "kN m") if word == "torque" else ("mN", "kN")
             hint = (
-                f"{small} or a percentage" if slope > 2.5 else f"{large}, a motor current or a {word} before the gear"
+                f"{small} or a percentage"
+                if slope > GAINS[1]
+                else f"{large}, a motor current or a {word} before the gear"
             )
             yield Check(
                 "unit", joint, False,

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lostmotion.contracts import DriveTerm, Term
-from lostmotion.defaults import INERTIA_CHANGE
+from lostmotion.defaults import BEFORE_GEARS, INERTIA_CHANGE
 from lostmotion.evidence.expansion import compute_log_evidence
 from lostmotion.likelihood.innovations import Innovations
 from lostmotion.parts import Array
@@ -80,6 +80,8 @@ def list_effects(
         pitches = find_pitches(arm, plain, j)
         controlled = joint in arm.log.controlled
         for term in terms:
+            if arm.side == "link" and term.name in BEFORE_GEARS:
+                continue
             if controlled and isinstance(term, DriveTerm) and any(q.dimension != TIME for q in term.params):
                 continue  # what depends on the size of a torque: only that of the set point is known beforehand
             at = f"{joint}.torque" if isinstance(term, DriveTerm) else joint
