@@ -53,7 +53,7 @@ def test_the_size_of_the_errors_is_told():
 
 
 def test_noise_of_encoders_is_no_clock():
-    """Stamps jitter, but readings were taken at them: 1 % of the wrong kind of joints would agree by 0.9."""
+    """The stamps jitter, and the readings were taken at them. Five seeds, no chance is quoted."""
     for seed in range(5):
         stamps, _, _ = draw(2, seed)
         rng = np.random.default_rng(seed)

@@ -1,6 +1,7 @@
 """Logs with set points in place of torques: the controller is part of the model, with gains of the case or the file."""
 
 import math
+from functools import cache
 
 import numpy as np
 import pytest
@@ -14,7 +15,7 @@ from lostmotion.robots.arm_run import diagnose_robot
 
 JOINTS, GAINS = ("left", "right"), (20.0, 1.5)
 INERTIA, WEIGHT, DAMPING = 0.05, 2.0, 0.1
-DT, SAMPLES, STEPS = 0.004, 2500, 100
+DT, SAMPLES, STEPS = 0.004, 2000, 100
 MODEL = f"""
 import numpy as np
 
@@ -56,17 +57,23 @@ def follow(wanted, friction, rng):
     return np.array(found) + 3e-5 * rng.standard_normal(len(wanted))
 
 
+@cache
+def simulate(friction):
+    """Return times, set points and positions (samples, 5) of two pendulums, the second one with friction."""
+    rng, time = np.random.default_rng(1), DT * np.arange(SAMPLES)
+    held = np.repeat(time[::8], 8)[:SAMPLES]
+    wanted = [0.5 * np.sin(w * held + 0.2 * held**2) for w in (2.0, 3.0)]
+    found = [follow(one, own, rng) for one, own in zip(wanted, (0.0, friction), strict=True)]
+    return np.column_stack([time, *wanted, *found])
+
+
 @pytest.fixture(scope="module")
 def write(tmp_path_factory):
-    """Return a function that writes a case of two pendulums, the second one with friction."""
+    """Return a function that writes a case of the two pendulums."""
 
     def write(friction, case=CASE):
-        folder, rng = tmp_path_factory.mktemp("setpoints"), np.random.default_rng(1)
-        time = DT * np.arange(SAMPLES)
-        held = np.repeat(time[::8], 8)[:SAMPLES]
-        wanted = [0.5 * np.sin(w * held + 0.2 * held**2) for w in (2.0, 3.0)]
-        columns = [time, *wanted, *(follow(s, f, rng) for s, f in zip(wanted, (0.0, friction), strict=True))]
-        np.savetxt(folder / "log.csv", np.column_stack(columns), "%.9g", ",", header="t,s1,s2,q1,q2", comments="")
+        folder = tmp_path_factory.mktemp("setpoints")
+        np.savetxt(folder / "log.csv", simulate(friction), "%.9g", ",", header="t,s1,s2,q1,q2", comments="")
         (folder / "own.py").write_text(MODEL)
         (folder / "case.toml").write_text(case)
         return folder / "case.toml"
