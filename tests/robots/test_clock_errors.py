@@ -70,6 +70,13 @@ def test_joints_that_vibrate_together_are_no_clock():
     assert not find_clock_errors(stamps, q).clear
 
 
+def test_a_joint_that_rests_has_no_vote():
+    stamps, true, readings = draw(3)
+    readings[:, 1] = 1e-5 * np.random.default_rng(0).standard_normal(len(stamps))
+    corrected, _ = correct_stamps(stamps, readings)
+    assert np.std(corrected - true) < 0.1 * np.std(stamps - true)
+
+
 def test_even_stamps_and_single_joints_stay():
     even = DT * np.arange(4000)
     _, _, readings = draw(2, samples=4000)

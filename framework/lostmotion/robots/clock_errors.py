@@ -24,8 +24,8 @@ ROUNDS = 2
 """The number of times that motions are smoothed, each time with the stamps as corrected so far."""
 WHOLE, MOST = 0.1, 0.95
 """Steps are multiples of one step if they are within this share of it, for so many of them."""
-SLIP = 0.5
-"""The largest error (steps) of the mean stamp of a tenth of a log: a reading that was miscounted is one step."""
+SLIP = 0.1
+"""The largest error (steps) of the mean stamp of a tenth of a log. A reading that is miscounted by one leaves 0.2."""
 AGREE = 0.9
 """The correlation of the deviations of a joint with those that the other joints predict, above which they agree."""
 
@@ -34,7 +34,8 @@ AGREE = 0.9
 class ClockErrors:
     """The time by which each stamp is late (samples,) in s, and how the deviations of each joint agree with the others.
 
-    `agreement` (joints,) are correlations over samples in which both move faster than in half of the log.
+    `agreement` (joints,) are correlations over samples in which both move faster than in half of the log; NaN for a
+    joint that is too slow for its noise to show the errors.
     """
 
     late: Array
@@ -42,8 +43,9 @@ class ClockErrors:
 
     @property
     def clear(self) -> bool:
-        """Whether all joints show the same errors."""
-        return bool(np.min(self.agreement) > AGREE)
+        """Whether all joints that move, two at least, show the same errors."""
+        told = self.agreement[np.isfinite(self.agreement)]
+        return len(told) > 1 and bool(np.min(told) > AGREE)
 
     @property
     def size(self) -> float:
@@ -132,21 +134,27 @@ def _find_lateness(away: Array, speed: Array) -> tuple[Array, NDArray[np.bool_]]
 
     Joints count by their noise. Samples in which all are slow tell little, and their time is drawn to zero.
     """
-    slow = np.abs(speed) <= np.quantile(np.abs(speed), 0.2, axis=0)
-    noise = np.array([np.mean(column[rest] ** 2) for column, rest in zip(away.T, slow.T, strict=True)])
-    weights = 1.0 / np.maximum(noise, 1e-30)
+    weights = 1.0 / np.maximum(_measure_noise(away, speed) ** 2, 1e-30)
     told, known = (away * speed) @ weights, speed**2 @ weights
     sure = known >= np.median(known)
     spread = max(float(np.mean((told[sure] / known[sure]) ** 2)), 1e-30)
     return told / (known + 1.0 / spread), sure
 
 
+def _measure_noise(away: Array, speed: Array) -> Array:
+    """Return the deviations (rms, joints) of each joint in the fifth of the log in which it is slowest."""
+    slow = np.abs(speed) <= np.quantile(np.abs(speed), 0.2, axis=0)
+    return np.sqrt([np.mean(column[rest] ** 2) for column, rest in zip(away.T, slow.T, strict=True)])
+
+
 def _compare_joints(away: Array, speed: Array) -> Array:
     """Return the correlation (joints,) of the deviations of each joint with those that the others predict."""
-    found = []
+    found, noise = [], _measure_noise(away, speed)
     for j in range(speed.shape[1]):
         rest = np.arange(speed.shape[1]) != j
         late, sure = _find_lateness(away[:, rest], speed[:, rest])
         fast = sure & (np.abs(speed[:, j]) > np.median(np.abs(speed[:, j])))
-        found.append(np.corrcoef(late[fast] * speed[fast, j], away[fast, j])[0, 1])
-    return np.asarray(np.nan_to_num(np.array(found)))
+        told = late[fast] * speed[fast, j]
+        seen = len(told) > 1 and np.std(told) > noise[j]
+        found.append(np.corrcoef(told, away[fast, j])[0, 1] if seen else np.nan)
+    return np.array(found)
