@@ -176,10 +176,10 @@ def _weigh_shape(
         if not kept:
             return None
     evidence = compute_log_evidence(gradient[kept], information[np.ix_(kept, kept)], np.ones(len(kept)))
-    values = dict.fromkeys(shape.amplitudes, 0.0)
-    for i, s in zip(kept, step, strict=True):
-        c = coordinates[shape.amplitudes[i]]
-        values[c.key] = min(max(c.unit * float(s), c.low), c.high)
+    own = [coordinates[shape.amplitudes[i]] for i in kept]
+    inside = np.clip(step, [c.low / c.unit for c in own], [c.high / c.unit for c in own])
+    evidence -= 0.5 * float((step - inside) @ inner @ (step - inside))
+    values = dict.fromkeys(shape.amplitudes, 0.0) | {c.key: c.unit * float(s) for c, s in zip(own, inside, strict=True)}
     effect = effect.choose(shape.values) if isinstance(effect, LawEffect) else effect
     return ArmPromise(effect, {**shape.values, **values}, evidence / temper - price - effect.price)
 
