@@ -6,6 +6,7 @@ import pytest
 from lostmotion.evidence.hypothesis import maximise_within
 from lostmotion.robots.arm_effects import ArmCoordinate
 from lostmotion.robots.arm_preparation import SearchOptions, make_arm, prepare_search
+from lostmotion.robots.arm_words import find_told, list_findings
 from lostmotion.robots.promises import list_promises
 from lostmotion_trials.integrators.arm import Arm
 
@@ -56,3 +57,13 @@ def test_a_promise_at_a_bound_is_that_of_the_bound(helpers, terms):
     gain = told["excitation_gain@elbow.torque"]
     assert gain.start == {"excitation_gain@elbow.torque.error": pytest.approx(-0.6)}
     assert gain.gain < told["inertia_change@elbow"].gain < told["coulomb_friction@elbow"].gain
+
+
+def test_a_gain_at_the_end_of_its_range_is_likely_at_most(helpers, search_of):
+    log = helpers.record(Arm(gain=np.array([1.0, 0.2])), samples=1500)
+    search = search_of(log, ("excitation_gain",), most=1)
+    motions = dict.fromkeys(("shoulder", "elbow"), "rotation")
+    (found,) = [m for m in list_findings(search, find_told(search), motions) if m.mechanism == "excitation_gain"]
+    assert found.parameters["error"].median == pytest.approx(-0.6)
+    assert found.state == "likely"
+    assert "end of the range" in found.doubts[-1]

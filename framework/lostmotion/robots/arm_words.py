@@ -17,7 +17,7 @@ from lostmotion.results import Interval, attach_unit, percent
 from lostmotion.results.diagnosis import Candidate, Confusion, Mechanism
 from lostmotion.results.robots import Dependence, JointRow
 from lostmotion.robots.arm import TapedArm
-from lostmotion.robots.arm_effects import ArmCoordinate, ArmEffect, GearEffect, LawEffect, MassEffect
+from lostmotion.robots.arm_effects import GAIN_ERROR, ArmCoordinate, ArmEffect, GearEffect, LawEffect, MassEffect
 from lostmotion.robots.arm_hypothesis import ArmHypothesis
 from lostmotion.robots.arm_search import NOTHING, ArmSearch, find_probabilities, simplify
 from lostmotion.robots.free_runs import HeldOutRuns
@@ -126,6 +126,9 @@ def list_findings(search: ArmSearch, told_of: ArmHypothesis, motions: Mapping[st
         says, told = describe_effect(best, effect, motions)
         name, at = key.split("@")
         doubts = () if state == "named" else ("Other sets of mechanisms explain the log nearly as well.",)
+        values = [(best.values[c.key], c) for c in effect.coordinates if c.key.endswith(f".{GAIN_ERROR}")]
+        if any(not c.low < value < c.high for value, c in values):
+            state, doubts = "likely", (*doubts, "The gain is at the end of the range that is tried.")
         drive = _measure_share(best, effect, arm)
         found.append(
             Mechanism(
