@@ -48,6 +48,8 @@ RARE_IN_JOINTS: Mapping[str, float] = {
     "drive_saturation": 1.0, "drive_dead_zone": 1.0,  # a recorded torque is limited already
 }  # fmt: skip
 """The log odds against laws that are rarer in the joints of robots than friction, damping, ripple or a delay."""
+BEFORE_GEARS = ("drive_saturation", "drive_dead_zone")
+"""Terms between the command of a drive and its torque: a sensor behind the gear shows what they have left."""
 USUAL = (
     "coulomb_friction", "backlash", "linear_stiffness", "excitation_delay", "viscous_damping", "cubic_stiffness",
     "offset_force", "quadratic_damping", "stribeck_friction", "asymmetric_gap", "cogging", "gap_drift",

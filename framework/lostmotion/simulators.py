@@ -66,6 +66,11 @@ class Simulator(ABC):
         return {}
 
     @property
+    def gains(self) -> Mapping[str, tuple[float, float]]:
+        """The stiffness (N m/rad) and damping (N m s/rad) of position controllers that the model has, by joint."""
+        return {}
+
+    @property
     def points(self) -> tuple[str, ...]:
         """The places at which a payload may be carried."""
         return ()

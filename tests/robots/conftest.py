@@ -13,6 +13,7 @@ from lostmotion.robots.user import FunctionSimulator
 from lostmotion_trials.integrators.arm import Arm, record_motion
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "plugins" / "template" / "src"))
+sys.path.insert(0, str(Path(__file__).parent))
 JOINTS = ("shoulder", "elbow")
 ARMATURE, DAMPING = (0.3, 0.1), (0.5, 0.3)
 

@@ -6,6 +6,8 @@ import pytest
 from lostmotion.evidence.hypothesis import maximise_within
 from lostmotion.robots.arm_effects import ArmCoordinate
 from lostmotion.robots.arm_preparation import SearchOptions, make_arm, prepare_search
+from lostmotion.robots.arm_words import find_told, list_findings
+from lostmotion.robots.promises import list_promises
 from lostmotion_trials.integrators.arm import Arm
 
 
@@ -43,3 +45,25 @@ def test_a_value_on_its_upper_bound_still_has_a_derivative(helpers):
         gradients.append(search.frame.expand(start)[0].gradient[place])
     assert abs(gradients[1]) > 1.0
     assert gradients[0] == pytest.approx(gradients[1], rel=0.2)
+
+
+def test_a_promise_at_a_bound_is_that_of_the_bound(helpers, terms):
+    """Friction is most of the torque of the elbow: a gain of zero would explain it, one of 0.4 does so less well."""
+    log, simulator = helpers.record(Arm(friction=np.array([0.0, 8.0])), samples=1500), helpers.make_simulator()
+    kept = [term for term in terms if term.name in ("coulomb_friction", "excitation_gain")]
+    search, start = prepare_search(make_arm(simulator, log), simulator, kept, {}, SearchOptions())
+    search.weigh((), [start])
+    told = {p.effect.key: p for p in list_promises(search.screen, search.found[frozenset()], search.price, 1.0)}
+    gain = told["excitation_gain@elbow.torque"]
+    assert gain.start == {"excitation_gain@elbow.torque.error": pytest.approx(-0.6)}
+    assert gain.gain < told["inertia_change@elbow"].gain < told["coulomb_friction@elbow"].gain
+
+
+def test_a_gain_at_the_end_of_its_range_is_likely_at_most(helpers, search_of):
+    log = helpers.record(Arm(gain=np.array([1.0, 0.2])), samples=1500)
+    search = search_of(log, ("excitation_gain",), most=1)
+    motions = dict.fromkeys(("shoulder", "elbow"), "rotation")
+    (found,) = [m for m in list_findings(search, find_told(search), motions) if m.mechanism == "excitation_gain"]
+    assert found.parameters["error"].median == pytest.approx(-0.6)
+    assert found.state == "likely"
+    assert "end of the range" in found.doubts[-1]

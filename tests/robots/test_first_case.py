@@ -101,6 +101,7 @@ def test_seven_joints_by_number(names):
     [
         (("t", "a", "b", "c", "d"), (), "no column belongs to a joint of the model by its name"),
         (("t", "tau_shoulder", "b", "q_shoulder", "q_elbow"), (), "has no torque of elbow"),
+        (("t", "set_shoulder", "set_elbow", "q_shoulder", "q_elbow"), (), "its input is 'shoulder.setpoint'"),
         (("a", *COLUMNS[1:]), (), "no column of time: give --time COLUMN"),
         (COLUMNS, ("--model", "linear_oscillator"), "--model does not belong to a robot"),
         (COLUMNS, ("--urdf", "arm.urdf"), "name two models"),

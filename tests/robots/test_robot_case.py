@@ -190,7 +190,7 @@ def test_the_side_of_the_torque_is_asked_for(tmp_path):
     ("old", "new", "says"),
     [
         ("shoulder.torque", "sholder.torque", "did you mean 'shoulder'?"),
-        ("elbow.torque", "elbow.setpoint", "set points need the controller in the model"),
+        ("elbow.torque", "elbow.setpoint", "the gains of its controller are not known"),
         ("my_model.py:inverse", "other.py:inverse", "no file 'other.py' beside the case"),
         ("my_model.py:inverse", "my_model.py:invers", "did you mean 'inverse'?"),
         ("[model]\n", "[model]\ntolerence = 0.1\n", "did you mean 'tolerance'?"),
@@ -233,3 +233,15 @@ def test_a_batch_diagnoses_robots_and_sets_faults_aside(tmp_path):
         stream.write("\n")
     assert CliRunner().invoke(main, command).exit_code == 1
     assert result.stat().st_mtime_ns != made
+
+
+def test_the_command_check_tells_how_torques_agree(tmp_path):
+    done = CliRunner().invoke(main, ["check", str(write(tmp_path / "case")), "--quiet"])
+    assert done.exit_code == 0, done.output
+    assert "Torque and inverse dynamics of elbow correlate with" in " ".join(done.output.split())
+
+
+def test_the_command_check_refuses_what_a_diagnosis_refuses(tmp_path):
+    done = CliRunner().invoke(main, ["check", str(write(tmp_path / "case", change=negate)), "--quiet"])
+    assert done.exit_code == 2
+    assert "torque of elbow has the opposite sign" in " ".join(done.output.split())

@@ -35,10 +35,19 @@ def command(ctx: click.Context, /, case: Path, out: Path, model: str, as_json: b
     parameters and terms that this recording cannot tell apart, the smallest size of each missing term that would be
     named with a probability of 90 %, and changes of the experiment that would help.
 
+    For the case of a robot: what is looked at before a diagnosis fits anything, such as signs, units, the order of
+    joints, gravity and clocks; it writes no files.
+
     Writes check.json and check.html into DIR. Exit status 0 when the check was made, 2 for a case that cannot be used.
     """
     path = prepare_case(ctx, case, out, model)
-    _refuse_robot(path, ctx)
+    from lostmotion.robots import is_robot_case
+
+    if is_robot_case(path, registry_of(ctx)):
+        if as_json:
+            raise CaseError(f"{path.name} is the case of a robot, whose check has no JSON: leave out --json")
+        _check_robot(path, ctx, quiet=quiet)
+        return
     from lostmotion.codec import to_plain
     from lostmotion.diagnosis.recording_check import run_check
 
@@ -52,12 +61,12 @@ def command(ctx: click.Context, /, case: Path, out: Path, model: str, as_json: b
     click.echo(str(out / "check.html"))
 
 
-def _refuse_robot(path: Path, ctx: click.Context) -> None:
-    """Raise a `CaseError` for a case of a robot."""
-    from lostmotion.robots import is_robot_case
+def _check_robot(path: Path, ctx: click.Context, *, quiet: bool) -> None:
+    """Print what is looked at before any fit of the case of a robot."""
+    from lostmotion.robots.arm_run import check_robot
 
-    if is_robot_case(path, registry_of(ctx)):
-        raise CaseError(
-            f"{path.name} is the case of a robot, and only machines with equations of motion can be checked before the"
-            " fit: run `lostmotion diagnose`, which first checks signs, units, clocks and parameters of a robot"
-        )
+    with show_progress("check", quiet=quiet) as say:
+        say("tape")
+        found = check_robot(path, registry_of(ctx))
+    for sentence in found:
+        click.echo(sentence)

@@ -21,7 +21,7 @@ def is_robot_result(plain: Mapping[str, object]) -> bool:
 class Check:
     """Something that was looked at before any fit."""
 
-    name: str = described("motion, unit, order, gravity, sign, torque, side, clock or parameters")
+    name: str = described("motion, unit, order, gravity, sign, torque, resonance, side or clock")
     joint: str = described("the joint; empty where it concerns all")
     passed: bool = described("whether nothing is wrong")
     says: str = described("what was found, with the remedy")

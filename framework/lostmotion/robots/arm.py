@@ -101,6 +101,11 @@ class TapedArm:
         """The names of the joints."""
         return self.log.joints
 
+    @cached_property
+    def torque(self) -> Array:
+        """The torque (samples, n) that acts along the path of the tape."""
+        return self.log.measure_torque(self.tape.path.q, self.tape.path.v)
+
     @property
     def settling(self) -> int:
         """The number of samples at the beginning that do not count, because the first state is not known."""
@@ -133,6 +138,9 @@ class TapedArm:
         loss[list(soft)], armature[list(soft)] = 0.0, 0.0
         n, eye = len(self.joints), np.eye(len(self.joints))
         mass, bias = mass + eye * armature, bias + spring * (q0 - rest)
+        if self.log.gains is not None:
+            stiff, lossy = self.log.gains.T
+            bias, spring, loss = bias + stiff * q0, spring + stiff, loss + lossy
         for name, value in changed:
             more = value - self.values.get(name, 0.0)
             part = self.parts[name]

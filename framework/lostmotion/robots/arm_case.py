@@ -22,13 +22,16 @@ from lostmotion.recording.table import Table
 from lostmotion.registry import Registry
 from lostmotion.robots.arm_effects import ArmCoordinate
 from lostmotion.robots.arm_model import HOLDS, SIDES, TOLERANCE, WHICH_SIDE, RobotModel, make_simulator
+from lostmotion.robots.clock_errors import correct_stamps
 from lostmotion.robots.log import RobotLog, find_stale, measure_clock, resample
 from lostmotion.simulators import INVERSE, Simulator
 
 TOP = ("title", "plugins", "recordings", "model", "truth")
 RECORDING = ("file", "time", "rate", "inputs", "sensors", "hold", "t_start", "t_end", "name", "start")
-MODEL = ("joints", "torque", "tolerance", "known", "estimate")
+MODEL = ("joints", "torque", "tolerance", "known", "estimate", "gains")
 ENTRY = ("column", "unit", "factor")
+SETPOINT = "setpoint"
+"""The quantity of an input that is the set point of a position controller."""
 ORDERS = {"position": 0, "velocity": 1}
 KINDS: Mapping[str, Dimension] = {
     "damping": DAMPING, "frictionloss": FORCE, "armature": INERTIA, "stiffness": STIFFNESS, "mass": INERTIA,
@@ -86,7 +89,8 @@ def load_robot_case(path: Path, registry: Registry) -> RobotCase:
         raise model.error(WHICH_SIDE)
     side = model.choice("torque", SIDES)
     tolerance = model.positive("tolerance") if "tolerance" in model.values else TOLERANCE
-    log, sha = _read_log(recordings[0], path.parent, simulator)
+    gains = {**simulator.gains, **_read_gains(model.maybe_table("gains"), simulator.joints)}
+    log, sha = _read_log(recordings[0], path.parent, simulator, gains)
     made = RobotModel(simulator, kind, str(path.parent / source), side, tolerance, log.hold)
     fields = model.maybe_table("estimate")
     file = made.file
@@ -116,12 +120,20 @@ def make_coordinate(key: str, prior: Prior) -> ArmCoordinate:
     return ArmCoordinate(key, unit, middle / unit, 1.0, False, low, high, False, kind)
 
 
-def _read_log(fields: Fields, folder: Path, simulator: Simulator) -> tuple[RobotLog, str]:
+def _read_gains(fields: Fields, joints: tuple[str, ...]) -> dict[str, tuple[float, float]]:
+    """Return the stiffness and damping (SI) of the controller of each joint that a case gives."""
+    tables = {joint: fields.only(joints).table(joint).only(("kp", "kd")) for joint in fields.values}
+    return {joint: (own.positive("kp"), own.maybe_number("kd") or 0.0) for joint, own in tables.items()}
+
+
+def _read_log(
+    fields: Fields, folder: Path, simulator: Simulator, gains: Mapping[str, tuple[float, float]]
+) -> tuple[RobotLog, str]:
     """Return the log of a case on an even grid, and the digest of its file."""
     fields.only(RECORDING)
     path = folder / fields.path("file")
     table = read_table(path)
-    torque, readings = _list_inputs(fields, simulator), _list_sensors(fields, simulator)
+    torque, readings = _list_inputs(fields, simulator, gains), _list_sensors(fields, simulator)
     columns = np.stack(
         [_read_column(table, entry, path.name) for entry in (*torque, *(r[0] for r in readings))], axis=1
     )
@@ -132,14 +144,24 @@ def _read_log(fields: Fields, folder: Path, simulator: Simulator) -> tuple[Robot
     if stale.any():
         notes = (*notes, f"{stale.sum()} samples repeat all readings of the one before and are left out.")
         time, columns = time[~stale], columns[~stale]
+    time, corrected = correct_stamps(time, columns[:, n : 2 * n])
+    notes = (*notes, *corrected)
     clock = measure_clock(time, path.name)
     hold = fields.choice("hold", HOLDS) if "hold" in fields.values else "step"
     u, _ = resample(time, columns[:, :n], clock, step=hold == "step")
+    used = np.array([
+        gains[joint] if entry.quantity == "position" else (0.0, 0.0)
+        for joint, entry in zip(simulator.joints, torque, strict=True)
+    ])  # fmt: skip
+    u = np.where(used[:, 0] > 0.0, used[:, 0] * u, u)
     z, gaps = resample(time, columns[:, n:], clock, step=False)
     z[gaps] = np.nan
     name = fields.maybe_text("name") or Path(path).stem
     picks = tuple(pick for _, pick in readings)
-    log = RobotLog(name, simulator.joints, clock.step, u, z, picks, hold, (*notes, *clock.write_notes()))
+    log = RobotLog(
+        name, simulator.joints, clock.step, u, z, picks, hold, (*notes, *clock.write_notes()),
+        used if np.any(used) else None,
+    )  # fmt: skip
     return log, digest(path)
 
 
@@ -191,22 +213,28 @@ def _split(fields: Fields, key: str, default: str, simulator: Simulator) -> tupl
     return joint, quantity
 
 
-def _list_inputs(fields: Fields, simulator: Simulator) -> list[LogColumn]:
-    """Return the torque column of each joint, in the order of the joints."""
+def _list_inputs(fields: Fields, simulator: Simulator, gains: Mapping[str, tuple[float, float]]) -> list[LogColumn]:
+    """Return the column of the torque or the set point of each joint, in the order of the joints."""
     found: dict[str, LogColumn] = {}
     for entry in fields.entries("inputs"):
         entry.only(("input", *ENTRY))
         joint, quantity = _split(entry, "input", "torque", simulator)
-        if quantity not in ("torque", "force"):
+        if quantity not in ("torque", "force", SETPOINT):
             raise entry.error(
-                f"has the input {entry.text('input')!r}: only measured or commanded torques can be used,"
-                f" '{joint}.torque'; set points need the controller in the model"
+                f"has the input {entry.text('input')!r}: expected '{joint}.torque', or '{joint}.{SETPOINT}' of a"
+                " controller whose gains are known"
             )
-        found[joint] = _read_entry(entry, "force")
+        if quantity == SETPOINT and joint not in gains:
+            raise entry.error(
+                f"has a set point of {joint}, and the gains of its controller are not known: give them in"
+                f' [model.gains], "{joint}" = {{ kp = ..., kd = ... }} in N m/rad and N m s/rad'
+            )
+        found[joint] = _read_entry(entry, "position" if quantity == SETPOINT else "force")
     if missing := [joint for joint in simulator.joints if joint not in found]:
         raise fields.error(
             f"has no torque of {missing[0]}: add {{ input = '{missing[0]}.torque', column = '...', unit = 'N m' }}, or"
-            " leave the joint out of [model] joints"
+            f" '{missing[0]}.{SETPOINT}' if the set points of a controller with known gains are recorded, or leave the"
+            " joint out of [model] joints"
         )
     return [found[joint] for joint in simulator.joints]
 

@@ -244,7 +244,7 @@ def _list_known(
         add(f"{joint}.damping", j, -path.v[:, j], tolerance * own["damping"])
         add(f"{joint}.frictionloss", j, -np.sign(path.v[:, j]), tolerance * own["frictionloss"])
         add(f"{joint}.stiffness", j, rest - path.q[:, j], tolerance * abs(stiffness))
-        add(f"{joint}.scale", j, drive[:, j], SCALE)
+        add(f"{joint}.scale", j, arm.torque[:, j] if joint in log.controlled else drive[:, j], SCALE)
         add(f"{joint}.zero", j, np.ones(log.samples), ZERO * scale.force)
         add(f"{joint}.late", j, -slope[:, j], LATE * log.dt)
         add(f"{joint}.encoder", -1, -arm.tape.stiffness[:, :, j], ANGLE)

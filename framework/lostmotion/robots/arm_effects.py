@@ -32,6 +32,11 @@ PITCH = "pitch"
 """The parameter whose values are found by a scan of waves over the position of the joint."""
 NUDGE = 1e-3
 """The amplitude at which the force of a unit amplitude is found, in units of its scale."""
+GAINS = (0.4, 2.5)
+"""The gains of a torque that are tried. Others are a wrong unit, which is refused before any fit; with a gain near zero
+nothing would drive a joint, and the friction that its torque overcomes would seem to be missing in both."""
+GAIN_ERROR = "error"
+"""The parameter of a gain: its relative error."""
 FURTHER = 0.5
 """The log prior odds against each parameter of a law beyond the first."""
 USUAL_GAP, USUAL_MESH = 1e-3, 60.0
@@ -55,7 +60,7 @@ class JointScales:
 
 def measure_scales(arm: TapedArm) -> tuple[JointScales, ...]:
     """Return the natural scales of each joint, from its torque and its motion."""
-    torque, path, span = arm.log.torque, arm.tape.path, arm.log.samples * arm.log.dt
+    torque, path, span = arm.torque, arm.tape.path, arm.log.samples * arm.log.dt
     rms = np.sqrt(np.mean(path.v**2, axis=0))
     sizes = zip(np.std(torque, axis=0), np.std(path.q, axis=0), rms, strict=True)
     return tuple(JointScales(*(max(float(x), 1e-12) for x in (*size, span))) for size in sizes)
@@ -171,6 +176,9 @@ class LawEffect:
         causal = isinstance(self.term, DriveTerm) and q.dimension == TIME
         low = max(q.low, 0.0) if causal else q.low  # a torque from the future holds the noise of a later reading
         key = f"{self.key}.{q.name}"
+        if isinstance(self.term, DriveTerm) and q.name == GAIN_ERROR:
+            bounds = (GAINS[0] - 1.0, GAINS[1] - 1.0)
+            return ArmCoordinate(key, unit, 0.0, 1.0, False, *bounds, q.null is not None, q.dimension)
         if q.null is None and q.scale == "log":
             return ArmCoordinate(key, 1.0, math.log(unit), UNSURE, True, low, q.high, dimension=q.dimension)
         return ArmCoordinate(key, unit, 0.0, 1.0, False, low, q.high, q.null is not None, q.dimension)

@@ -29,7 +29,9 @@ WORDS = {
     "position": re.compile(r"^(q|pos|p|theta|phi|x|enc|angle)$|position|angle|encoder|qpos", re.IGNORECASE),
 }
 """Words for quantities in logs of robots, beyond those of other logs."""
-WISHED = re.compile(r"set ?point|desired|target|ref(erence)?([_ .\d\[]|$)|goal|_d(es)?([_ .\d\[]|$)", re.IGNORECASE)
+WISHED = re.compile(
+    r"set ?point|desired|target|ref(erence)?([_ .\d\[]|$)|goal|_d(es)?([_ .\d\[]|$)|^(set|des)[_ .]", re.IGNORECASE
+)
 """Names of columns that a controller wishes: they are no readings."""
 WIDE = 7.0
 """Positions (rad) that travel farther may be in degrees."""
@@ -159,9 +161,16 @@ def _choose_joints(
         have = {quantity for quantity in ROLES if (joint, quantity) in matched}
         if joint not in kept and have & {"force", "position"}:
             lost = "position" if "force" in have else "force"
+            wished = [name for name in names if lost == "force" and WISHED.search(name)]
+            other = (
+                f"; if {wished[0]!r} and the like are set points of a controller with known gains, its input is"
+                f" '{joint}.setpoint', with [model.gains]"
+                if wished
+                else ""
+            )
             raise DataError(
                 f"{source} has no {ROLES[lost]} of {joint} that its name tells{nearest(joint, names)}: name the column"
-                f" {'tau' if lost == 'force' else 'q'}_{joint}, or write the case by hand"
+                f" {'tau' if lost == 'force' else 'q'}_{joint}, or write the case by hand{other}"
             )
     if not kept:
         raise DataError(

@@ -97,6 +97,19 @@ def run_robot(
     return made.result
 
 
+def check_robot(path: Path, registry: Registry) -> tuple[str, ...]:
+    """Return what is looked at before any fit of the case of a robot, in sentences; raise `CaseError` if it stops.
+
+    Notes on the log come first.
+    """
+    case = load_robot_case(path, registry)
+    arm = make_arm(case.model.simulator, case.log, case.model.side, known=case.known, parts=False)
+    checks = check_log(arm, case.model.simulator, case.model.tolerance)
+    if stopped := [check.says for check in checks if check.stop]:
+        raise CaseError(" ".join(stopped))
+    return (*case.log.notes, *(check.says for check in checks))
+
+
 @hold_linear_algebra()
 def diagnose_robot(
     case: RobotCase,
@@ -115,7 +128,7 @@ def diagnose_robot(
     say("tape")
     simulator = case.model.simulator
     plain = make_arm(simulator, case.log, case.model.side, known=case.known)
-    checks = check_log(plain, simulator)
+    checks = check_log(plain, simulator, case.model.tolerance)
     if stopped := [check.says for check in checks if check.stop]:
         raise CaseError(" ".join(stopped))
     options = SearchOptions(
@@ -139,9 +152,8 @@ def _make_output(
     before, after = predict_heldout(nominal), predict_heldout(best)
     found = list_findings(search, best, motions)
     nothing = find_probabilities(search).get(NOTHING, 0.0)
-    missing = average(case.log.torque - predict_torque(plain), case.log.dt)
-    path = plain.tape.path
-    seen = replace(plain, tape=replace(plain.tape, path=_average_path(path, case.log.dt)))
+    missing = average(plain.torque - predict_torque(plain), case.log.dt)
+    path = _average_path(plain.tape.path, case.log.dt)
     rows = list_joints(search, (nominal, before), (best, after), found, motions)
     worst = max(rows, key=lambda row: row.random_after / row.torque)
     left = worst.random_after
@@ -161,7 +173,7 @@ def _make_output(
         ranking=rank_sets(search),
         confused_with=list_confusions(search, best),
         unexplained=UnexplainedForce(left > USUAL * worst.torque, left, worst.unit, left / worst.torque),
-        where=describe_dependence(missing, seen),
+        where=describe_dependence(missing, path, plain),
         parameters=ParameterSets(_list_values(nominal, motions), _list_values(best, motions)),
         fit=HeldOutScores(_score(nominal, before), _score(best, after), float(np.mean(after.floor)), "s", 1.0),
         model=Labels(case.model.label, " + ".join([case.model.label, *sorted(best.terms)])),
@@ -177,7 +189,7 @@ def _make_output(
         notes=(*_write_notes(case, plain, search, registry, steps), *_list_unwritten(written, found)),
         provenance=make_robot_origin(case, registry, search.budget.seconds),
     )
-    arrays, coords = _list_arrays(case, seen, missing, (before, after))
+    arrays, coords = _list_arrays(case, path, missing, (before, after))
     return RobotOutput(
         result, search, dataset_of(arrays, coords, {"title": case.title}), None if written is None else written[0]
     )
@@ -334,11 +346,10 @@ def make_robot_origin(case: RobotCase, registry: Registry, budget: float | None)
 
 
 def _list_arrays(
-    case: RobotCase, seen: TapedArm, missing: Array, both: tuple[HeldOutRuns, HeldOutRuns]
+    case: RobotCase, path: RobotPath, missing: Array, both: tuple[HeldOutRuns, HeldOutRuns]
 ) -> tuple[dict[str, StoredArray], dict[str, StoredArray]]:
     """Return the arrays of the page: the missing torque over the path, and held-out predictions."""
     log, first = case.log, both[0].first
-    path = seen.tape.path
     window = ("window", "joint")
     held = ("time", "reading")
     turns = [one == "rotation" for one in case.model.simulator.moves]

@@ -17,10 +17,11 @@ from lostmotion.results import Interval, attach_unit, percent
 from lostmotion.results.diagnosis import Candidate, Confusion, Mechanism
 from lostmotion.results.robots import Dependence, JointRow
 from lostmotion.robots.arm import TapedArm
-from lostmotion.robots.arm_effects import ArmCoordinate, ArmEffect, GearEffect, LawEffect, MassEffect
+from lostmotion.robots.arm_effects import GAIN_ERROR, ArmCoordinate, ArmEffect, GearEffect, LawEffect, MassEffect
 from lostmotion.robots.arm_hypothesis import ArmHypothesis
 from lostmotion.robots.arm_search import NOTHING, ArmSearch, find_probabilities, simplify
 from lostmotion.robots.free_runs import HeldOutRuns
+from lostmotion.robots.tape import Path
 
 SURE, LIKELY = 0.95, 0.5
 """The posterior probability above which an effect is named, and is told as likely."""
@@ -125,6 +126,9 @@ def list_findings(search: ArmSearch, told_of: ArmHypothesis, motions: Mapping[st
         says, told = describe_effect(best, effect, motions)
         name, at = key.split("@")
         doubts = () if state == "named" else ("Other sets of mechanisms explain the log nearly as well.",)
+        values = [(best.values[c.key], c) for c in effect.coordinates if c.key.endswith(f".{GAIN_ERROR}")]
+        if any(not c.low < value < c.high for value, c in values):
+            state, doubts = "likely", (*doubts, "The gain is at the end of the range that is tried.")
         drive = _measure_share(best, effect, arm)
         found.append(
             Mechanism(
@@ -146,7 +150,7 @@ def _measure_share(found: ArmHypothesis, effect: ArmEffect, arm: TapedArm) -> fl
     if not forces:
         return None
     size = math.sqrt(sum(found.values[c.key] ** 2 for c in forces))
-    return size / max(float(np.std(arm.log.torque[:, effect.joint])), 1e-300)
+    return size / max(float(np.std(arm.torque[:, effect.joint])), 1e-300)
 
 
 def _describe_unknown(found: ArmHypothesis, share: float, state: str, motions: Mapping[str, str]) -> Mechanism:
@@ -238,7 +242,7 @@ def list_joints(
             JointRow(
                 joint=joint,
                 unit=unit_of("force", motions[joint]),
-                torque=float(np.std(arm.log.torque[:, j])),
+                torque=float(np.std(arm.torque[:, j])),
                 random_before=random[0],
                 random_after=random[1],
                 nrmse_before=float(before[1].nrmse[j]),
@@ -251,11 +255,13 @@ def list_joints(
     return tuple(rows)
 
 
-def describe_dependence(torque: Array, arm: TapedArm) -> Dependence:
-    """Return what the missing torque (samples, n) depends on, for the joint at which it is largest in its torque."""
-    shares = np.std(torque, axis=0) / np.std(arm.log.torque, axis=0)
-    j = int(np.argmax(shares))
-    path, time = arm.tape.path, np.arange(len(torque), dtype=float)
+def describe_dependence(torque: Array, path: Path, arm: TapedArm) -> Dependence:
+    """Return what the missing torque (windows, n) depends on, for the joint at which it is largest in its torque.
+
+    `path` is that of the windows.
+    """
+    shares = np.std(torque, axis=0) / np.std(arm.torque, axis=0)
+    j, time = int(np.argmax(shares)), np.arange(len(torque), dtype=float)
     over = {"position": path.q[:, j], "velocity": path.v[:, j], "time": time}
     told = {name: max(0.0, _explain(torque[:, j], x)) for name, x in over.items()}
     best = max(told, key=lambda name: told[name])

@@ -34,7 +34,8 @@ class RobotLog:
     """Torques (samples, n) and readings (samples, m) in SI units every `dt` s; a missing reading is NaN.
 
     `picks` tells for each reading its joint and whether it is a position (0) or a velocity (1). `hold` is "step" where
-    a controller holds the torque between samples, else "smooth".
+    a controller holds the torque between samples, else "smooth". `gains` (n, 2) are stiffness (N m/rad) and damping (N
+    m s/rad) of the controller of joints whose set point is recorded: there `torque` is stiffness times set point.
     """
 
     name: str
@@ -45,6 +46,13 @@ class RobotLog:
     picks: tuple[tuple[int, int], ...]
     hold: str = "step"
     notes: tuple[str, ...] = ()
+    gains: Array | None = None
+
+    @property
+    def controlled(self) -> tuple[str, ...]:
+        """The joints whose set point is recorded in place of a torque."""
+        gains = np.zeros((len(self.joints), 2)) if self.gains is None else self.gains
+        return tuple(joint for joint, own in zip(self.joints, gains, strict=True) if np.any(own))
 
     @property
     def samples(self) -> int:
@@ -59,6 +67,12 @@ class RobotLog:
             if order == 0:
                 found[:, j] = fill_missing(self.readings[:, i])
         return found
+
+    def measure_torque(self, q: Array, v: Array) -> Array:
+        """Return the torque (samples, n) that acts at positions and velocities (samples, n)."""
+        if self.gains is None:
+            return self.torque
+        return np.asarray(self.torque - self.gains[:, 0] * q - self.gains[:, 1] * v)
 
     def drive(self, terms: Sequence[DriveTerm], values: Mapping[str, float]) -> Array:
         """Return the torque (samples, n) that acts from each sample to the next, changed by the terms of the drive."""

@@ -16,8 +16,9 @@ from lostmotion.parts import Array
 from lostmotion.quantities import name_force
 from lostmotion.results.robots import Check
 from lostmotion.robots.arm import TapedArm
+from lostmotion.robots.arm_effects import GAINS
+from lostmotion.robots.arm_model import TOLERANCE
 from lostmotion.robots.arm_preparation import estimate_noise
-from lostmotion.robots.log import RobotLog
 from lostmotion.robots.tape import Tape, smooth_path
 from lostmotion.simulators import Simulator
 
@@ -39,34 +40,57 @@ DEGREE, WIDE = 180.0 / math.pi, 7.0
 
 @dataclass(frozen=True, eq=False)
 class _Fit:
-    """How much of each torque the model leaves, as a share of its standard deviation, and the slopes of its parts."""
+    """How much of each torque the model leaves, as a share of its standard deviation, and the slopes of its parts.
+
+    `size` is the standard deviation of the model's torque as such a share. `brakes` tells whether the friction that was
+    allowed for takes power from the motion.
+    """
 
     left: Array
     correlation: Array
     slope: Array
+    size: Array
+    brakes: Array
+
+    @property
+    def explained(self) -> Array:
+        """Whether the model explains each torque (n,) together with friction, or friction nearly alone."""
+        fits = (np.abs(self.slope - 1.0) < BETTER) | (self.size < CLEAR)
+        return np.asarray((self.left < CLEAR) & (self.brakes > 0.0) & fits)
 
 
-def check_log(arm: TapedArm, simulator: Simulator) -> tuple[Check, ...]:
-    """Return the checks of a log, each with the remedy; those that `stop` make a diagnosis meaningless."""
+def check_log(arm: TapedArm, simulator: Simulator, tolerance: float = TOLERANCE) -> tuple[Check, ...]:
+    """Return the checks of a log, each with the remedy; those that `stop` make a diagnosis meaningless.
+
+    Values of the model are known within the share `tolerance`.
+    """
     found = [*_check_motion(arm, simulator)]
     if any(check.stop for check in found):
         return tuple(found)
-    base = _compare(arm, arm.log.torque)
+    base = _compare(arm, arm.torque)
     faults = [*_check_angles(arm, simulator, base)] or [*_check_order(arm, base)]
     faults = faults or [*_check_gravity(arm, simulator, base)] or [*_check_signs(arm, base)]
-    faults = faults or [*_check_positions(arm, simulator, base)] or [*_check_scale(arm, simulator, base)]
+    faults = faults or [*_check_positions(arm, simulator, base)] or [*_check_scale(arm, simulator, base, tolerance)]
     found += faults
     if not faults:
         found += [*_check_side(arm)]
         found += [*_check_lag(arm, base)]
     found += [
-        Check(
-            "torque", joint, True, f"Torque and inverse dynamics of {joint} correlate with {base.correlation[j]:.3f}."
-        )
+        Check("torque", joint, True, _describe_agreement(base, j, joint))
         for j, joint in enumerate(arm.joints)
         if not any(check.joint == joint and not check.passed for check in found)
     ]
     return tuple(found)
+
+
+def _describe_agreement(base: _Fit, j: int, joint: str) -> str:
+    """Return how the torque of a joint agrees with the model, in a sentence."""
+    told = f"Torque and inverse dynamics of {joint} correlate with {base.correlation[j]:.3f}"
+    return (
+        f"{told}; with friction of any size {100.0 * base.left[j]:.0f} % of the torque are left."
+        if (base.correlation[j] < AGREES)
+        else f"{told}."
+    )
 
 
 def average(x: Array, dt: float) -> Array:
@@ -93,17 +117,19 @@ def _compare(arm: TapedArm, torque: Array, model: Array | None = None) -> _Fit:
     model = average(predict_torque(arm) if model is None else model, dt)
     torque, v = average(torque, dt), average(path.v, dt)
     n = torque.shape[1]
-    left, correlation, slope = np.zeros(n), np.zeros(n), np.zeros(n)
+    left, correlation, slope, size, brakes = np.zeros((5, n))
     for j in range(n):
         speed = v[:, j]
         rubbing = _list_friction(speed)
         rest = torque[:, j] - model[:, j]
-        rest = rest - rubbing @ np.linalg.lstsq(rubbing, rest, rcond=None)[0]
-        left[j] = np.std(rest) / max(float(np.std(torque[:, j])), 1e-12)
+        friction = rubbing @ np.linalg.lstsq(rubbing, rest, rcond=None)[0]
+        brakes[j] = np.mean((friction - np.mean(friction)) * (speed - np.mean(speed)))
+        whole = max(float(np.std(torque[:, j])), 1e-12)
+        left[j], size[j] = np.std(rest - friction) / whole, np.std(model[:, j]) / whole
         correlation[j] = np.corrcoef(torque[:, j], model[:, j])[0, 1]
         full = np.column_stack([model[:, j], rubbing])
         slope[j] = np.linalg.lstsq(full, torque[:, j], rcond=None)[0][0]
-    return _Fit(left, np.nan_to_num(correlation), slope)
+    return _Fit(left, np.nan_to_num(correlation), slope, size, brakes)
 
 
 def _list_friction(speed: Array) -> Array:
@@ -140,10 +166,11 @@ def _check_angles(arm: TapedArm, simulator: Simulator, base: _Fit) -> Iterator[C
 
 def _reread(arm: TapedArm, simulator: Simulator, readings: Array, torque: Array) -> _Fit:
     """Return the agreement for other readings and torques."""
-    log = RobotLog(arm.log.name, arm.joints, arm.log.dt, torque, readings, arm.log.picks, arm.log.hold)
+    log = replace(arm.log, torque=torque, readings=readings)
     path, still = smooth_path(log.positions, log.dt), np.zeros_like(arm.tape.mass)
     tape = Tape(path, still, np.asarray(simulator.inverse(path.q, path.v, path.a)), still, still)
-    return _compare(replace(arm, log=log, tape=tape, _cache={}), torque)
+    other = replace(arm, log=log, tape=tape, _cache={})
+    return _compare(other, other.torque)
 
 
 def _check_positions(arm: TapedArm, simulator: Simulator, base: _Fit) -> Iterator[Check]:
@@ -188,7 +215,7 @@ def _check_order(arm: TapedArm, base: _Fit) -> Iterator[Check]:
         return
     model = predict_torque(arm)
     for i, j in itertools.combinations(range(len(arm.joints)), 2):
-        torque = arm.log.torque.copy()
+        torque = arm.torque.copy()
         torque[:, [i, j]] = torque[:, [j, i]]
         other = _compare(arm, torque, model)
         pair = [i, j]
@@ -219,7 +246,7 @@ def _check_gravity(arm: TapedArm, simulator: Simulator, base: _Fit) -> Iterator[
         (1.0, "The torques agree with the model without gravity: the log has the torque after a compensation of"
          " gravity, or the arm moves in a horizontal plane. Switch gravity off in the model"),
     ):  # fmt: skip
-        other = _compare(arm, arm.log.torque, model - share * weight)
+        other = _compare(arm, arm.torque, model - share * weight)
         if other.left.mean() < BETTER * base.left.mean() and np.median(other.correlation) > AGREES:
             yield Check("gravity", "", False, f"{says}.", stop=True)
             return
@@ -228,12 +255,12 @@ def _check_gravity(arm: TapedArm, simulator: Simulator, base: _Fit) -> Iterator[
 def _seems_heavy(arm: TapedArm, model: Array, base: _Fit) -> bool:
     """Return whether waves over the positions, and over sums of neighbours, explain most of what a model leaves."""
     q, v = (average(x, arm.log.dt) for x in (arm.tape.path.q, arm.tape.path.v))
-    rest = average(arm.log.torque - model, arm.log.dt)
+    rest = average(arm.torque - model, arm.log.dt)
     angles = np.hstack([q, q[:, 1:] + q[:, :-1], q[:, 1:] - q[:, :-1]])
     j = int(np.argmax(base.left))
     full = np.hstack([np.cos(angles), np.sin(angles), _list_friction(v[:, j])])
     left = rest[:, j] - full @ np.linalg.lstsq(full, rest[:, j], rcond=None)[0]
-    return bool(np.std(left) < BETTER * base.left[j] * np.std(average(arm.log.torque[:, j], arm.log.dt)))
+    return bool(np.std(left) < BETTER * base.left[j] * np.std(average(arm.torque[:, j], arm.log.dt)))
 
 
 def _check_signs(arm: TapedArm, base: _Fit) -> Iterator[Check]:
@@ -248,28 +275,55 @@ def _check_signs(arm: TapedArm, base: _Fit) -> Iterator[Check]:
             )  # fmt: skip
 
 
-def _check_scale(arm: TapedArm, simulator: Simulator, base: _Fit) -> Iterator[Check]:
+def _measure_parts(arm: TapedArm) -> tuple[Array, Array]:
+    """Return the sizes (rms, n) of the torque of inertia and of all else that the model has at each joint.
+
+    Inertia is counted with each entry of the mass matrix for itself, so that entries do not cancel.
+    """
+    a, mass = average(arm.tape.path.a, arm.log.dt), average(arm.tape.mass, arm.log.dt)
+    inertia = np.sqrt(np.sum(np.mean((mass * a[:, None, :]) ** 2, axis=0), axis=1))
+    return np.asarray(inertia), np.asarray(np.std(average(arm.tape.bias, arm.log.dt), axis=0))
+
+
+def _check_scale(arm: TapedArm, simulator: Simulator, base: _Fit, tolerance: float) -> Iterator[Check]:
     """Yield a check for each joint whose torque has another size, or does not agree at all."""
+    inertia, others = _measure_parts(arm)
+    sizes = np.std(average(arm.torque, arm.log.dt), axis=0)
+    unsure = tolerance * np.hypot(inertia, others) / np.maximum(sizes, 1e-300)
+    stops = bool(np.median(np.where(base.explained, 1.0, base.correlation)) < AGREES)
     for j, joint in enumerate(arm.joints):
         slope, agrees = float(base.slope[j]), base.correlation[j] > AGREES
-        if agrees and not 0.4 < slope < 2.5:
+        if agrees and not GAINS[0] < slope < GAINS[1]:
             word = name_force(simulator.moves[j])
             small, large = ("N mm", "kN m") if word == "torque" else ("mN", "kN")
             hint = (
-                f"{small} or a percentage" if slope > 2.5 else f"{large}, a motor current or a {word} before the gear"
+                f"{small} or a percentage"
+                if slope > GAINS[1]
+                else f"{large}, a motor current or a {word} before the gear"
             )
             yield Check(
                 "unit", joint, False,
                 f"The {word} of {joint} is {slope:.3g} times that of the model: it may be in {hint}; give its unit or"
                 " a factor.", stop=True,
             )  # fmt: skip
-        elif not agrees:
+        elif unsure[j] > CLEAR and base.left[j] > CLEAR:
+            unit = "N m" if simulator.moves[j] == "rotation" else "N"
+            yield Check(
+                "resonance", joint, False,
+                f"The {name_force(simulator.moves[j])} of {joint} ({sizes[j]:.2g} {unit}) is a small difference of"
+                f" large parts of the model, as near a resonance: inertia has {inertia[j]:.2g} {unit}, gravity and the"
+                f" rest {others[j]:.2g} {unit}. Where these are known within {100.0 * tolerance:.2g} %, the"
+                f" {name_force(simulator.moves[j])} is known within {100.0 * unsure[j]:.0f} %, and the model leaves"
+                f" {100.0 * base.left[j]:.0f} % of it: this motion cannot tell what {joint} lacks. Record one at other"
+                " frequencies, or with larger torques.", stop=stops,
+            )  # fmt: skip
+        elif not agrees and not base.explained[j]:
             yield Check(
                 "torque", joint, False,
                 f"Torque and inverse dynamics of {joint} hardly agree (correlation {base.correlation[j]:.2f},"
                 f" {100.0 * base.left[j]:.0f} % unexplained): friction may be most of the torque; else check the sign,"
                 " unit, order and clock of this joint.",
-                stop=bool(np.median(base.correlation) < AGREES),
+                stop=stops,
             )  # fmt: skip
 
 
@@ -278,7 +332,7 @@ def _check_side(arm: TapedArm) -> Iterator[Check]:
     path, dt = arm.tape.path, arm.log.dt
     link = average(predict_torque(arm, "link"), dt)
     motor = average(np.asarray(path.a), dt)
-    torque, v = average(arm.log.torque, dt), average(path.v, dt)
+    torque, v = average(arm.torque, dt), average(path.v, dt)
     armature = np.array([arm.motor_inertia.get(joint, 0.0) for joint in arm.joints])
     for j, joint in enumerate(arm.joints):
         if armature[j] <= 0.0:
@@ -300,7 +354,7 @@ def _check_side(arm: TapedArm) -> Iterator[Check]:
 
 def _check_lag(arm: TapedArm, base: _Fit) -> Iterator[Check]:
     """Yield a check if all torques agree better when they are shifted in time."""
-    model, torque = predict_torque(arm), arm.log.torque
+    model, torque = predict_torque(arm), arm.torque
     if base.left.max() < 0.02:
         return
     lags = np.arange(-MOST_LAG, MOST_LAG + 1)

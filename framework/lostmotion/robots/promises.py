@@ -13,10 +13,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lostmotion.contracts import DriveTerm, Term
-from lostmotion.defaults import INERTIA_CHANGE
+from lostmotion.defaults import BEFORE_GEARS, INERTIA_CHANGE
 from lostmotion.evidence.expansion import compute_log_evidence
 from lostmotion.likelihood.innovations import Innovations
 from lostmotion.parts import Array
+from lostmotion.quantities import TIME
 from lostmotion.robots.arm import Column, FilteredLog, TapedArm, can_act
 from lostmotion.robots.arm_effects import ArmEffect, GearEffect, JointScales, LawEffect, MassEffect, Shape
 from lostmotion.robots.arm_hypothesis import ArmHypothesis
@@ -77,13 +78,18 @@ def list_effects(
     terms = [*(term for term in terms if can_act(term)), SOFT_FRICTION]
     for j, joint in enumerate(arm.joints):
         pitches = find_pitches(arm, plain, j)
+        controlled = joint in arm.log.controlled
         for term in terms:
+            if arm.side == "link" and term.name in BEFORE_GEARS:
+                continue
+            if controlled and isinstance(term, DriveTerm) and any(q.dimension != TIME for q in term.params):
+                continue  # what depends on the size of a torque: only that of the set point is known beforehand
             at = f"{joint}.torque" if isinstance(term, DriveTerm) else joint
             found.append(LawEffect(replace(term, at=at), arm, j, scales[j], pitches))  # type: ignore[type-var]
         armature = arm.values.get(f"{joint}.armature", 0.0)
         unit = TYPICAL_MASS * max(armature, float(arm.tape.mass[:, j, j].mean()))
         found.append(MassEffect(INERTIA_CHANGE, joint, f"{joint}.armature", arm, unit))
-        if armature > 0.0:
+        if armature > 0.0 and not controlled:
             found += [GearEffect(law, arm, j) for law in GEARS]
     for name in arm.parts:
         at, kind = name.rsplit(".", 1)
@@ -170,10 +176,10 @@ def _weigh_shape(
         if not kept:
             return None
     evidence = compute_log_evidence(gradient[kept], information[np.ix_(kept, kept)], np.ones(len(kept)))
-    values = dict.fromkeys(shape.amplitudes, 0.0)
-    for i, s in zip(kept, step, strict=True):
-        c = coordinates[shape.amplitudes[i]]
-        values[c.key] = min(max(c.unit * float(s), c.low), c.high)
+    own = [coordinates[shape.amplitudes[i]] for i in kept]
+    inside = np.clip(step, [c.low / c.unit for c in own], [c.high / c.unit for c in own])
+    evidence -= 0.5 * float((step - inside) @ inner @ (step - inside))
+    values = dict.fromkeys(shape.amplitudes, 0.0) | {c.key: c.unit * float(s) for c, s in zip(own, inside, strict=True)}
     effect = effect.choose(shape.values) if isinstance(effect, LawEffect) else effect
     return ArmPromise(effect, {**shape.values, **values}, evidence / temper - price - effect.price)
 

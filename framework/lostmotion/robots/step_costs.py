@@ -25,7 +25,7 @@ def measure_steps(nominal: ArmHypothesis, simulator: Simulator) -> tuple[StepCos
     of noise.
     """
     own = simulator.step
-    if own is None or nominal.frame.arm.side != "motor":
+    if own is None or nominal.frame.arm.side != "motor" or nominal.frame.arm.log.controlled:
         return ()
     kept, arm = nominal.kept, nominal.frame.arm
     samples, n = len(kept.states), len(arm.joints)

@@ -28,7 +28,7 @@ def measure_written(
     All runs begin at filtered states.
     """
     log = best.frame.arm.log
-    if not found or simulator.step is None or best.frame.arm.side != "motor":
+    if not found or simulator.step is None or best.frame.arm.side != "motor" or log.controlled:
         return None
     if any(one.at.endswith(DRIVE) for one in found):
         return None

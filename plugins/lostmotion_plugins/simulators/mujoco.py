@@ -176,6 +176,19 @@ class MujocoSimulator(Simulator):
         }
 
     @property
+    def gains(self) -> Mapping[str, tuple[float, float]]:
+        """The gains of the position actuators of the file that act on one joint each."""
+        mujoco, source = _import_mujoco(), self._source
+        found = {}
+        for name, i in zip(self.joints, self._moved, strict=True):
+            for k in np.flatnonzero(np.asarray(source.actuator_trnid)[:, 0] == i):
+                stiffness, (_, back, lossy) = float(source.actuator_gainprm[k][0]), source.actuator_biasprm[k][:3]
+                joint = int(source.actuator_trntype[k]) == int(mujoco.mjtTrn.mjTRN_JOINT)
+                if joint and stiffness > 0.0 and float(back) == -stiffness:
+                    found[name] = (stiffness, -float(lossy))
+        return found
+
+    @property
     def points(self) -> tuple[str, ...]:
         sites = tuple(self._source.site(i).name for i in range(self._source.nsite) if self._source.site(i).name)
         return sites or (list(self._bodies)[-1],)
