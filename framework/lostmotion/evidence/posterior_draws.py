@@ -59,10 +59,11 @@ def find_shares(found: Hypothesis) -> Array:
     made = np.zeros((own, frame.count))
     posterior = frame.place(found.at)
     theta = found.at[: len(posterior.space.free)]
-    laws = [i for i, f in enumerate(posterior.space.free[:own]) if f.physical and is_amplitude(found, f.key)]
+    free = posterior.space.free[:own]
+    laws = np.flatnonzero([f.physical and is_amplitude(found, f.key) for f in free])
     waves = np.concatenate([np.arange(force.columns.start, force.columns.stop) for force in frame.forces])
     filtered = linearise_all(posterior, theta)
-    if not filtered or not laws:
+    if not filtered or not len(laws):
         return made
     steps = np.concatenate([SMALL * np.sqrt(np.diag(found.covariance)[laws]), np.ones(len(waves))])
     moved = theta + np.vstack([np.zeros(len(theta)), steps[:, None] * np.eye(len(theta))[[*laws, *waves]]])
