@@ -80,7 +80,7 @@ def test_help_has_examples():
     ("model", "part"),
     [
         ('name = "lin_backlash"\nknown = { m = 1.0 }', "needs c, k0"),
-        ('inverse = "arm.py:make"', "the case of a robot"),
+        ('inverse = "arm.py:make"', "lacks 'joints'"),
     ],
 )
 def test_an_unusable_case_is_one_sentence(case, tmp_path, model, part):
