@@ -22,6 +22,8 @@ from lostmotion.evidence.hypothesis import Hypothesis, compute_step
 from lostmotion.inference.mixture import compute_root
 from lostmotion.inference.natural import sort_slots
 
+CHAIN = 400
+"""The number of draws of smooth forces; with more draws of parameters each is used again."""
 SMALL = 1e-3
 """Derivatives are taken over this share of the standard deviation of a coordinate."""
 
@@ -31,10 +33,10 @@ def draw_own(found: Hypothesis, count: int, rng: np.random.Generator) -> Array:
 
     Given the smooth forces they are normal: one-step errors are nearly linear near the maximum.
     """
-    choices, shares = sample_choices(found, count, rng), find_shares(found)
+    choices, shares = sample_choices(found, min(count, CHAIN), rng), find_shares(found)
     made = np.zeros((count, found.frame.own))
     for choice in dict.fromkeys(choices):
-        rows = [i for i, one in enumerate(choices) if one == choice]
+        rows = [i for i in range(count) if choices[i % len(choices)] == choice]
         other, (step, _) = replace(found, choice=choice), compute_step(found.frame, found.expansion, choice)
         root = compute_root(found.scatter * other.joint_covariance)
         drawn = (found.at + step)[other.used] + rng.standard_normal((len(rows), len(other.used))) @ root.T
@@ -97,7 +99,7 @@ def sample_choices(found: Hypothesis, count: int, rng: np.random.Generator) -> l
         for k, force in enumerate(found.frame.forces):
             options = [(*choice[:k], option, *choice[k + 1 :]) for option in range(-1, len(force.options))]
             known |= {one: quadratic.evaluate(one) for one in options if one not in known}
-            shares = softmax([known[one] / found.scatter for one in options])
-            choice = options[int(rng.choice(len(options), p=shares))]
+            ends = np.cumsum(softmax([known[one] / found.scatter for one in options]))
+            choice = options[int(np.searchsorted(ends, ends[-1] * rng.random()))]
         made.append(choice)
     return made
