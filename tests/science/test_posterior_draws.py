@@ -54,9 +54,8 @@ def test_draws_have_mean_and_deviation_of_the_mixture_over_all_choices(pushed):
     for i, choice in enumerate(choices):
         other = replace(pushed, choice=choice)
         at = pushed.at + compute_step(pushed.frame, pushed.expansion, choice)[0]
-        whole = np.eye(own, len(at)) + shares_of
-        middle[i] = whole @ at
-        within[i] = pushed.scatter * np.diag(whole[:, other.used] @ other.joint_covariance @ whole[:, other.used].T)
+        middle[i] = at[:own] + shares_of @ at
+        within[i] = pushed.scatter * np.diag(other.covariance)
     mean = shares @ middle
     deviation = np.sqrt(shares @ (within + (middle - mean) ** 2))
     drawn = draw_own(pushed, DRAWS, np.random.default_rng(1))

@@ -5,7 +5,8 @@ small force along a parameter from none: with one choice the intervals of parame
 
 A smooth force can take over a part of a law, as one over velocity does of dry friction: the data tell their sum only.
 What is stated are the parameters of the laws that are closest to all forces together, along the recorded motion. The
-rest of the smooth forces is then orthogonal to the laws (Plumlee, J. Am. Stat. Assoc. 112 (2017) 1274-1285).
+rest of the smooth forces is then orthogonal to the laws (Plumlee, J. Am. Stat. Assoc. 112 (2017) 1274-1285). The widths
+stay those of the posterior: real errors of a model are orthogonal to it approximately only.
 """
 
 from __future__ import annotations
@@ -38,9 +39,9 @@ def draw_own(found: Hypothesis, count: int, rng: np.random.Generator) -> Array:
     for choice in dict.fromkeys(choices):
         rows = [i for i in range(count) if choices[i % len(choices)] == choice]
         other, (step, _) = replace(found, choice=choice), compute_step(found.frame, found.expansion, choice)
-        root = compute_root(found.scatter * other.joint_covariance)
-        drawn = (found.at + step)[other.used] + rng.standard_normal((len(rows), len(other.used))) @ root.T
-        made[rows] = drawn[:, : found.frame.own] + drawn @ shares[:, other.used].T
+        root = compute_root(found.scatter * other.covariance)
+        middle = (found.at + step)[: found.frame.own] + shares @ (found.at + step)
+        made[rows] = middle + rng.standard_normal((len(rows), found.frame.own)) @ root.T
     low, high = (bound[: found.frame.own] for bound in found.frame.bounds)
     return np.clip(made, low, high)
 
