@@ -21,7 +21,7 @@ from lostmotion.settings import RivalSettings
 
 @dataclass(frozen=True, eq=False)
 class SensorError:
-    """An error of a sensor of unit size: `shapes` has its first sample and its values (samples,) in each recording.
+    """A bend of a sensor of unit size: `shapes` has its first sample and its values (samples,) in each recording.
 
     It grows with a `power` of the reading; `width` is the prior standard deviation of its size.
     """
@@ -92,7 +92,7 @@ def list_channel_errors(nominal: Fit, recordings: Sequence[Observation]) -> tupl
 
 def _list_sensor_errors(
     sensor: int, shown: Mapping[str, tuple[int, Array]], usual: RivalSettings
-) -> Iterator[SensorError]:
+) -> Iterator[SensorError | ScaleError]:
     """Yield the errors of one sensor: of its scale, and a quadratic and a cubic bend about the middle of its range."""
     values = np.concatenate([z[:, sensor] for _, z in shown.values()])
     middle = float(np.mean(values))
