@@ -15,8 +15,8 @@ from lostmotion.diagnosis.compare import cut_heldout
 from lostmotion.diagnosis.stages import list_fitted_keys
 from lostmotion.evidence import discrepancy
 from lostmotion.evidence.bare import BareFits
-from lostmotion.evidence.channel_errors import DriveError, SensorError, list_channel_errors
-from lostmotion.evidence.discrepancy import LENGTHS, make_frame
+from lostmotion.evidence.channel_errors import DriveError, ScaleError, SensorError, list_channel_errors
+from lostmotion.evidence.discrepancy import LENGTHS, list_known_values, make_frame
 from lostmotion.evidence.effects import Promise
 from lostmotion.evidence.expansion import Expansion, compute_log_evidence
 from lostmotion.evidence.hypothesis import fit_hypothesis
@@ -179,11 +179,31 @@ def test_points_near_another_take_its_steps(rubbing):
 
 def test_a_correction_of_a_sensor_has_the_shape_of_its_predicted_readings(rubbing):
     observation = rubbing.nominal.posterior.observations[0]
-    scale, *_ = (error for error in rubbing.errors if isinstance(error, SensorError))
-    changed = scale.correct(observation, 0.01).readings - observation.readings
-    assert changed == pytest.approx(0.01 * observation.readings, abs=3e-4 * np.abs(observation.readings).max())
+    bent, *_ = (error for error in rubbing.errors if isinstance(error, SensorError))
+    changed = bent.correct(observation, 0.01).readings - observation.readings
+    middle = np.mean(observation.readings)
+    half = np.abs(observation.readings - middle).max()
+    assert changed == pytest.approx(0.01 * half * ((observation.readings - middle) / half) ** 2, abs=3e-4 * half)
     part = observation.part(100, 300)
-    assert scale.correct(part, 0.01).readings - part.readings == pytest.approx(changed[100:300], abs=1e-15)
+    assert bent.correct(part, 0.01).readings - part.readings == pytest.approx(changed[100:300], abs=1e-15)
+
+
+@pytest.mark.parametrize("size", [-0.03, 0.03])
+def test_the_scale_of_the_only_sensor_of_a_free_machine_changes_no_likelihood(rubbing, size):
+    """Drive and sensor have units of their own: parameters take up the change, whatever the errors of the model are.
+
+    With readings that were scaled by their predictions the likelihood of a carriage changed by 81.
+    """
+    nominal = rubbing.nominal
+    scaled = nominal.posterior.on(
+        tuple(ScaleError(0, 0.01).correct(one, size) for one in nominal.posterior.observations)
+    )
+    known = [f for f in list_known_values(nominal.posterior) if f.parameter == "m"]
+    free = replace(known[0], low=known[0].mean - 1.0, high=known[0].mean + 1.0, sd=10.0)
+    before, after = (maximise(one.over((*one.space.free, free)), np.append(nominal.theta, free.mean))
+                     for one in (nominal.posterior, scaled))  # fmt: skip
+    assert after.log_likelihood == pytest.approx(before.log_likelihood, abs=0.3)
+    assert after.values["m"] / before.values["m"] == pytest.approx(1.0 / (1.0 + size), rel=2e-3)
 
 
 def test_a_delay_of_the_drive_is_half_a_sample_at_a_size_of_minus_one_half(rubbing):
@@ -199,7 +219,7 @@ def test_a_delay_of_the_drive_is_half_a_sample_at_a_size_of_minus_one_half(rubbi
 
 def test_every_sensor_has_three_errors_and_every_drive_two(rubbing):
     errors = list_channel_errors(rubbing.nominal, list(rubbing.nominal.posterior.observations))
-    assert [type(error) for error in errors] == [SensorError] * 3 + [DriveError] * 2
+    assert [type(error) for error in errors] == [ScaleError] + [SensorError] * 2 + [DriveError] * 2
 
 
 def test_dry_friction_is_the_explanation_with_the_true_damping(rubbing):

@@ -21,7 +21,7 @@ from lostmotion.settings import RivalSettings
 
 @dataclass(frozen=True, eq=False)
 class SensorError:
-    """An error of a sensor of unit size: `shapes` has its first sample and its values (samples,) in each recording.
+    """A bend of a sensor of unit size: `shapes` has its first sample and its values (samples,) in each recording.
 
     It grows with a `power` of the reading; `width` is the prior standard deviation of its size.
     """
@@ -41,6 +41,24 @@ class SensorError:
 
 
 @dataclass(frozen=True)
+class ScaleError:
+    """An error of the scale of a sensor; `width` is its prior standard deviation.
+
+    The filter takes the gain: a scaled reading would have scaled noise, and one scaled by its prediction only has other
+    correlations of its errors, so that the scale would seem to be known.
+    """
+
+    sensor: int
+    width: float
+
+    def correct(self, observation: Observation, size: float) -> Observation:
+        """Return the recording of a sensor whose true values are larger than its readings by the fraction `size`."""
+        gains = list(observation.gains or (1.0,) * len(observation.sensors))
+        gains[self.sensor] /= 1.0 + size
+        return replace(observation, gains=tuple(gains))
+
+
+@dataclass(frozen=True)
 class DriveError:
     """An error of the scale of an input, or with `late` a delay of it, in samples; `width` is its prior deviation."""
 
@@ -55,7 +73,7 @@ class DriveError:
         return replace(observation, inputs=inputs)
 
 
-ChannelError = SensorError | SensorHum | DriveError
+ChannelError = SensorError | ScaleError | SensorHum | DriveError
 
 
 def list_channel_errors(nominal: Fit, recordings: Sequence[Observation]) -> tuple[ChannelError, ...]:
@@ -74,19 +92,17 @@ def list_channel_errors(nominal: Fit, recordings: Sequence[Observation]) -> tupl
 
 def _list_sensor_errors(
     sensor: int, shown: Mapping[str, tuple[int, Array]], usual: RivalSettings
-) -> Iterator[SensorError]:
+) -> Iterator[SensorError | ScaleError]:
     """Yield the errors of one sensor: of its scale, and a quadratic and a cubic bend about the middle of its range."""
     values = np.concatenate([z[:, sensor] for _, z in shown.values()])
     middle = float(np.mean(values))
     half = float(np.max(np.abs(values - middle)))
     if not half > 0.0:
         return
-    for power, width in ((1, usual.scale), (2, usual.bent), (3, usual.bent)):
-        shapes = {
-            name: (first, z[:, sensor] if power == 1 else half * ((z[:, sensor] - middle) / half) ** power)
-            for name, (first, z) in shown.items()
-        }
-        yield SensorError(sensor, power, shapes, width)
+    yield ScaleError(sensor, usual.scale)
+    for power in (2, 3):
+        shapes = {name: (first, half * ((z[:, sensor] - middle) / half) ** power) for name, (first, z) in shown.items()}
+        yield SensorError(sensor, power, shapes, usual.bent)
 
 
 def _predict_readings(nominal: Fit, observation: Observation) -> Array:

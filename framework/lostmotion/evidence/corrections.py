@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.stats import chi2, norm
 
-from lostmotion.evidence.channel_errors import ChannelError, DriveError
+from lostmotion.evidence.channel_errors import ChannelError, DriveError, ScaleError
 from lostmotion.evidence.hypothesis import Hypothesis
 from lostmotion.evidence.sensor_hum import SensorHum
 from lostmotion.inference.fit import Fit, maximise, solve_scaled
@@ -77,7 +77,7 @@ def _describe_error(error: ChannelError, size: float, first: Observation) -> str
     name = first.sensors[error.sensor].label
     if isinstance(error, SensorHum):
         return f"{name} picks up a wave of {error.pace / (2.0 * math.pi):.4g} Hz"
-    if error.power == 1:
+    if isinstance(error, ScaleError):
         return f"the scale of {name} is wrong by {share}"
     return f"{name} has a {'quadratic' if error.power == 2 else 'cubic'} error of {share} of its range"
 

@@ -53,7 +53,7 @@ class Observation:
     `slope` that of its time derivative, where the model has this as an input of its own. `begun` are mean (n,) and
     covariance (n, n) of the states of the model at the first sample, where more is known than the first readings show.
     `gauge_noise` is the standard deviation of what was left out of a periodic force, `outliers` the number of readings
-    of the whole recording that were left out.
+    of the whole recording that were left out. `gains` are readings per true value of each sensor, 1 by default.
     """
 
     name: str
@@ -70,6 +70,7 @@ class Observation:
     begun: tuple[Array, Array] | None = None
     gauge_noise: float = 0.0
     outliers: int = 0
+    gains: tuple[float, ...] = ()
 
     @classmethod
     def of(cls, name: str, response: Array, inputs: Array, dt: float, channel: str, **more: Any) -> Observation:

@@ -135,12 +135,13 @@ class PosedRecording:
         """
         shape, active = (len(fulls), len(self.sensors)), self.dynamics.active
         gain, offset, lag = np.ones(shape), np.zeros(shape), np.zeros(shape)
+        gain *= self.observation.gains or 1.0
         for s, sensor in enumerate(self.sensors):
             if (key := self.observation.level(OFFSET, s)) in self.coordinates.columns:
                 offset[:, s] = self.coordinates.at(thetas, key)
             for i, full in enumerate(fulls if self.system.has_sensor_terms(active) else ()):
                 terms = self.system.at_sensor(full, active, sensor.place)
-                gain[i, s] = math.prod(term.gain(p) for term, p in terms)
+                gain[i, s] *= math.prod(term.gain(p) for term, p in terms)
                 offset[i, s] += sum(term.offset(p) for term, p in terms)
                 lag[i, s] = sum(term.delay(p) for term, p in terms)
         return gain, offset, np.clip(lag, 0.0, self.latest * self.observation.dt)
