@@ -36,7 +36,7 @@ import numpy as np
 from scipy.linalg import cholesky, solve_triangular, toeplitz
 
 from judge_forces import compute_effect_force, compute_flaw_columns, compute_true_flaws
-from judge_sets import find_names
+from judge_sets import find_names, is_friction
 from judge_truth import load_truth
 from lostmotion.codec import from_plain
 from lostmotion_trials.blind.commitment import CLEAN, RARE
@@ -140,13 +140,6 @@ def compute_true_force(effect: Effect, view_of: tuple[Pilot, World], operator: n
     curve = world.curves["friction"]
     z = np.linspace(-REACH, REACH, len(curve))
     return force * np.interp(np.abs(pilot.v) / world.flaws["velocity"], z, curve)
-
-
-def is_friction(effect: Effect) -> bool:
-    """Return whether an effect is dry friction, whose level follows a random curve over the speed in this world."""
-    if effect.what:
-        return effect.what.startswith("friction")
-    return TABLE[effect.mechanism].kin == "rub"
 
 
 def list_candidates(view: View) -> Iterator[tuple[str, str, float]]:

@@ -36,6 +36,13 @@ def find_names(name: str, *, rough: bool = False) -> tuple[str, ...]:
     return tuple(sorted(same))
 
 
+def is_friction(effect: Effect) -> bool:
+    """Return whether an effect is dry friction, whose level is a random curve in the imperfect world."""
+    if effect.what:
+        return effect.what.startswith("friction")
+    return TABLE[effect.mechanism].kin == "rub"
+
+
 def convert_effect(effect: Effect, rig: BlindMachine, *, rough: bool = False) -> Hiding:
     """Return a hidden effect with its parameters under the names of the library.
 
@@ -43,8 +50,10 @@ def convert_effect(effect: Effect, rig: BlindMachine, *, rough: bool = False) ->
     """
     numbers = dict(effect.parameters)
     full = numbers if effect.what else complete_parameters(numbers, rig.values, rig.signal)
-    outside = FRICTION_TERMS if rough and effect.what.startswith("friction") else ()
-    accept = tuple(sorted(outside)) if effect.what else find_names(effect.mechanism, rough=rough)
+    if effect.what:
+        accept = tuple(sorted(FRICTION_TERMS)) if rough and is_friction(effect) else ()
+    else:
+        accept = find_names(effect.mechanism, rough=rough)
     short = effect.mechanism in LATE and max(abs(v) for v in numbers.values()) < 0.5 / rig.rate
     return Hiding(effect.what or effect.mechanism, effect.at, full, tuple(sorted(LATE)) if short else accept)
 

@@ -10,16 +10,18 @@ from __future__ import annotations
 import argparse
 import json
 import math
-import subprocess
 import sys
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from judge import describe_code
+from judge_rows import SURE
 from lostmotion.diagnosis.diagnosis_run import run_diagnosis
 from lostmotion.registry import default
 from lostmotion.results.diagnosis import Diagnosis
+from lostmotion_trials.blind.judging import FRICTION_TERMS
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests" / "science"))
@@ -27,19 +29,6 @@ sys.path.insert(0, str(ROOT / "tests" / "science"))
 from machines import FRICTION, OFFSET, PUBLISHED  # noqa: E402 - these lie beside the tests
 from rig_cases import CASES  # noqa: E402
 
-RUBS = (
-    "coulomb_friction",
-    "stribeck_friction",
-    "directional_friction",
-    "dahl_friction",
-    "lugre_friction",
-    "bouc_wen_hysteresis",
-    "position_dependent_friction",
-    "load_dependent_friction",
-    "friction_drift",
-    "friction_drift_travel",
-)
-"""Laws of dry friction and hysteresis: each stands for friction that is published without a law."""
 SENSED = "sensor_quantisation"
 """What a recording itself shows; it is not physics of the machine."""
 
@@ -48,7 +37,8 @@ SENSED = "sensor_quantisation"
 class Rig:
     """A real machine: the name of its page, what others have published, and the laws that stand for each effect.
 
-    `values` are the published values of parameters by key, in the units of the case.
+    Each law of dry friction or hysteresis stands for friction that is published without a law. `values` are the
+    published values of parameters by key, in the units of the case.
     """
 
     page: str
@@ -59,21 +49,23 @@ class Rig:
 
 EMPS = {key: PUBLISHED[key][0] for key in ("m", "c", FRICTION, OFFSET)}
 RIGS = {
-    "emps": Rig("emps", "dry friction and a constant force", (RUBS, ("offset_force",)), EMPS),
+    "emps": Rig("emps", "dry friction and a constant force", (FRICTION_TERMS, ("offset_force",)), EMPS),
     "silverbox": Rig("silverbox", "a cubic spring", (("cubic_stiffness",),)),
-    "damper": Rig("friction_device", "friction of the band, different in the two directions", (RUBS,)),
-    "damper_36lb": Rig("friction_device", "friction of the band, different in the two directions", (RUBS,)),
-    "motor_run": Rig("motor_drive", "nothing; least squares gives dry friction", (RUBS,)),
+    "damper": Rig("friction_device", "friction of the band, different in the two directions", (FRICTION_TERMS,)),
+    "damper_36lb": Rig("friction_device", "friction of the band, different in the two directions", (FRICTION_TERMS,)),
+    "motor_run": Rig("motor_drive", "nothing; least squares gives dry friction", (FRICTION_TERMS,)),
     "motor_drive": Rig(
-        "motor_drive", "nothing; least squares gives dry friction and a constant torque", (RUBS, ("offset_force",))
+        "motor_drive",
+        "nothing; least squares gives dry friction and a constant torque",
+        (FRICTION_TERMS, ("offset_force",)),
     ),
-    "reuss_beam": Rig("brake_reuss_beam", "friction in the joint", (RUBS,)),
+    "reuss_beam": Rig("brake_reuss_beam", "friction in the joint", (FRICTION_TERMS,)),
     "bistable_beam": Rig(
         "bistable_beam",
         "unequal wells, and the circuit of the piezo",
         (("quadratic_stiffness", "offset_force", "bilinear_stiffness"), ()),
     ),
-    "gear_wheel": Rig("gear_pair", "nothing; the deceleration shows dry friction", (RUBS,)),
+    "gear_wheel": Rig("gear_pair", "nothing; the deceleration shows dry friction", (FRICTION_TERMS,)),
 }
 """The effects of the piezo circuit have no law in the library: it is never found."""
 
@@ -82,7 +74,7 @@ def describe_diagnosis(name: str, found: Diagnosis, seconds: float, code: str) -
     """Return the row of a rig."""
     rig, after = RIGS[name], found.parameters.after
     names = [[e.mechanism, round(e.probability, 3), e.state] for e in found.found]
-    sure = {e.mechanism for e in found.found if e.state == "named" and e.probability > 0.95}
+    sure = {e.mechanism for e in found.found if e.state == "named" and e.probability > SURE}
     meant = {law for laws in rig.effects for law in laws}
     said = {key: after[key] for key in rig.values if key in after and math.isfinite(after[key].low)}
     compared = [
@@ -104,25 +96,17 @@ def describe_diagnosis(name: str, found: Diagnosis, seconds: float, code: str) -
     }
 
 
-def read_code() -> str:
-    """Return the commit of this checkout, with a plus sign if files were changed."""
-    git = ["git", "-C", str(ROOT)]
-    code = subprocess.run([*git, "rev-parse", "--short", "HEAD"], capture_output=True, text=True, check=True).stdout
-    changed = subprocess.run(
-        [*git, "status", "--porcelain", "framework", "plugins"], capture_output=True, text=True, check=True
-    )
-    return code.strip() + ("+" if changed.stdout.strip() else "")
-
-
 def main() -> None:
     """Diagnose each rig that is asked for."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("which", nargs="*", choices=[*RIGS, []], help="names; all without any")
+    parser.add_argument(
+        "which", nargs="*", choices=[*RIGS, []], metavar="NAME", help=f"{', '.join(RIGS)}; all without any"
+    )
     parser.add_argument("--out", type=Path, required=True, help="folder of the rows and of the reports")
     parser.add_argument("--shared", type=Path, default=ROOT.parent / "shared", help="where the recordings lie")
     args = parser.parse_args()
     args.out.mkdir(parents=True, exist_ok=True)
-    path, code = args.out / "rigs.jsonl", read_code()
+    path, code = args.out / "rigs.jsonl", describe_code(ROOT)
     lines = path.read_text().splitlines() if path.exists() else []
     done = {row["key"] for row in map(json.loads, lines) if row["code"] == code}
     for name in [one for one in args.which or RIGS if one not in done]:

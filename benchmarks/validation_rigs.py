@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 
+from judge_rows import SURE
 from validation_results import RIGS, Result
 from validation_tables import Reasons, make_table, mark
-
-SURE = 0.95
 
 
 def list_rigs(results: Sequence[Result]) -> list[Result]:

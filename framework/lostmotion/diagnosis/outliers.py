@@ -42,7 +42,7 @@ def leave_out_outliers(nominal: Fit, observations: Sequence[Observation]) -> tup
             break
         kept = tuple(drop_readings(one, mask) for one, mask in zip(kept, wrong, strict=True))
         whole = {one.name: one for one in kept}
-        parts = tuple(_cut(whole[part.name], part) for part in fit.posterior.observations)
+        parts = tuple(whole[part.name].cut_again(part) for part in fit.posterior.observations)
         again = maximise(fit.posterior.on(parts), fit.theta)
         if again.status == "diverged":
             return nominal, tuple(observations)
@@ -72,12 +72,6 @@ def drop_readings(observation: Observation, wrong: NDArray[np.bool_]) -> Observa
     """Return a recording without some of its readings (samples, sensors), which count as outliers."""
     readings = np.where(wrong, np.nan, observation.readings)
     return replace(observation, readings=readings, outliers=observation.outliers + int(wrong.sum()))
-
-
-def _cut(whole: Observation, part: Observation) -> Observation:
-    """Return the part of a whole recording with the samples of another part."""
-    first = part.begin - whole.begin
-    return replace(part, readings=whole.readings[first:][: part.samples], outliers=whole.outliers)
 
 
 def _standardise(posterior: Posterior, theta: Array, shape: tuple[int, ...]) -> tuple[Array, bool]:

@@ -22,12 +22,8 @@ def leave_out_gauge_noise(nominal: Fit, observations: Sequence[Observation]) -> 
     calm = {o.name: keep_harmonics(o) for o in observations}
     if not any(o.gauge_noise for o in calm.values()):
         return nominal, tuple(observations)
-    fitted = []
-    for part in nominal.posterior.observations:
-        whole = calm[part.name]
-        inputs = whole.inputs[part.begin - whole.begin :][: part.samples]
-        fitted.append(replace(part, inputs=inputs, gauge_noise=whole.gauge_noise))
-    again = maximise(nominal.posterior.on(tuple(fitted)), nominal.theta)
+    fitted = tuple(calm[part.name].cut_again(part) for part in nominal.posterior.observations)
+    again = maximise(nominal.posterior.on(fitted), nominal.theta)
     better = again.status != "diverged" and again.log_likelihood > nominal.log_likelihood
     return (again, tuple(calm.values())) if better else (nominal, tuple(observations))
 

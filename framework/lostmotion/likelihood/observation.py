@@ -110,6 +110,12 @@ class Observation:
             self, readings=self.readings[cut], inputs=self.inputs[cut], begin=self.begin + start, begun=begun
         )
 
+    def cut_again(self, part: Observation) -> Observation:
+        """Return a part of this recording with what was left out of the whole one since it was cut."""
+        cut = slice(part.begin - self.begin, part.begin - self.begin + part.samples)
+        left = replace(part, gauge_noise=self.gauge_noise, outliers=self.outliers)
+        return replace(left, readings=self.readings[cut], inputs=self.inputs[cut])
+
     @cached_property
     def drive(self) -> Drive:
         """The inputs between the samples."""

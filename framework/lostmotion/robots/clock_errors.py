@@ -47,11 +47,6 @@ class ClockErrors:
         told = self.agreement[np.isfinite(self.agreement)]
         return len(told) > 1 and bool(np.min(told) > AGREE)
 
-    @property
-    def size(self) -> float:
-        """The standard deviation of the errors (s)."""
-        return float(np.std(self.late))
-
 
 def correct_stamps(time: Array, positions: Array) -> tuple[Array, tuple[str, ...]]:
     """Return increasing stamps (samples,) in s without the errors that positions (samples, joints) show, and a note.
