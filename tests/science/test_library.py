@@ -11,6 +11,9 @@ import pytest
 from explained import explain
 from sensed import case_of, model_of, moved, multisine, noisy
 
+from lostmotion.evidence.discrepancy import make_frame
+from lostmotion.evidence.effects import list_promises
+from lostmotion.evidence.hypothesis import fit_hypothesis
 from lostmotion.inference.candidates import ScoreTest, compute_slopes, fit_term, make_term_parameters, run_score_test
 from lostmotion.inference.far_values import hold_shape
 from lostmotion.inference.late import (
@@ -269,6 +272,19 @@ def test_lags_of_drive_and_sensor_promise_the_same_of_a_linear_machine(tmp_path)
     explained = explain(fit, ("actuator_lag", "sensor_lag"))
     (key,) = explained.terms
     assert explained.chosen.values[f"{key}.time"] == pytest.approx(late, rel=0.05)
+
+
+def test_what_a_lag_promises_is_that_of_its_secants(tmp_path):
+    """The slope at no lag is that of a sensor whose own state is shorter than a step: it promises nothing."""
+    late = 0.03
+    fit = nominal_of(tmp_path, [ActuatorLag(), SensorLag()], shown=lambda x: lagging(x, late))
+    frame = make_frame(fit.posterior, fit.theta, ())
+    keys = ("actuator_lag", "sensor_lag")
+    told = list_promises(fit_hypothesis(frame, frame.start, 0.0), keys, {}, dict.fromkeys(keys, 0.0), (), 0.0)
+    assert {one.key for one in told} == set(keys)
+    for one in told:
+        assert one.gain > 30.0
+        assert 0.5 * late < one.start[f"{one.key}.time"] < 2.0 * late
 
 
 def lagging(x, time):

@@ -46,6 +46,17 @@ def test_a_multiple_of_the_drive_is_no_hum():
     assert list(find_lines(errors, 1.0 / RATE))
 
 
+@pytest.mark.parametrize(("off", "found"), [(0.0, False), (0.2, False), (0.5, True), (1.2, True)])
+def test_a_hum_close_to_a_multiple_of_the_drive_is_told_from_it(off, found):
+    """`off` is in steps of 1/duration; a strong harmonic of the drive is beside it."""
+    rng, resolution = np.random.default_rng(9), RATE / SAMPLES
+    omega = 2.0 * math.pi * 3.12
+    wave = 7.0 * 3.12 + off * resolution
+    errors = rng.standard_normal(SAMPLES) + 1.5 * np.cos(3.0 * omega * TIME) + 0.5 * np.cos(2.0 * math.pi * wave * TIME)
+    paces = list(find_lines(errors, 1.0 / RATE, omega))
+    assert paces == pytest.approx([2.0 * math.pi * wave] if found else [], abs=0.2 * 2.0 * math.pi * resolution)
+
+
 def test_a_hum_of_one_sensor_is_two_waves_of_its_noise(tmp_path):
     prepared, system = made_of(tmp_path, lambda x, v, t: 0.0)
     (observation,) = prepared.observations

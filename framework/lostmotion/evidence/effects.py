@@ -116,11 +116,18 @@ def _test_onsets(found: Hypothesis, ever: Promise, effect: TermEffect, less: flo
 def _list_effects(
     posterior: Posterior, theta: Array, filtered: Sequence[Tangents], key: str, more: Sequence[Mapping[str, float]]
 ) -> Iterator[TermEffect]:
-    """Yield the effect of a term at each shape."""
-    shapes = sort_slots(posterior, key)[1]
+    """Yield the effect of a term at each shape.
+
+    Where the only amplitude has a range to be scanned, such as the time of a lag, the effect is not proportional to it:
+    secants to the values of the range are effects too.
+    """
+    amplitudes, shapes = sort_slots(posterior, key)
     usual = _list_star_shapes(posterior, shapes)
     tried = drop_rounding(posterior, key, (*usual, *more)) if shapes else usual
     yield from differentiate_term(posterior, theta, filtered, key, tried)
+    if len(amplitudes) == 1 and amplitudes[0].param.scan:
+        reached = np.array(list_tried_values(amplitudes[0].param, posterior.scales))[:, None]
+        yield from differentiate_term(posterior, theta, filtered, key, [{}] * len(reached), reached)
 
 
 def get_usual_shape(posterior: Posterior, key: str) -> Mapping[str, float] | None:
@@ -154,8 +161,9 @@ def differentiate_term(
 ) -> Iterator[TermEffect]:
     """Yield the effect of a term at each of some shapes, where it is finite.
 
-    Derivatives are secants over `sizes` (amplitudes,), by default a small share of the typical ones. `filtered` has the
-    linearised filter of each recording; without it, and for terms with states, the filter runs again.
+    Derivatives are secants over `sizes`, (amplitudes,) or (shapes, amplitudes), by default a small share of the typical
+    ones. `filtered` has the linearised filter of each recording; without it, and for terms with states, the filter runs
+    again.
     """
     if not tried:
         return
@@ -163,6 +171,7 @@ def differentiate_term(
     widths = np.array([f.sd for f in make_term_parameters(posterior, key, amplitudes, {})])
     if sizes is None:
         sizes = SMALL * np.array([compute_size(s.param, posterior.scales) for s in amplitudes])
+    sizes = np.broadcast_to(sizes, (len(tried), len(amplitudes)))
     if filtered and not term.states and term.acts in ("motion", "drive"):
         errors = np.concatenate([_respond(one, key, tried, amplitudes, sizes) for one in filtered], axis=2)
         variances = np.zeros_like(errors)
@@ -177,10 +186,11 @@ def _respond(
     filtered: Tangents, key: str, shapes: Sequence[Mapping[str, float]], amplitudes: Sequence[Slot], sizes: Array
 ) -> Array:
     """Return the derivatives (shapes, amplitudes, readings) of the errors over the amplitudes of a static term."""
-    posterior = filtered.posterior
-    rows = [(shape, a) for shape in shapes for a in range(len(sizes))]
-    fulls = np.array([set_amplitude(filtered, shape, amplitudes, a, sizes[a]) for shape, a in rows])
-    scale = np.array([sizes[a] for _, a in rows])
+    posterior, scale = filtered.posterior, sizes.ravel()
+    rows = [(shape, a) for shape in shapes for a in range(len(amplitudes))]
+    fulls = np.array(
+        [set_amplitude(filtered, shape, amplitudes, a, size) for (shape, a), size in zip(rows, scale, strict=True)]
+    )
     if find_term(posterior, key)[0].acts == "drive":
         acting = posterior.acting(posterior.active | {key})
         moved = [(acting.recordings[0].drive(full).inputs[: len(filtered.states)] - filtered.inputs) for full in fulls]
@@ -191,7 +201,7 @@ def _respond(
         found = filtered.respond_to_forces(
             (rates - here[0]) / scale[:, None, None], (channels - here[1]) / scale[:, None, None]
         )
-    return np.asarray(found.reshape(len(shapes), len(sizes), -1))
+    return np.asarray(found.reshape(*sizes.shape, -1))
 
 
 def set_amplitude(
@@ -213,18 +223,18 @@ def _compute_differences(
     """Return the derivatives (shapes, amplitudes, readings) of errors and variances by runs of the filter."""
     amplitudes, fixed = sort_slots(posterior, key)
     frees = (*make_term_parameters(posterior, key, amplitudes, {}), *(hold_shape(slot) for slot in fixed))
-    wider, own, count = posterior.extend(frees, {key}), len(theta), len(sizes)
+    wider, own, count = posterior.extend(frees, {key}), len(theta), len(amplitudes)
     points = []
-    for shape in shapes:
+    for shape, size in zip(shapes, sizes, strict=True):
         zero = np.concatenate([theta, np.zeros(count), [shape[s.key] for s in fixed]])
-        points += [zero, *(zero + np.eye(len(zero))[own + a] * sizes[a] for a in range(count))]
+        points += [zero, *(zero + np.eye(len(zero))[own + a] * size[a] for a in range(count))]
     seen = wider.innovations(np.array(points))
     errors = seen.errors.reshape(len(shapes), 1 + count, -1)
     variances = seen.variances.reshape(len(shapes), 1 + count, -1)
     told: Any = np.asarray(seen.finite).reshape(len(shapes), 1 + count).all(axis=1)
     finite = np.repeat(told[:, None, None], count, axis=1)
     with np.errstate(invalid="ignore"):
-        slopes = [np.where(finite, (e[:, 1:] - e[:, :1]) / sizes[:, None], np.nan) for e in (errors, variances)]
+        slopes = [np.where(finite, (e[:, 1:] - e[:, :1]) / sizes[..., None], np.nan) for e in (errors, variances)]
     return slopes[0], slopes[1]
 
 

@@ -22,9 +22,10 @@ BAND, FLOOR = 0.9995, 10.0
 """The share of the variance of the motion within its band, above the noise: some medians of its spectrum."""
 MOST_LINES = 2
 """The largest number of lines of one sensor in a recording."""
-SURROUNDINGS, NEAR = 101, 1.5
-"""Over how many frequencies the median is taken, and how far a line reaches (steps of 1/duration): one, and half a one
-by rounding."""
+SURROUNDINGS, NEAR, TOLD = 101, 1.5, 0.35
+"""In steps of 1/duration: over how many frequencies the median is taken, how far a line reaches (one, and half a one by
+rounding), and from what distance on two frequencies are told apart: three standard deviations of a line that is just
+significant (Rife, Boorstyn, IEEE Trans. Inf. Theory 20 (1974) 591-598)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,25 +86,23 @@ def find_lines(
 
     A line stands out of the median of its surroundings with a false-alarm rate of `FALSE_HUM` for a whole recording
     (Fisher, Proc. R. Soc. A 125 (1929) 54-59); each is subtracted before the next one is looked for. Lines of the
-    `drives` (samples, count), multiples of the angular frequency `harmonic` of a drive, and those below the
-    angular frequency `edge` of the band of the motion are no hum: missing physics makes them.
+    `drives` (samples, count), those that cannot be told from a multiple of the angular frequency `harmonic` of a drive,
+    and those below the angular frequency `edge` of the band of the motion are no hum: missing physics makes them.
     """
     places, bins = np.arange(len(errors)), np.arange(len(errors) // 2 + 1)
     per_pace = dt * len(errors) / (2.0 * math.pi)
     taken = bins < NEAR + edge * per_pace
-    if harmonic:
-        first = harmonic * per_pace
-        taken |= np.abs(bins - first * np.round(bins / first)) < NEAR
     for drive in [] if drives is None else drives.T:
         for line in np.flatnonzero(_measure_lines(drive - np.mean(drive), taken) > 1.0):
             taken |= np.abs(bins - line) < NEAR
-    left = errors - np.mean(errors)
-    for _ in range(MOST_LINES):
-        told = _measure_lines(left, taken)
-        if np.max(told) < 1.0:
-            return
-        pace = _refine_line(left, int(np.argmax(told)))
-        yield pace / dt
+    left, lines = errors - np.mean(errors), 0
+    while lines < MOST_LINES and np.max(told := _measure_lines(left, taken)) >= 1.0:
+        strongest = int(np.argmax(told))
+        pace = _refine_line(left, strongest)
+        if not harmonic or abs(math.remainder(pace / dt, harmonic)) * per_pace > TOLD:
+            lines += 1
+            yield pace / dt
+        taken[strongest] = True
         waves = np.column_stack([np.cos(pace * places), np.sin(pace * places)])
         left = left - waves @ np.linalg.lstsq(waves, left, rcond=None)[0]
 
