@@ -89,8 +89,8 @@ def test_an_error_beyond_its_bound_is_proposed_as_a_law(tmp_path, late, found):
     frame = make_frame(fit.posterior, fit.theta, list_channel_errors(fit, list(fit.posterior.observations)))
     empty = fit_hypothesis(frame, frame.start, 0.0)
     assert (frame.count - 1 in frame.list_pressed(empty.at)) is found
-    (promise,) = list_promises(empty, ["excitation_delay"], {}, {"excitation_delay": 0.0}, (), 0.0)
-    assert (promise.gain > 10.0) is found
+    promises = list_promises(empty, ["excitation_delay"], {}, {"excitation_delay": 0.0}, (), 0.0)
+    assert any(one.gain > 10.0 for one in promises) is found
 
 
 @pytest.mark.parametrize(("deviations", "clear"), [(0.9 * CLEAR, False), (1.1 * CLEAR, True), (-1.1 * CLEAR, True)])

@@ -8,13 +8,20 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from explained import explain
+from explained import explain, made_of
 from sensed import case_of, model_of, moved, multisine, noisy
 
 from lostmotion.evidence.discrepancy import make_frame
 from lostmotion.evidence.effects import list_promises
 from lostmotion.evidence.hypothesis import fit_hypothesis
-from lostmotion.inference.candidates import ScoreTest, compute_slopes, fit_term, make_term_parameters, run_score_test
+from lostmotion.inference.candidates import (
+    ScoreTest,
+    compute_slopes,
+    fit_term,
+    join_term,
+    make_term_parameters,
+    run_score_test,
+)
 from lostmotion.inference.far_values import hold_shape
 from lostmotion.inference.late import (
     TIMES,
@@ -285,6 +292,26 @@ def test_what_a_lag_promises_is_that_of_its_secants(tmp_path):
     for one in told:
         assert one.gain > 30.0
         assert 0.5 * late < one.start[f"{one.key}.time"] < 2.0 * late
+
+
+@pytest.mark.parametrize(("steps", "same"), [(0.9, True), (1.1, False)])
+def test_a_lag_that_is_shorter_than_a_step_of_the_integration_has_no_effect(tmp_path, steps, same):
+    fit = nominal_of(tmp_path, [SensorLag()])
+    step = (T[1] - T[0]) / fit.posterior.dynamics.nsub
+    lagged = join_term(fit.posterior, "sensor_lag", {"sensor_lag.time": steps * step})
+    told = lagged.log_likelihood(np.append(fit.theta, steps * step))
+    assert (told == pytest.approx(fit.log_likelihood, abs=1e-6)) is same
+
+
+def test_a_delay_of_most_of_a_cycle_is_found_and_so_are_its_parameters(tmp_path):
+    """Far from its null: only a secant promises it, and its first fit ends in another maximum."""
+    late = 0.25
+    prepared, system = made_of(tmp_path, lambda x, v, t: 0.0, late=late)
+    train, _ = split_heldout(prepared.observations)
+    nominal = search_maximum(make_posterior(system, prepared.case, train, jobs=1), np.random.default_rng(0))
+    explained = explain(nominal, ("excitation_delay", "sensor_lag", "inertia_change"))
+    assert explained.terms == {"excitation_delay"}
+    assert explained.chosen.values["excitation_delay.delay"] == pytest.approx(late, rel=0.01)
 
 
 def lagging(x, time):

@@ -32,17 +32,23 @@ MOST_LATE = 8
 """The number of terms, best first, that are also tried from an onset on."""
 SMALL = 0.01
 """Derivatives are taken over this share of the typical size of an amplitude."""
+REACHED = (0.4, 1.6)
+"""A secant holds for amplitudes between these shares of the one that it leads to."""
 MUTE = 1e-6
 """An amplitude of typical size with less information than this has no effect."""
 
 
 @dataclass(frozen=True)
 class TermEffect:
-    """The derivatives (amplitudes, readings) of the errors over the amplitudes of a term at one shape."""
+    """The derivatives (amplitudes, readings) of the errors over the amplitudes of a term at one shape.
+
+    They are secants to the `sizes` (amplitudes,).
+    """
 
     key: str
     shape: Mapping[str, float]
     amplitudes: tuple[Slot, ...]
+    sizes: Array
     widths: Array
     errors: Array
     variances: Array
@@ -125,9 +131,14 @@ def _list_effects(
     usual = _list_star_shapes(posterior, shapes)
     tried = drop_rounding(posterior, key, (*usual, *more)) if shapes else usual
     yield from differentiate_term(posterior, theta, filtered, key, tried)
-    if len(amplitudes) == 1 and amplitudes[0].param.scan:
+    if _is_scanned(amplitudes):
         reached = np.array(list_tried_values(amplitudes[0].param, posterior.scales))[:, None]
         yield from differentiate_term(posterior, theta, filtered, key, [{}] * len(reached), reached)
+
+
+def _is_scanned(amplitudes: Sequence[Slot]) -> bool:
+    """Return whether the only amplitude of a term has a range to be scanned."""
+    return len(amplitudes) == 1 and amplitudes[0].param.scan is not None
 
 
 def get_usual_shape(posterior: Posterior, key: str) -> Mapping[str, float] | None:
@@ -177,9 +188,9 @@ def differentiate_term(
         variances = np.zeros_like(errors)
     else:
         errors, variances = _compute_differences(posterior, theta, key, tried, sizes)
-    for shape, e, v in zip(tried, errors, variances, strict=True):
+    for shape, size, e, v in zip(tried, sizes, errors, variances, strict=True):
         if np.all(np.isfinite(e)) and np.all(np.isfinite(v)):
-            yield TermEffect(key, shape, tuple(amplitudes), widths, e, v)
+            yield TermEffect(key, shape, tuple(amplitudes), size, widths, e, v)
 
 
 def _respond(
@@ -299,6 +310,8 @@ def _predict(found: Hypothesis, effect: TermEffect, joined: Curvature, less: flo
     step = solve_posterior(frame, joined, choice, quadratic.held)
     sizes, low = step[n:], np.array([slot.param.low for slot in effect.amplitudes])
     if np.all(sizes < low):
+        return lost
+    if _is_scanned(effect.amplitudes) and not REACHED[0] < (sizes / effect.sizes).item() < REACHED[1]:
         return lost
     start = {s.key: float(a) for s, a in zip(effect.amplitudes, np.maximum(sizes, low), strict=True)}
     return Promise(effect.key, quadratic.evaluate(choice) - less, {**effect.shape, **start}, step[:n], choice)

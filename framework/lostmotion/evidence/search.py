@@ -226,6 +226,14 @@ class ExplanationSearch:
         self._keep(fit_hypothesis(frame, at, price, choice))
         if bare.posterior.active in self.found:
             self._lift(self.found[bare.posterior.active])
+            self._renew_bare(self.found[bare.posterior.active])
+
+    def _renew_bare(self, found: Hypothesis) -> None:
+        """Fit a set without a discrepancy again where the hypothesis has reached a better maximum than its bare fit."""
+        known = self.bare.fits[found.terms]
+        theta = found.at[: len(known.theta)]
+        if known.posterior.log_likelihood(theta) > known.log_likelihood + REACH:
+            self.bare.keep(maximise(known.posterior, theta, tolerance=ROUGHLY))
 
     def _lift(self, low: Hypothesis) -> None:
         """Fit a set again from a subset that explains all data better: without its last term it would be as good.

@@ -66,10 +66,14 @@ class RecordingFilter:
         )
 
     def _drop_idle_lags(self, theta: Array) -> PosedRecording:
-        """Return the recording without sensors that have no lag at some coordinates: a lag of zero has no rate."""
+        """Return the recording without lags of sensors that are shorter than a step at some coordinates.
+
+        The integration cannot follow them: they would have the effect of a lag of one step.
+        """
         recording, dynamics = self.recording, self.recording.dynamics
         lagging = dynamics.active & set(recording.system.lagging_terms)
-        idle = {key for key in lagging if recording.system.is_idle(recording.full(theta), key)}
+        step = recording.observation.dt / dynamics.nsub
+        idle = {key for key in lagging if recording.system.is_idle(recording.full(theta), key, step)}
         return replace(recording, dynamics=replace(dynamics, active=dynamics.active - idle)) if idle else recording
 
     def _list_views(self, thetas: Array) -> list[tuple[Any, ...]]:

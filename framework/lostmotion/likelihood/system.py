@@ -77,10 +77,10 @@ class System(Layout):
             if k in set(active) and not t.marked and (alone or isinstance(t, DriveTerm))
         )
 
-    def is_idle(self, full: Array, key: str) -> bool:
-        """Return whether a term does nothing: all its parameters with a null are at it."""
+    def is_idle(self, full: Array, key: str, least: float = 0.0) -> bool:
+        """Return whether a term does nothing: all its parameters with a null are at it, or no farther than `least`."""
         term = self.terms[self.keys.index(key)]
-        return all(full[self.index[f"{key}.{name}"]] == null for name, null in term.null().items())
+        return all(abs(full[self.index[f"{key}.{name}"]] - null) <= least for name, null in term.null().items())
 
     def acting(
         self, columns: Sequence[Column], full: Array, keys: Iterable[str], harmonic: DriveHarmonic, *, lead: int = 0

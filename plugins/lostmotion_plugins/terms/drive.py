@@ -76,7 +76,7 @@ class ExcitationDelay(DriveTerm):
     physics: ClassVar[str] = "The drive acts {delay} after it was recorded"
     formula: ClassVar[str] = "u(t - delay)"
     paper: ClassVar[str] = "Ljung, System Identification: Theory for the User (1999), section 4.2"
-    params = (Param("delay", "delay of the drive", TIME, null=0.0),)
+    params = (Param("delay", "delay of the drive", TIME, null=0.0, scan=(0.1, 6.0)),)
     equals = ("sensor_delay",)
 
     @staticmethod

@@ -78,7 +78,8 @@ def _integrate_input(u: Input, start: Array, length: Array, tau: float) -> Array
 class SensorLag(SensorTerm):
     """A sensor of first order: its output follows the true value with a time constant.
 
-    The output is a state of its own. The time constant is never shorter than the finest step of the integration.
+    The output is a state of its own. A time constant that is shorter than the finest step of the integration has no
+    effect; a delay describes such a lag.
     """
 
     at: str = "sensor"
