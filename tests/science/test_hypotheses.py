@@ -21,12 +21,14 @@ from lostmotion.evidence.effects import Promise
 from lostmotion.evidence.expansion import Expansion, compute_log_evidence
 from lostmotion.evidence.hypothesis import fit_hypothesis
 from lostmotion.evidence.search import Budget, ExplanationSearch, compute_probabilities
-from lostmotion.inference.candidates import ScoreTest, add_term
+from lostmotion.inference.candidates import ScoreTest, add_term, join_term
 from lostmotion.inference.curves import add_all_curves
 from lostmotion.inference.fit import ROUGHLY, begin_at, choose_first_steps, hold_free, maximise
+from lostmotion.inference.late import find_onset
 from lostmotion.inference.setup import make_posterior, search_maximum, split_heldout
 from lostmotion.kernels.linear_response import respond, respond_plainly
 from lostmotion.likelihood.innovations import Innovations
+from lostmotion.likelihood.system import ALWAYS, onset_key
 from lostmotion.likelihood.tangents import linearise_filter
 
 
@@ -346,3 +348,16 @@ def test_a_set_is_not_worse_than_its_subset(rubbing):
     assert lifted.log_profile > nothing.log_profile - 1.0
     search._lift(lifted)
     assert search.found[terms] is lifted
+
+
+@pytest.mark.parametrize("onset", [3.0, ALWAYS])
+def test_a_law_with_an_onset_is_weighed_without_it_as_well(tmp_path, onset):
+    """Friction that acts from the beginning has no onset, even where its bare fit has one; late friction keeps it."""
+    search = start_search(tmp_path, lambda x, v, t: rub(x, v, t) if t > onset else 0.0)
+    search.weigh(search.nominal)
+    start = {"coulomb_friction.force": 0.8, onset_key("coulomb_friction"): 3.0}
+    search.weigh(maximise(join_term(search.bare.fits[frozenset()].posterior, "coulomb_friction", start)))
+    found = search.found[frozenset({"coulomb_friction"})]
+    bare = search.bare.fits[found.terms]
+    assert find_onset(found.frame.posterior, "coulomb_friction") == onset
+    assert find_onset(bare.posterior, "coulomb_friction") == onset

@@ -20,11 +20,13 @@ from lostmotion.evidence.sensor_hum import renew_hums
 from lostmotion.inference.candidates import ScoreTest, add_term
 from lostmotion.inference.curves import add_all_curves
 from lostmotion.inference.fit import ROUGHLY, Fit, maximise, restart
+from lostmotion.inference.late import find_onset
 from lostmotion.inference.natural import sort_slots
 from lostmotion.inference.penalties import compute_price, compute_unknown_price
 from lostmotion.inference.settling import settle_steps
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.posterior import Posterior
+from lostmotion.likelihood.system import ALWAYS, onset_key
 
 MOST_BESIDE, MOST_CLOSE = 3, 4
 """The largest numbers of terms that are fitted from what a hypothesis promises, and of bare fits that are weighed."""
@@ -215,25 +217,30 @@ class ExplanationSearch:
                 self.weigh(fit)
 
     def weigh(self, bare: Fit, begin: Mapping[str, float] | None = None, choice: Choice | None = None) -> None:
-        """Fit the hypothesis of a bare fit, from some coordinates, and keep it if it is the best of its terms."""
+        """Fit the hypothesis of a bare fit, from some coordinates, and keep it if it is the best of its terms.
+
+        A term with an onset is weighed without it as well: what smooth forces explain may be what the onset is for.
+        """
         self.say(f"weighing {name_terms(bare.posterior.active)}")
         bare = settle_steps(bare)
-        self.bare.keep(bare)
+        self.bare.fits.setdefault(bare.posterior.active, bare)
         frame = make_frame(bare.posterior, bare.theta, self.errors)
         at, price = frame.start, compute_price(bare.posterior, len(self.keys))
         if begin is not None:
             at = max(frame.transfer(begin), at, key=lambda one: frame.log_likelihood(one, choice or frame.none))
-        self._keep(fit_hypothesis(frame, at, price, choice))
+        self._keep(fit_hypothesis(frame, at, price, choice), bare)
         if bare.posterior.active in self.found:
             self._lift(self.found[bare.posterior.active])
-            self._renew_bare(self.found[bare.posterior.active])
+        if late := {onset_key(key) for key in bare.posterior.active if find_onset(bare.posterior, key) > ALWAYS}:
+            always = restart(bare).hold_values(dict.fromkeys(late, ALWAYS))
+            self.weigh(maximise(always, bare.theta, tolerance=ROUGHLY), begin, choice)
 
-    def _renew_bare(self, found: Hypothesis) -> None:
-        """Fit a set without a discrepancy again where the hypothesis has reached a better maximum than its bare fit."""
-        known = self.bare.fits[found.terms]
-        theta = found.at[: len(known.theta)]
-        if known.posterior.log_likelihood(theta) > known.log_likelihood + REACH:
-            self.bare.keep(maximise(known.posterior, theta, tolerance=ROUGHLY))
+    def _renew_bare(self, bare: Fit, found: Hypothesis) -> Fit:
+        """Return the fit of a set without a discrepancy, from where its hypothesis is if that is much better."""
+        theta = found.at[: len(bare.theta)]
+        if bare.posterior.log_likelihood(theta) > bare.log_likelihood + REACH:
+            return maximise(bare.posterior, theta, tolerance=ROUGHLY)
+        return bare
 
     def _lift(self, low: Hypothesis) -> None:
         """Fit a set again from a subset that explains all data better: without its last term it would be as good.
@@ -251,7 +258,7 @@ class ExplanationSearch:
             if slot.param.null is not None
         }
         begin = low.frame.transfer(low.values | below.values | absent)
-        self._keep(fit_hypothesis(low.frame, begin, low.price, below.choice, free=False))
+        self._keep(fit_hypothesis(low.frame, begin, low.price, below.choice, free=False), self.bare.fits[low.terms])
 
     def _weigh_unknown(self, target: Hypothesis) -> None:
         """Fit a set with a smooth force that is larger than the usual discrepancy; its price is that of a term."""
@@ -260,15 +267,16 @@ class ExplanationSearch:
         frame = make_frame(bare.posterior, bare.theta, self.errors, LARGE)
         made = fit_hypothesis(frame, frame.transfer(target.values), price, target.choice)
         if max(made.choice, default=-1) >= len(SIZES) * len(LENGTHS):
-            self._keep(replace(made, unknown=True))
+            self._keep(replace(made, unknown=True), bare)
 
-    def _keep(self, made: Hypothesis) -> None:
-        """Keep a hypothesis, with the density of the held-out data, if it is the best of its terms."""
+    def _keep(self, made: Hypothesis, bare: Fit) -> None:
+        """Keep a hypothesis, with the density of the held-out data and its bare fit, if it is the best of its terms."""
         if math.isfinite(made.log_evidence):
             made = replace(made, heldout=score_heldout(made, self.pieces))
         known = self.found.get(made.terms)
         if math.isfinite(made.score()) and (known is None or made.score() > known.score()):
             self.found[made.terms] = made
+            self.bare.fits[made.frame.terms] = self._renew_bare(bare, made)
             self.say(make_weighed(made.terms, self.score(made), self.budget))
 
     def _weigh_beside(self, target: Hypothesis, promise: Promise) -> None:
