@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 from explained import explain_machine
 from scipy.special import softmax
+from scipy.stats import norm, t
 
+from lostmotion.evidence import posterior_draws
 from lostmotion.evidence.discrepancy import Quadratic
 from lostmotion.evidence.effects import linearise_all
 from lostmotion.evidence.hypothesis import compute_step
@@ -47,7 +49,20 @@ def test_choices_are_drawn_by_their_evidence(pushed):
     assert shares.max() < 0.95  # or nothing is averaged
 
 
-def test_draws_have_mean_and_deviation_of_the_mixture_over_all_choices(pushed):
+@pytest.mark.parametrize("beside", [True, False])
+def test_draws_beside_a_smooth_force_have_the_tails_of_a_t_distribution(pushed, monkeypatch, beside):
+    """Seeded; the quantile of 97.5 % of 4,000 draws scatters by 5 %; the normal one is 38 % smaller."""
+    choice = (0, -1) if beside else (-1, -1)
+    monkeypatch.setattr(posterior_draws, "sample_choices", lambda found, count, rng: [choice] * count)
+    k = pushed.frame.names.index("c")
+    drawn = draw_own(pushed, DRAWS, np.random.default_rng(2))[:, k]
+    width = np.sqrt(pushed.scatter * replace(pushed, choice=choice).covariance[k, k])
+    wanted = t.ppf(0.975, posterior_draws.FREEDOM) if beside else norm.ppf(0.975)
+    assert np.diff(np.quantile(drawn, [0.025, 0.975])) / 2.0 / width == pytest.approx(wanted, rel=0.12)
+
+
+def test_draws_have_mean_and_deviation_of_the_mixture_over_all_choices(pushed, monkeypatch):
+    monkeypatch.setattr(posterior_draws, "FREEDOM", 1e6)
     choices, shares = list_shares(pushed)
     own, shares_of = pushed.frame.own, find_shares(pushed)
     middle, within = np.zeros((2, len(choices), own))
