@@ -361,3 +361,18 @@ def test_a_law_with_an_onset_is_weighed_without_it_as_well(tmp_path, onset):
     bare = search.bare.fits[found.terms]
     assert find_onset(found.frame.posterior, "coulomb_friction") == onset
     assert find_onset(bare.posterior, "coulomb_friction") == onset
+
+
+def test_single_laws_are_weighed_before_the_leading_set_of_several_is_taken_apart(tmp_path, monkeypatch):
+    """Several laws may imitate one law and a smooth force."""
+    search, weighed = start_search(tmp_path, lambda x, v, t: rub(x, v, t) + 0.5), []
+
+    def end(self, terms):
+        weighed.append((terms, set(self.found)))
+        self.budget.end()
+
+    monkeypatch.setattr(ExplanationSearch, "_reduce", end)
+    search.run()
+    ((lead, known),) = weighed
+    assert len(lead) == 2
+    assert any(len(terms) == 1 for terms in known)

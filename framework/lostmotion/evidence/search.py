@@ -99,6 +99,8 @@ class ExplanationSearch:
         self.weigh(self.bare.fits[self.bare.lead])
         if frozenset() not in self.found:
             self._drop_all(self.best)
+        if len(self.best.terms) > 1:
+            self._weigh_promised(self.found[frozenset()])
         self._reduce(self.bare.lead)
         self._weigh_close()
         self._replace_each()
