@@ -10,6 +10,7 @@ import pytest
 from lostmotion.case import dump_case
 from lostmotion.errors import CaseError, DataError
 from lostmotion.provenance import origin_of
+from lostmotion.recording.formats import read_table
 from lostmotion.recording.outline import GivenRoles
 from lostmotion.registry import default
 from lostmotion.results import Interval
@@ -23,6 +24,7 @@ from lostmotion_app.desk import Desk
 from lostmotion_app.folder import WorkFolder
 from lostmotion_app.remedies import list_changed_lines, list_check_warnings, list_warnings
 from lostmotion_app.role_changes import list_role_changes
+from lostmotion_app.used_parts import drop_stretch, list_used_parts
 from lostmotion_app.warning_list import WarningList
 
 HEAD = "time [s],force [N],position [m]"
@@ -175,6 +177,66 @@ def test_a_supposition_is_confirmed_once_and_a_value_is_given(open_desk):
     desk.draft(NOTHING, {})
     assert list_warnings(desk) == []
     assert desk.content["model"]["known"]["m"] == 2.5
+
+
+def lose_rows(rows):
+    """Return a table without two stretches of 0.5 s and of 5 ms; between them are 1.5, 3 and 1.995 s."""
+    return np.delete(rows, [*range(300, 400), 1000], axis=0)
+
+
+CUT = [{"t_start": 2.0, "t_end": 4.995}, {"t_start": 5.005}, {"t_end": 1.495}]
+
+
+def list_stretches(desk):
+    return [{key: one[key] for key in ("t_start", "t_end") if key in one} for one in desk.content["recordings"]]
+
+
+def test_a_recording_with_gaps_in_its_time_is_cut_there(open_desk):
+    desk = open_desk(lose_rows(simulate()))
+    assert list_stretches(desk) == CUT
+    assert list_notes(desk) == []
+    case = desk.read_case()
+    assert [one.n for one in case.recordings] == [600, 399, 300]
+    assert desk.list_further() == []
+    parts = list_used_parts(desk.content, (0.0, 6.995), 0.3)
+    assert [(one.start, one.end, one.held) for one in parts] == [
+        (0.0, 1.495, 0.0), (2.0, 4.995, 4.995), (5.005, 6.995, 6.995)
+    ]  # fmt: skip
+    desk.draft(NOTHING, {}, "linear_oscillator")
+    assert list_stretches(desk) == CUT
+    table = read_table(desk.folder.find("run.csv"))
+    desk.use_stretch(1.2, 4.0, table)
+    assert list_stretches(desk) == [{"t_start": 2.0, "t_end": 4.0}]  # 0.3 s before the gap are not enough
+    desk.use_stretch(None, None, table)
+    assert list_stretches(desk) == CUT
+    desk.use_stretch(2.0, 4.0, table)
+    (one,) = list_used_parts(desk.content, (0.0, 6.995), 0.25)
+    assert (one.start, one.end, one.held) == (2.0, 4.0, 3.5)
+
+
+def test_gaps_in_the_case_of_a_user_have_a_remedy_and_a_shorter_one(open_desk):
+    desk = open_desk(lose_rows(simulate()))
+    content = desk.content
+    content["recordings"] = [{**drop_stretch(content["recordings"][0]), "name": "monday"}]
+    desk.save(content)
+    (warned,) = list_notes(desk)
+    assert "a gap of 0.505 s in time" in warned.says
+    cut, longest = warned.remedies
+    assert (cut.says, longest.says) == ("Cut it at its gaps into 3 recordings", "Use it from 2 s until 4.995 s")
+    desk.change(cut.content)
+    assert list_stretches(desk) == CUT
+    assert [one.name for one in desk.read_case().recordings] == ["monday 1", "monday 2", "monday 3"]
+    assert list_notes(desk) == []
+    desk.save(longest.content)
+    assert list_stretches(desk) == CUT[:1]
+    assert list_notes(desk) == []
+
+
+def test_a_fault_behind_a_gap_is_told_once_the_gap_is_cut(open_desk):
+    desk = open_desk(change_sign(lose_rows(simulate())))
+    (warned,) = list_notes(desk)
+    assert "power flows from the machine" in warned.says
+    assert [one.says for one in warned.remedies] == SIGNS
 
 
 def test_what_drives_the_machine_is_asked(open_desk, tmp_path):
