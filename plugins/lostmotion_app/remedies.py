@@ -5,9 +5,8 @@ A change is offered only if the recording, read again with it, has not this warn
 
 from __future__ import annotations
 
-import math
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from copy import deepcopy
 from dataclasses import dataclass
 from difflib import unified_diff
@@ -19,13 +18,10 @@ from lostmotion.recording.formats import read_table
 from lostmotion.recording.load import recording_of
 from lostmotion.recording.spec import RecordingSpec
 from lostmotion.recording.table import Table
-from lostmotion.results.expectation import CaseCheck
-from lostmotion_app.case_content import Content, drop_value_guess, find_guessed_value, multiply_column
+from lostmotion_app.case_content import Content, drop_value_guess, find_guessed_value
 from lostmotion_app.desk import Desk
 from lostmotion_app.recording_changes import list_changes
 
-NEAR, WIDER = 0.005, 100.0
-"""A value is at a bound within this share of the range of its prior; a prior is extended by this factor."""
 _NUMBER = re.compile(r"[-+]?\d[\d.,]*(e[-+]?\d+)?")
 
 
@@ -88,43 +84,6 @@ def list_guesses(content: Content) -> Iterator[WarnedCase]:
         name = find_guessed_value(says)
         asked = (Remedy("Set", content, name),) if name else ()
         yield WarnedCase(f"Supposed: {says}", (*asked, Remedy("Confirm", confirmed)))
-
-
-def list_check_warnings(result: CaseCheck, content: Content) -> Iterator[WarnedCase]:
-    """Yield the warnings of a check of the case with their remedies: a factor, or a known value."""
-    for one in result.scales:
-        changed = multiply_column(content, one.column, one.factor)
-        says = f"{one.column} does not fit the model: {one.says}?"
-        yield WarnedCase(says, (Remedy(f"Multiply {one.column} by {one.factor:.4g}", changed),))
-    estimated = content["model"].get("estimate", {})
-    for name, prior in estimated.items():
-        found = result.expected.parameters.get(name)
-        if found is not None and (wider := widen_prior(prior, found.median)):
-            changed = deepcopy(content)
-            changed["model"]["estimate"][name] = wider
-            says = f"{name} is at the bound of its prior, which may be too narrow"
-            yield WarnedCase(says, (Remedy(f"{name}: {wider['low']:.4g} to {wider['high']:.4g}", changed),))
-    for pair in result.expected.pairs:
-        both = [name for name in (pair.one, pair.other) if name in estimated]
-        if len(both) == 2:
-            says = f"This recording hardly tells {pair.one} from {pair.other}: a known value of one of them helps."
-            yield WarnedCase(says, tuple(Remedy("Set", content, name) for name in both))
-
-
-def widen_prior(prior: Mapping[str, Any], value: float) -> dict[str, Any]:
-    """Return a prior that extends further beyond the bound at which a value is; empty for a value at no bound."""
-    if "low" not in prior:
-        return {}
-    low, high = float(prior["low"]), float(prior["high"])
-    if prior.get("scale") == "log":
-        near, ends = math.log(high / low) * NEAR, (low / WIDER, high * WIDER)
-        away = abs(math.log(value / low)), abs(math.log(value / high))
-    else:
-        near, ends = (high - low) * NEAR, (low - WIDER * (high - low), high + WIDER * (high - low))
-        away = abs(value - low), abs(value - high)
-    if min(away) > near:
-        return {}
-    return {**prior, **({"low": ends[0]} if away[0] < away[1] else {"high": ends[1]})}
 
 
 def _warn_recording(

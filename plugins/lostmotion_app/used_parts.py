@@ -63,11 +63,16 @@ def cut_entry(entry: Mapping[str, Any], spec: RecordingSpec, table: Table) -> li
     try:
         _read(spec, table)
     except GapError as gaps:
-        stretches = [one for one in cut_at_gaps(gaps) if _can_be_read(replace(spec, **one.keys), table)]
-        return [{**entry, **one.keys} for one in stretches] or [dict(entry)]
+        keys = [one.keys for one in cut_at_gaps(gaps)]
+        return [{**entry, **ends} for ends in keys if _can_be_read(cut_spec(spec, ends), table)] or [dict(entry)]
     except DataError:
         pass
     return [dict(entry)]
+
+
+def cut_spec(spec: RecordingSpec, ends: Mapping[str, float]) -> RecordingSpec:
+    """Return a recording with the ends of a stretch of it, where they are others."""
+    return replace(spec, t_start=ends.get("t_start", spec.t_start), t_end=ends.get("t_end", spec.t_end))
 
 
 def _read(spec: RecordingSpec, table: Table) -> None:

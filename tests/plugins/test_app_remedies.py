@@ -3,6 +3,7 @@
 import sys
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,8 +13,10 @@ from lostmotion.errors import CaseError, DataError
 from lostmotion.provenance import origin_of
 from lostmotion.recording.formats import read_table
 from lostmotion.recording.outline import GivenRoles
+from lostmotion.recording.warnings import BACKWARD
 from lostmotion.registry import default
 from lostmotion.results import Interval
+from lostmotion.results.diagnosis import Mechanism
 from lostmotion.results.expectation import CaseCheck, Expectation, ParameterPair, WrongScale
 
 pytest.importorskip("panel", reason="no page: Panel is absent (the extra `app`)")
@@ -22,7 +25,8 @@ sys.path.insert(0, str(Path(__file__).parent))
 from lostmotion_app.case_content import list_channels
 from lostmotion_app.desk import Desk
 from lostmotion_app.folder import WorkFolder
-from lostmotion_app.remedies import list_changed_lines, list_check_warnings, list_warnings
+from lostmotion_app.remedies import list_changed_lines, list_warnings
+from lostmotion_app.result_warnings import list_check_warnings, list_result_warnings
 from lostmotion_app.role_changes import list_role_changes
 from lostmotion_app.used_parts import drop_stretch, list_used_parts
 from lostmotion_app.warning_list import WarningList
@@ -285,6 +289,34 @@ def test_a_check_offers_the_factor_and_a_known_value(open_desk):
     filled = pair.remedies[1].fill(4000.0)["model"]
     assert filled["known"] == {"k": 4000.0}
     assert "k" not in filled["estimate"]
+
+
+def test_a_result_offers_the_factor_of_a_wrong_scale_and_of_a_gain_that_was_named(open_desk):
+    desk = open_desk(simulate())
+    scale = WrongScale(column="position [m]", factor=0.001, says="thousandths of the unit", left=0.01)
+
+    def name(mechanism, at, error, state="named"):
+        found = {"error": Interval(error, error, error, "1")}
+        return Mechanism(mechanism=mechanism, at=at, probability=0.99, state=state, parameters=found, says="")
+
+    def list_factors(**made):
+        warned = list(list_result_warnings(SimpleNamespace(**{"scales": (), "found": (), "says": (), **made}), desk))
+        return [(one.says, [remedy.says for remedy in one.remedies]) for one in warned]
+
+    assert list_factors() == []
+    says = "position [m] does not fit the model: thousandths of the unit?"
+    assert list_factors(scales=(scale,)) == [(says, ["Multiply position [m] by 0.001"])]
+    high = "the values of position [m] are 20 % too large"
+    assert list_factors(found=[name("sensor_gain", "position", 0.25)]) == [(high, ["Multiply position [m] by 0.8"])]
+    low = "the values of force [N] are 25 % too small"
+    assert list_factors(found=[name("excitation_gain", "drive", 0.25)]) == [(low, ["Multiply force [N] by 1.25"])]
+    assert (
+        list_factors(found=[name("sensor_gain", "position", 0.25, "likely"), name("coulomb_friction", "", 1.0)]) == []
+    )
+    desk = open_desk(change_sign(simulate()))
+    ((says, offered),) = list_factors(says=(f"The sign of a column is wrong: {BACKWARD}.",))
+    assert "power flows" in says
+    assert offered == SIGNS
 
 
 def test_a_button_shows_what_it_changed_and_undo_restores_it(open_desk):
