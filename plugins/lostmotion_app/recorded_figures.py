@@ -13,6 +13,7 @@ from lostmotion.errors import DataError
 from lostmotion.recording.clock import find_time
 from lostmotion.recording.table import Table
 from lostmotion.recording.timing import GapError
+from lostmotion.recording.units import name_and_unit
 from lostmotion.recording.value_checks import fill_lost
 from lostmotion.report import colours
 from lostmotion_app.curves import Array, CurvePanels, abreast, colour_of, make_figure, thin
@@ -43,11 +44,12 @@ class RecordedFigures:
         self.curves = CurvePanels("time (s)")
         self.units: dict[str, str] = {}
         self.boxes: list[Sequence[Any]] = []
+        tools = "pan,wheel_zoom,box_zoom,reset,save"
         self.spectrum = make_figure(
-            "frequency (Hz)", "power spectral density", height=260, x_axis_type="log", y_axis_type="log",
-            tools="pan,wheel_zoom,box_zoom,reset,save",
+            "frequency (Hz)", "power spectral density", says="Power spectral density", height=260, tools=tools,
+            x_axis_type="log", y_axis_type="log",
         )  # fmt: skip
-        self.phase = make_figure("", "", height=260, tools="pan,wheel_zoom,box_zoom,reset,save")
+        self.phase = make_figure("", "", says="Phase plane: rate of change over the value", height=260, tools=tools)
         self.lines = (ColumnDataSource({"x": [], "y": []}), ColumnDataSource({"x": [], "y": []}))
         self.spectrum.line("x", "y", source=self.lines[0], color=colour_of(colours.AFTER))
         self.phase.scatter("x", "y", source=self.lines[1], color=colour_of(colours.AFTER), size=2, alpha=0.5)
@@ -115,7 +117,7 @@ class RecordedFigures:
 
 def label_of(name: str, unit: str) -> str:
     """Return the label of an axis, with its unit if the name has none."""
-    return name if not unit or unit in name else f"{name} ({unit})"
+    return name if not unit or unit in name or name_and_unit(name)[1] else f"{name} ({unit})"
 
 
 def find_axis(table: Table, source: str) -> tuple[Array, str, str | None, slice]:

@@ -249,6 +249,7 @@ class DataScreen(PageScreen):
     def _offer_further(self) -> None:
         """Offer the other recordings of the folder."""
         names = [name for name in self.desk.folder.list_recordings() if name != self.desk.recording]
+        self.further.visible = bool(names)
         self.further.param.update(options=names, value=[one for one in self.desk.list_further() if one in names])
 
     def _add(self) -> None:
@@ -308,7 +309,7 @@ class _Channel:
             name=f"Unit of the {role} (--unit)", options=list(recorded_figures.UNITS), restrict=False, min_characters=1,
             placeholder="from the file", sizing_mode="stretch_width",
         )  # fmt: skip
-        self.factor = NumberField("Factor (--factor)", "1", width=110)
+        self.factor = NumberField(f"{role.capitalize()} factor", "1", width=110)
 
     @property
     def widgets(self) -> list[Any]:
