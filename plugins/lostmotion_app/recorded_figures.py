@@ -58,7 +58,10 @@ class RecordedFigures:
 
     def show_table(self, table: Table, source: str) -> None:
         """Draw the columns of a table over its time, or over the number of the row where it has no time."""
-        self.time, label, clock, self.even = find_axis(table, source)
+        self.time, label, clock, stretches = find_axis(table, source)
+        self.even = slice(*max(stretches, key=lambda rows: rows[1] - rows[0]))
+        ends = np.array([last for _, last in stretches[:-1]], dtype=np.intp)  # no line leads over a gap
+        at = np.insert(self.time, ends, self.time[ends - 1])
         columns = {name: table.columns[name] for name in table.full_names if name != clock}
         whole = [(name, one) for name, one in columns.items() if one.size == self.time.size]
         self.columns = dict(whole[:MOST_COLUMNS])
@@ -66,7 +69,7 @@ class RecordedFigures:
         self.curves, self.boxes = CurvePanels(label), []
         for name, values in self.columns.items():
             panel = self.curves.add_panel(label_of(name, self.units.get(name, "")))
-            self.curves.add_curve(panel, self.time, values, colour=colours.RECORDED)
+            self.curves.add_curve(panel, at, np.insert(values, ends, np.nan), colour=colours.RECORDED)
         self.curves.fit_range(*self.span)
         names = list(self.columns)
         self.column.options, self.column.value = names, names[-1] if names else None
@@ -120,20 +123,20 @@ def label_of(name: str, unit: str) -> str:
     return name if not unit or unit in name or name_and_unit(name)[1] else f"{name} ({unit})"
 
 
-def find_axis(table: Table, source: str) -> tuple[Array, str, str | None, slice]:
-    """Return the time (n,) of a table in s, the label of the axis, the column of the time, and its longest even part.
+def find_axis(table: Table, source: str) -> tuple[Array, str, str | None, Sequence[tuple[int, int]]]:
+    """Return the time (n,) of a table in s, the label of the axis, and the column of the time.
 
-    Where the table has no time, it is the number of the row.
+    The last value is (first row, row after the last) of each stretch between gaps. Where the table has no time, it is
+    the number of the row.
     """
     try:
         found = find_time(table, source)
     except GapError as gaps:
-        first, last = max(gaps.stretches, key=lambda rows: rows[1] - rows[0])
-        return gaps.time, "time (s)", gaps.column, slice(first, last)
+        return gaps.time, "time (s)", gaps.column, gaps.stretches
     except DataError:
         longest = max(table.columns[name].size for name in table.full_names)
-        return np.arange(longest, dtype=float), "row", None, slice(None)
-    return found.time, "time (s)", found.column, slice(None)
+        return np.arange(longest, dtype=float), "row", None, [(0, longest)]
+    return found.time, "time (s)", found.column, [(0, found.time.size)]
 
 
 def write_rest(count: int) -> str:

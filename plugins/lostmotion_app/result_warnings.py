@@ -9,7 +9,7 @@ from typing import Any
 
 from lostmotion.diagnosis.states import NAMED
 from lostmotion.recording.warnings import BACKWARD
-from lostmotion.report.words import percent
+from lostmotion.results import Interval, percent
 from lostmotion.results.diagnosis import Diagnosis, Mechanism
 from lostmotion.results.expectation import CaseCheck, WrongScale
 from lostmotion_app.case_content import Content, multiply_column
@@ -28,14 +28,8 @@ GAINS: Mapping[str, tuple[str, str, float]] = {
 def list_check_warnings(result: CaseCheck, content: Content) -> Iterator[WarnedCase]:
     """Yield the warnings of a check of the case with their remedies: a factor, or a known value."""
     yield from _list_scales(result.scales, content)
+    yield from _list_bounds(result.expected.parameters, content)
     estimated = content["model"].get("estimate", {})
-    for name, prior in estimated.items():
-        found = result.expected.parameters.get(name)
-        if found is not None and (wider := widen_prior(prior, found.median)):
-            changed = deepcopy(content)
-            changed["model"]["estimate"][name] = wider
-            says = f"{name} is at the bound of its prior, which may be too narrow"
-            yield WarnedCase(says, (Remedy(f"{name}: {wider['low']:.4g} to {wider['high']:.4g}", changed),))
     for pair in result.expected.pairs:
         both = [name for name in (pair.one, pair.other) if name in estimated]
         if len(both) == 2:
@@ -44,12 +38,14 @@ def list_check_warnings(result: CaseCheck, content: Content) -> Iterator[WarnedC
 
 
 def list_result_warnings(result: Diagnosis, desk: Desk) -> Iterator[WarnedCase]:
-    """Yield the warnings of a diagnosis of the case of a desk with their remedies: the scale or sign of a column.
+    """Yield the warnings of a diagnosis of the case of a desk with their remedies.
 
-    A gain that was named as the missing cause is one of them: the factor corrects the column.
+    They are the scale or the sign of a column, and priors that are too narrow. A gain that was named as the missing
+    cause is one of them: the factor corrects the column.
     """
     content = desk.content
     yield from _list_scales(result.scales, content)
+    yield from _list_bounds(result.parameters.after, content)
     for one in result.found:
         if one.mechanism in GAINS and one.state == NAMED and (column := find_column(one, content)):
             error = one.parameters["error"].median
@@ -73,8 +69,18 @@ def find_column(gain: Mechanism, content: Content) -> str:
 def _list_scales(scales: Sequence[WrongScale], content: Content) -> Iterator[WarnedCase]:
     """Yield the columns whose scale does not fit the model, each with the factor with which it does."""
     for one in scales:
-        says = f"{one.column} does not fit the model: {one.says}?"
+        says = f"the scale of {one.column} does not fit the model: {one.says}?"
         yield WarnedCase(says, (_make_factor(content, one.column, one.factor),))
+
+
+def _list_bounds(values: Mapping[str, Interval], content: Content) -> Iterator[WarnedCase]:
+    """Yield the parameters whose value is at a bound of their prior, each with a wider one."""
+    for name, prior in content["model"].get("estimate", {}).items():
+        if name in values and (wider := widen_prior(prior, values[name].median)):
+            changed = deepcopy(content)
+            changed["model"]["estimate"][name] = wider
+            says = f"the prior of {name} may be too narrow: the value is at its bound"
+            yield WarnedCase(says, (Remedy(f"{name}: {wider['low']:.4g} to {wider['high']:.4g}", changed),))
 
 
 def _make_factor(content: Content, column: str, factor: float) -> Remedy:

@@ -300,11 +300,12 @@ def test_a_result_offers_the_factor_of_a_wrong_scale_and_of_a_gain_that_was_name
         return Mechanism(mechanism=mechanism, at=at, probability=0.99, state=state, parameters=found, says="")
 
     def list_factors(**made):
-        warned = list(list_result_warnings(SimpleNamespace(**{"scales": (), "found": (), "says": (), **made}), desk))
+        given = {"scales": (), "found": (), "says": (), "parameters": SimpleNamespace(after={}), **made}
+        warned = list(list_result_warnings(SimpleNamespace(**given), desk))
         return [(one.says, [remedy.says for remedy in one.remedies]) for one in warned]
 
     assert list_factors() == []
-    says = "position [m] does not fit the model: thousandths of the unit?"
+    says = "the scale of position [m] does not fit the model: thousandths of the unit?"
     assert list_factors(scales=(scale,)) == [(says, ["Multiply position [m] by 0.001"])]
     high = "the values of position [m] are 20 % too large"
     assert list_factors(found=[name("sensor_gain", "position", 0.25)]) == [(high, ["Multiply position [m] by 0.8"])]
@@ -313,6 +314,10 @@ def test_a_result_offers_the_factor_of_a_wrong_scale_and_of_a_gain_that_was_name
     assert (
         list_factors(found=[name("sensor_gain", "position", 0.25, "likely"), name("coulomb_friction", "", 1.0)]) == []
     )
+    low = desk.content["model"]["estimate"]["k"]["low"]
+    ((says, offered),) = list_factors(parameters=SimpleNamespace(after={"k": Interval(low, low, low, "N/m")}))
+    assert says == "the prior of k may be too narrow: the value is at its bound"
+    assert len(offered) == 1
     desk = open_desk(change_sign(simulate()))
     ((says, offered),) = list_factors(says=(f"The sign of a column is wrong: {BACKWARD}.",))
     assert "power flows" in says
