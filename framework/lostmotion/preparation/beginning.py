@@ -38,6 +38,8 @@ HEARD = 1e-3
 """Frequencies of the drive count from this share of the strongest one on."""
 SPRUNG = 0.02
 """A stiffness is used when its force is at least this share of the drive."""
+LONG = 50_000
+"""The number of samples of a drive in which its period is sought first."""
 Waves = NDArray[np.complex128]
 POWERS = {"position": 0, "velocity": 1, "acceleration": 2}
 
@@ -361,7 +363,12 @@ def _list_findings(outline: Outline, machine: Model, factors: Mapping[str, float
 
 
 def _period(pushed: Array, dt: float) -> float | None:
-    """Return the period (s) of a drive (n,), or None; one that is too short for its spectrum is laid over itself."""
+    """Return the period (s) of a drive (n,), or None; one that is too short for its spectrum is laid over itself.
+
+    Of a long drive a part is examined first.
+    """
+    if pushed.size > LONG and (found := _period(pushed[:LONG], dt)):
+        return found
     period = refined_period(pushed, dt)
     if period is None:
         lag = period_found(pushed, _noise_level(pushed))

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import time
 import warnings
 import zipfile
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +26,10 @@ from lostmotion.recording.unpacked import check_hdf5, check_mat, check_npz
 Array = NDArray[np.float64]
 PACKING = ("_FillValue", "missing_value", "scale_factor", "add_offset")
 """The attributes that say how readings are stored (CF conventions)."""
+MOST_KEPT = 2**28
+"""The greatest size (bytes) of a table that is kept."""
+SETTLED = 2.0
+"""Seconds after its last change from which a file is taken as it is."""
 BAG = "db3"
 """The ending whose reader takes the folder of a bag of ROS 2, too."""
 
@@ -34,8 +40,40 @@ def read_columns(path: Path) -> dict[str, Array]:
 
 
 def read_table(path: Path) -> Table:
-    """Return the table of a file as `table_of` does; foreign formats are read in another process."""
+    """Return the table of a file as `table_of` does; foreign formats are read in another process.
+
+    The table that was read last is kept: a case, its check and a page read the same file several times.
+    """
     path = Path(path)
+    state = _find_state(path)
+    if state is None or state not in _LAST:
+        _LAST.clear()
+        table = _read_file(path)
+        if state is None or sum(column.nbytes for column in table.columns.values()) > MOST_KEPT:
+            return table
+        for column in table.columns.values():
+            column.flags.writeable = False
+        _LAST[state] = table
+    return _LAST[state]
+
+
+_LAST: dict[tuple[str, int, int], Table] = {}
+"""The table that was read last, by the path of its file, the time of its last change, and its size."""
+
+
+def _find_state(path: Path) -> tuple[str, int, int] | None:
+    """Return what changes with the content of a file; None for a folder, and where it was changed just now.
+
+    Two changes within the resolution of the times of a file cannot be told apart.
+    """
+    with suppress(OSError, ValueError):
+        told = path.stat()
+        if path.is_file() and time.time() - told.st_mtime > SETTLED:
+            return str(path.resolve()), told.st_mtime_ns, told.st_size
+    return None
+
+
+def _read_file(path: Path) -> Table:
     if _find_reader(path) in (read_text, _read_npz):
         return table_of(path)
     _require_file(path)
