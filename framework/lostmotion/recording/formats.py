@@ -24,6 +24,7 @@ from lostmotion.recording.text import read_text
 from lostmotion.recording.unpacked import check_hdf5, check_mat, check_npz
 
 Array = NDArray[np.float64]
+Reader = Callable[[Path], Table]
 PACKING = ("_FillValue", "missing_value", "scale_factor", "add_offset")
 """The attributes that say how readings are stored (CF conventions)."""
 MOST_KEPT = 2**28
@@ -45,10 +46,11 @@ def read_table(path: Path) -> Table:
     The table that was read last is kept: a case, its check and a page read the same file several times.
     """
     path = Path(path)
-    state = _find_state(path)
+    reader = _find_reader(path)
+    state = _find_state(path, reader)
     if state is None or state not in _LAST:
         _LAST.clear()
-        table = _read_file(path)
+        table = _read_file(path, reader)
         if state is None or sum(column.nbytes for column in table.columns.values()) > MOST_KEPT:
             return table
         for column in table.columns.values():
@@ -57,11 +59,11 @@ def read_table(path: Path) -> Table:
     return _LAST[state]
 
 
-_LAST: dict[tuple[str, int, int], Table] = {}
-"""The table that was read last, by the path of its file, the time of its last change, and its size."""
+_LAST: dict[tuple[Reader, str, int, int], Table] = {}
+"""The table that was read last, by reader, path of the file, time of its last change, and size."""
 
 
-def _find_state(path: Path) -> tuple[str, int, int] | None:
+def _find_state(path: Path, reader: Reader) -> tuple[Reader, str, int, int] | None:
     """Return what changes with the content of a file; None for a folder, and where it was changed just now.
 
     Two changes within the resolution of the times of a file cannot be told apart.
@@ -69,12 +71,12 @@ def _find_state(path: Path) -> tuple[str, int, int] | None:
     with suppress(OSError, ValueError):
         told = path.stat()
         if path.is_file() and time.time() - told.st_mtime > SETTLED:
-            return str(path.resolve()), told.st_mtime_ns, told.st_size
+            return reader, str(path.resolve()), told.st_mtime_ns, told.st_size
     return None
 
 
-def _read_file(path: Path) -> Table:
-    if _find_reader(path) in (read_text, _read_npz):
+def _read_file(path: Path, reader: Reader) -> Table:
+    if reader in (read_text, _read_npz):
         return table_of(path)
     _require_file(path)
     return read_in_subprocess(path)
@@ -111,7 +113,7 @@ def is_recording(path: str | Path) -> bool:
     return is_bag_folder(Path(path)) or ending in ENDINGS or ending in offered_readers()
 
 
-def _find_reader(path: Path) -> Callable[[Path], Table]:
+def _find_reader(path: Path) -> Reader:
     ending = BAG if is_bag_folder(path) else path.suffix[1:].lower()
     if ending in ENDINGS:
         return ENDINGS[ending]
@@ -259,7 +261,7 @@ def _unit_of(attributes: Any) -> str:
     return word.strip() if isinstance(word, str) else ""
 
 
-ENDINGS: Mapping[str, Callable[[Path], Table]] = {
+ENDINGS: Mapping[str, Reader] = {
     "csv": read_text,
     "tsv": read_text,
     "txt": read_text,
