@@ -282,6 +282,17 @@ def _refuse_jitter(time: Array, source: str) -> None:
     )
 
 
+def _list_stretches(steps: Array, bad: NDArray[np.intp]) -> tuple[tuple[int, int], ...]:
+    """Return (first row, row after the last) of each stretch between gaps; where stamps are coarse, lost rows are gaps.
+
+    `steps` (n - 1,) are those of the time, and `bad` are those that are gaps.
+    """
+    edges = [0, *(int(one) + 1 for one in bad), steps.size + 1]
+    long = [(first, last) for first, last in itertools.pairwise(edges) if last - first > 2]
+    alone = [first + int(k) + 1 for first, last in long for k in _find_alone(steps[first : last - 1])]
+    return tuple(itertools.pairwise(sorted({*edges, *alone})))
+
+
 def _refuse_steps(time: Array, dt: float, bad: NDArray[np.intp], source: str, line: int) -> None:
     steps = np.diff(time)
     if bad.size > max(3, time.size // 100) or np.abs(steps[bad] - dt).max() < 0.4 * dt:
@@ -297,8 +308,7 @@ def _refuse_steps(time: Array, dt: float, bad: NDArray[np.intp], source: str, li
         )
         if np.any(steps[bad] <= dt):  # stamps that repeat too: parts between gaps are not even
             raise DataError(says)
-        edges = [0, *(int(one) + 1 for one in bad), time.size]
-        raise GapError(says, time, tuple(itertools.pairwise(edges)))
+        raise GapError(says, time, _list_stretches(steps, bad))
     count = f", {int(np.count_nonzero(steps <= 0.0))} such samples in all" if steps[k] <= 0.0 else ""
     raise DataError(
         f"{source}: time moves by only {steps[k]:.4g} s from {here} s to {there} s ({name_sample(k + 1, line)}), where "
