@@ -18,7 +18,7 @@ document.addEventListener("keydown", (event) => {
   next.click();
 });
 
-const all = (root) => [...root.querySelectorAll("*")].flatMap((e) => [e, ...(e.shadowRoot ? all(e.shadowRoot) : [])]);
+const DESCRIBED = ".bk-header, .noUi-handle, .choices, .choices__input--cloned, .bk-btn-group > .bk-btn:not(:only-child)";
 const watched = new WeakSet();
 
 function set(element, attributes) {
@@ -51,16 +51,16 @@ function describeHandle(handle) {  // the title of a slider is "name: value"; th
   new MutationObserver(() => describeHandle(handle)).observe(handle, {attributeFilter: ["aria-valuetext"]});
 }
 
-function describe() {
-  for (const one of all(document)) {
+function describe(root) {
+  for (const one of root.querySelectorAll(DESCRIBED)) {
     if (one.matches(".bk-header")) describeTabs(one);
     else if (one.matches(".noUi-handle")) describeHandle(one);
-    else if (one.matches(".choices, .choices__input--cloned")) {
-      set(one, {"aria-label": one.getRootNode().querySelector("label")?.textContent ?? ""});
-    } else if (one.matches(".bk-btn-group > .bk-btn:not(:only-child)")) {
-      set(one, {"aria-pressed": String(one.classList.contains("bk-active"))});
-    }
+    else if (one.matches(".bk-btn")) set(one, {"aria-pressed": String(one.classList.contains("bk-active"))});
+    else set(one, {"aria-label": root.querySelector("label")?.textContent ?? ""});
+  }
+  for (const one of root.querySelectorAll("div")) {  // all widgets of Bokeh are such
+    if (one.shadowRoot) describe(one.shadowRoot);
   }
 }
 
-setInterval(describe, 300);
+setInterval(() => describe(document), 400);

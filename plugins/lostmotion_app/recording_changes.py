@@ -12,8 +12,8 @@ from lostmotion.errors import DataError
 from lostmotion.quantities import si_factor, spell_unit
 from lostmotion.recording.clock import read_time
 from lostmotion.recording.spec import Channel, RecordingSpec
-from lostmotion.recording.stretches import describe_ends
 from lostmotion.recording.table import Table
+from lostmotion.recording.time_gaps import describe_ends
 from lostmotion.recording.units import is_unit
 from lostmotion.recording.value_checks import LARGEST, runs_of
 from lostmotion.recording.warnings import BACKWARD, list_far, list_frozen

@@ -10,8 +10,8 @@ from typing import Any
 from lostmotion.errors import DataError
 from lostmotion.recording.load import recording_of
 from lostmotion.recording.spec import RecordingSpec
-from lostmotion.recording.stretches import cut_at_gaps
 from lostmotion.recording.table import Table
+from lostmotion.recording.time_gaps import cut_at_gaps
 from lostmotion.recording.timing import GapError
 from lostmotion.settings import HeldOutSettings
 

@@ -20,8 +20,8 @@ from lostmotion.recording.clock import FoundTime, find_time
 from lostmotion.recording.column_names import KINDS, kind_named
 from lostmotion.recording.counts import centre_position, holds_counts, sum_changes
 from lostmotion.recording.formats import read_table
-from lostmotion.recording.stretches import Stretch, cut_at_gaps, cut_table, describe_cut
 from lostmotion.recording.table import Table
+from lostmotion.recording.time_gaps import Stretch, cut_at_gaps, cut_table, describe_cut
 from lostmotion.recording.timing import GapError
 from lostmotion.recording.units import check_name, kinds_of, name_and_unit
 

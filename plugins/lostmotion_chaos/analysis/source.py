@@ -14,7 +14,7 @@ from lostmotion.preparation.prepare import case_of
 from lostmotion.recording import Recording, Table, load_recording, read_table
 from lostmotion.recording.clock import FoundTime, find_time
 from lostmotion.recording.folders import digest_recording
-from lostmotion.recording.stretches import cut_at_gaps, cut_table
+from lostmotion.recording.time_gaps import cut_at_gaps, cut_table
 from lostmotion.recording.timing import GapError, resample_channel
 from lostmotion.registry import Registry
 from lostmotion.settings import DEFAULT, RecordingSettings
