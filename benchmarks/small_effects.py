@@ -10,12 +10,18 @@ import argparse
 import itertools
 import json
 import math
+import multiprocessing
+import resource
+import signal
+import time
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from multiprocessing.connection import Connection
 from pathlib import Path
 
 import numpy as np
 
+from judge import describe_code
 from judge_truth import EXCITATION_NOISE, write_driven_case, write_table
 from lostmotion.case import dump_case
 from lostmotion.errors import LostMotionError
@@ -107,18 +113,44 @@ def draw_small_machine(rng: np.random.Generator) -> SmallMachine:
     raise ValueError(f"no machine in {ATTEMPTS} attempts")
 
 
-def run_trials(path: Path, count: int, run: Trial) -> None:
-    """Append a row of JSON for each of `count` trials that has none yet; a trial depends on its number only."""
+def run_trials(path: Path, trials: range, run: Trial, limit: float) -> None:
+    """Append a row of JSON for each trial that has none yet; a trial depends on its number only.
+
+    Each trial is a process of its own, which ends after `limit` s of processor time with the status "timeout".
+    """
     path.parent.mkdir(parents=True, exist_ok=True)
-    done = {row["trial"] for row in read_rows(path)}
-    for trial in (number for number in range(count) if number not in done):
-        try:
-            row = dict(run(trial))
-        except (LostMotionError, ValueError, ArithmeticError) as err:
-            row = {"status": f"failed: {err}"}
+    done, code = {row["trial"] for row in read_rows(path)}, describe_code(Path(__file__).resolve().parents[1])
+    for trial in (number for number in trials if number not in done):
+        row = {"trial": trial, "commit": code, **run_limited(run, trial, limit)}
         with path.open("a") as stream:
-            print(json.dumps({"trial": trial, **row}), file=stream, flush=True)
-        print(trial, row.get("status"), flush=True)
+            print(json.dumps(row), file=stream, flush=True)
+        print(trial, row["status"], row["cpu"], flush=True)
+
+
+def run_limited(run: Trial, trial: int, limit: float) -> dict[str, object]:
+    """Return the row of a trial, run in a process that may use `limit` s of processor time (`cpu`, s)."""
+    context = multiprocessing.get_context("fork")
+    here, there = context.Pipe(duplex=False)
+    process = context.Process(target=_send_row, args=(there, run, trial, int(limit)), daemon=True)
+    process.start()
+    there.close()
+    try:
+        row: dict[str, object] = here.recv()
+    except EOFError:
+        process.join()
+        timed_out = process.exitcode in (-signal.SIGXCPU, -signal.SIGKILL)
+        return {"status": "timeout" if timed_out else f"failed: exit status {process.exitcode}", "cpu": limit}
+    process.join()
+    return row
+
+
+def _send_row(there: Connection, run: Trial, trial: int, limit: int) -> None:
+    resource.setrlimit(resource.RLIMIT_CPU, (limit, limit + 5))
+    try:
+        row = dict(run(trial))
+    except (LostMotionError, ValueError, ArithmeticError) as err:
+        row = {"status": f"failed: {err}"}
+    there.send({**row, "cpu": round(time.process_time(), 1)})
 
 
 def run_command(title: str, rows: str, count: int, run: Trial, show: Callable[[Path], None]) -> None:
@@ -129,11 +161,13 @@ def run_command(title: str, rows: str, count: int, run: Trial, show: Callable[[P
     parser = argparse.ArgumentParser(description=title, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("command", choices=("run", "show"))
     parser.add_argument("--machines", type=int, default=count)
+    parser.add_argument("--first", type=int, default=0, help="number of the first machine, for other machines")
     parser.add_argument("--out", type=Path, required=True, help="folder of the rows")
+    parser.add_argument("--timeout", type=float, default=300.0, help="limit of processor time of a machine, in s")
     args = parser.parse_args()
     path = args.out / rows
     if args.command == "run":
-        run_trials(path, args.machines, run)
+        run_trials(path, range(args.first, args.first + args.machines), run, args.timeout)
     show(path)
 
 

@@ -284,14 +284,15 @@ def condense_absent(run: Path, _: Mapping) -> tuple[dict, list[dict]]:
     rows = read_rows(run / "absent.jsonl")
     bounds = [row for row in rows if row["status"] == "bound"]
     rates = [["the bound lies above the true size", sum(r["upper"] >= r["size"] for r in bounds), len(bounds)]]
-    return describe_study("absent", len(rows)), list(list_rates(rates))
+    return describe_study("absent", rows), list(list_rates(rates))
 
 
 def condense_check(run: Path, _: Mapping) -> tuple[dict, list[dict]]:
     """Return head and rates of `benchmarks/check.py`."""
     from check import FACTOR
 
-    rows = [row for row in read_rows(run / "check.jsonl") if row["status"] == "ok"]
+    machines = read_rows(run / "check.jsonl")
+    rows = [row for row in machines if row["status"] == "ok"]
     ratios = np.array([row["widths"][name] / row["expected"][name] for row in rows for name in row["widths"]])
     ratios = ratios[np.isfinite(ratios)]
     close = int(np.sum(np.abs(np.log(ratios)) < np.log(FACTOR)))
@@ -299,7 +300,7 @@ def condense_check(run: Path, _: Mapping) -> tuple[dict, list[dict]]:
         [f"the width of an interval is the expected one within a factor of {FACTOR}", close, len(ratios)],
         ["an effect of the smallest stated size is named", sum("named" in r["named"] for r in rows), len(rows)],
     ]
-    return describe_study("check", len(rows)), list(list_rates(rates))
+    return describe_study("check", machines), list(list_rates(rates))
 
 
 def condense_peers(run: Path, _: Mapping) -> tuple[dict, list[dict]]:
@@ -335,10 +336,14 @@ def condense_rigs(run: Path, options: Mapping) -> tuple[dict, list[dict]]:
     return {"set": RIGS, "machines": "real rigs", "of": len(kept), "commands": commands, "code": code}, kept
 
 
-def describe_study(name: str, machines: int) -> dict:
-    """Return the head of a study of `benchmarks`."""
-    command = f"python benchmarks/{name}.py run --machines {machines} --out OUT"
-    return {"set": name, "machines": f"{machines} random machines", "of": machines, "commands": [command]}
+def describe_study(name: str, rows: Sequence[Mapping]) -> dict:
+    """Return the head of a study of `benchmarks`; older rows do not say which version made them."""
+    first = min(row["trial"] for row in rows)
+    machines = 1 + max(row["trial"] for row in rows) - first
+    command = f"python benchmarks/{name}.py run --machines {machines}{f' --first {first}' * (first > 0)} --out OUT"
+    codes = {row.get("commit", "") for row in rows}
+    head = {"set": name, "machines": f"{len(rows)} random machines", "of": machines, "commands": [command]}
+    return {**head, "code": codes.pop() if len(codes) == 1 else ""}
 
 
 def list_rates(rates: Iterable[Sequence]) -> Iterator[dict]:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import panel as pn
 from bokeh.events import RangesUpdate
-from bokeh.models import BasicTickFormatter, BoxAnnotation, ColumnDataSource, Range1d
+from bokeh.models import BasicTickFormatter, BoxAnnotation, ColumnDataSource, Range1d, Title
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
@@ -21,6 +21,8 @@ PIXELS = 900
 HEIGHT = 150
 SMALLEST = -5
 """The power of ten from which numbers at an axis are written without an exponent."""
+LETTER, AXIS = 7, 30
+"""The width of a letter of a label, and the height of what is below a figure, in pixels."""
 TOOLS = "xbox_zoom,xpan,xwheel_zoom,reset,save"
 _DARK = {colours.RECORDED: "#e8e8e8", colours.BEFORE: "#ff8c42", colours.AFTER: "#56b4e9", colours.LAW: "#00b37a"}
 
@@ -30,18 +32,24 @@ def colour_of(colour: str) -> str:
     return _DARK.get(colour, colour) if is_dark() else colour
 
 
-def make_figure(x: str, y: str, *, height: int = HEIGHT, tools: str = TOOLS, **options: Any) -> Any:
-    """Return an empty figure of the page with the labels of its axes."""
+def make_figure(x: str, y: str, *, says: str, height: int = HEIGHT, tools: str = TOOLS, **options: Any) -> Any:
+    """Return an empty figure of the page with the labels of its axes; `says` names it for who does not see it.
+
+    A label that is too long for the height of the figure stands above it.
+    """
+    ink, grid = ("#cccccc", "#3a3f44") if is_dark() else ("#444444", "#e3e3e3")
+    beside = len(y) * LETTER < height - AXIS
     made = figure(
         height=height,
         tools=tools,
         sizing_mode="stretch_width",
         x_axis_label=x,
-        y_axis_label=y,
+        y_axis_label=y if beside else None,
+        title=None if beside else Title(text=y, text_color=ink, text_font_size="12px", text_font_style="normal"),
+        html_attributes={"role": "figure", "aria-label": says},
         min_width=260,
         **options,
     )
-    ink, grid = ("#cccccc", "#3a3f44") if is_dark() else ("#444444", "#e3e3e3")
     made.toolbar.logo, made.toolbar.autohide = None, True
     made.background_fill_color = made.border_fill_color = None
     made.outline_line_color = None
@@ -86,7 +94,10 @@ class CurvePanels:
     def add_panel(self, label: str, *, height: int = HEIGHT) -> Any:
         """Return a further panel below the others, with the label of its values."""
         name = f"panel {len(self.panels)}"
-        made = make_figure(self.label, label, height=height, x_range=self.range, active_drag="xbox_zoom", name=name)
+        made = make_figure(
+            self.label, label, says=f"{label} over {self.label}", height=height, x_range=self.range,
+            active_drag="xbox_zoom", name=name,
+        )  # fmt: skip
         if self.panels:
             self.panels[-1].xaxis.axis_label = None
         made.on_event(RangesUpdate, lambda event: self._redraw(event.x0, event.x1))

@@ -6,12 +6,12 @@ import os
 import re
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
-from lostmotion.case import dump_case
+from lostmotion.case import dump_case, load_case
 from lostmotion.case.reading import parse_case
 from lostmotion.errors import CaseError, LostMotionError
 from lostmotion.recording.outline import GivenRoles
@@ -21,13 +21,14 @@ from lostmotion.simulators import INVERSE
 from lostmotion.storage import folder_for
 from lostmotion_app.case_content import list_code, move_paths
 from lostmotion_app.folder import WorkFolder, is_case
+from lostmotion_app.used_parts import STRETCH, cut_entry, drop_stretch, part_entries
 
 if TYPE_CHECKING:
     from lostmotion.notebook.case import Case
     from lostmotion.preparation.beginning import Draft
+    from lostmotion.recording.spec import RecordingSpec
+    from lostmotion.recording.table import Table
 
-STRETCH = ("t_start", "t_end")
-"""The keys of a recording that say which part of it is used."""
 PARAMETERS = ("known", "estimate")
 """The keys of a model that say which parameters are known, and which are estimated."""
 CASE, DIAGNOSIS = "case.toml", "diagnosis.json"
@@ -89,6 +90,13 @@ class Desk:
         from lostmotion.notebook.case import Case
 
         return Case.read(self.case)
+
+    def read_specs(self, content: Mapping[str, Any]) -> tuple[RecordingSpec, ...]:
+        """Return the recordings that a content of the case describes; raises `CaseError` for a content that is none."""
+        with TemporaryDirectory() as spare:
+            place = Path(spare).resolve()
+            dump_case(move_paths(content, self.case.parent, place, self.registry.names("simulator")), place / CASE)
+            return load_case(place / CASE).recordings
 
     def list_results(self) -> list[Path]:
         """Return the folders with a diagnosis of this recording, the newest first."""
@@ -161,8 +169,9 @@ class Desk:
 
     def _find_file(self, content: dict[str, Any]) -> dict[str, Any]:
         """Return a first case with the path of its recording as it is seen from the place of the case."""
-        path = self.folder.find(self.recording)
-        content["recordings"][0]["file"] = Path(os.path.relpath(path, self.place)).as_posix()
+        file = Path(os.path.relpath(self.folder.find(self.recording), self.place)).as_posix()
+        for entry in content["recordings"]:
+            entry["file"] = file
         return content
 
     def confirm(self, content: Mapping[str, Any]) -> None:
@@ -191,16 +200,32 @@ class Desk:
     def add_recordings(self, names: Sequence[str]) -> None:
         """Write the case with further recordings that have the same columns, and with no other ones."""
         content = self.content
-        first = content["recordings"][0]
-        same = {key: value for key, value in first.items() if key not in STRETCH}
+        own, _ = part_entries(content)
         files = [Path(os.path.relpath(self.folder.find(name), self.place)).as_posix() for name in names]
-        content["recordings"] = [first, *({**same, "file": file} for file in files)]
+        content["recordings"] = [*own, *({**drop_stretch(own[0]), "file": file} for file in files)]
+        self.save(content)
+
+    def use_stretch(self, start: float | None, end: float | None, table: Table) -> None:
+        """Write the case with one stretch of its first file (s; None: its end), which is cut where its time has gaps.
+
+        `table` is that of the file. Nothing is written where the stretch is that of the case.
+        """
+        content = self.content
+        own, others = part_entries(content)
+        keys = {key: value for key, value in zip(STRETCH, (start, end), strict=True) if value is not None}
+        whole = {**drop_stretch(own[0]), **keys}
+        if self.is_robot:
+            content["recordings"] = [whole, *others]
+        else:
+            spec = replace(self.read_specs(content)[0], t_start=start, t_end=end)
+            content["recordings"] = [*cut_entry(whole, spec, table), *others]
         self.save(content)
 
     def list_further(self) -> list[str]:
         """Return the names of the recordings of the case after the first one."""
-        entries = self.content.get("recordings", ())[1:]
-        return [self.folder.name_of((self.place / entry["file"]).resolve()) for entry in entries]
+        content = self.content
+        others = part_entries(content)[1] if content else []
+        return [self.folder.name_of((self.place / entry["file"]).resolve()) for entry in others]
 
     def draft_robot(self, model: str, torque: str) -> Sequence[str]:
         """Return what was found, after writing the case of a robot: the recording, and a model of the folder.
@@ -247,17 +272,17 @@ def choose_model(content: Mapping[str, Any]) -> str:
 
 
 def keep_entries(before: Mapping[str, Any], after: dict[str, Any], drafted: Mapping[str, Any]) -> dict[str, Any]:
-    """Return a new case with the stretch, the further recordings, and the values and priors of the case before it.
+    """Return a new case with the stretches, the further recordings, and the values and priors of the case before it.
 
     Entries that are those of the first case before, `drafted`, are not the user's: they become those of the new case.
+    With another time the stretches between its gaps are those of the new case.
     """
     if not before:
         return after
-    for key in STRETCH:
-        if key in before["recordings"][0]:
-            after["recordings"][0][key] = before["recordings"][0][key]
-    same = {key: value for key, value in after["recordings"][0].items() if key not in STRETCH}
-    after["recordings"] += [{**same, "file": entry["file"]} for entry in before["recordings"][1:]]
+    (own, others), same = part_entries(before), drop_stretch(after["recordings"][0])
+    if all(own[0].get(key) == same.get(key) for key in ("time", "rate")) or len(after["recordings"]) == 1:
+        after["recordings"] = [{**same, **{k: one[k] for k in STRETCH if k in one}} for one in own]
+    after["recordings"] += [{**same, "file": entry["file"]} for entry in others]
     old, new, first = before["model"], after["model"], drafted.get("model", {})
     if all(old.get(key) == new.get(key) for key in ("name", "equations")):
         after["model"] = keep_parameters(old, new, first)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -102,7 +102,7 @@ class SwitchedPrediction:
             return
         with self.problem.watch():
             arrays, machine = self.found.evidence.arrays, self.found.result.machine
-            held = float(arrays["time"][int(np.argmax(arrays.get("heldout", np.ones(1)) > 0.0))])
+            held = float(arrays["time"][find_begin(arrays)])
             start = float(self.tried.posterior.observations[0].time[0])
             chosen = [term.key for term in machine.terms if term.key in self.terms.value]
             known = self.tried.posterior.system.index
@@ -117,6 +117,12 @@ class SwitchedPrediction:
             time, recorded = self.found.evidence.arrays["time"], self.found.evidence.arrays["response"]
             self.curves.replace(self.line, time, forecast)
             self.curves.replace(self.rest, time, recorded - forecast)
+
+
+def find_begin(arrays: Mapping[str, Array]) -> int:
+    """Return the first held-out sample that is predicted: that of a whole recording lies after a transient."""
+    predicted = np.isfinite(arrays["forecast_before"]) if "forecast_before" in arrays else np.ones(1, dtype=bool)
+    return int(np.argmax(predicted & (arrays.get("heldout", np.ones(1)) > 0.0)))
 
 
 def find_recording(observations: Sequence[Observation], time: Array, response: Array) -> int:
@@ -134,7 +140,9 @@ class MissingForce:
 
     def __init__(self) -> None:
         self.coordinate = pn.widgets.Select(name="Missing force over", width=240)
-        self.figure = make_figure("", "", height=280, tools="pan,wheel_zoom,box_zoom,reset,save")
+        self.figure = make_figure(
+            "", "", says="Missing force over a coordinate", height=280, tools="pan,wheel_zoom,box_zoom,reset,save"
+        )
         made = (("missing force", style.BEFORE), ("left over", style.AFTER))
         self.samples = [ColumnDataSource({"x": [], "y": []}) for _ in made]
         self.means = [ColumnDataSource({"x": [], "y": []}) for _ in range(3)]

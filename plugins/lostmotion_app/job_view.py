@@ -150,7 +150,8 @@ def write_progress(head: str, progress: Progress) -> str:
     parts = [write_note(head)]
     if progress.used is not None:
         told = f"{100.0 * progress.used:.0f} % of the budget of the search"
-        parts.append(f'<p><progress value="{progress.used:.3f}"></progress> {told}</p>')
+        bar = f'<progress value="{progress.used:.3f}" aria-label="used budget"></progress>'
+        parts.append(f"<p>{bar} {told}</p>")
     steps = [f"{seconds:7.1f} s  {step}" for seconds, step in progress.steps[-SHOWN:]]
     parts.append(write_lines(steps or ["starting"]))
     return "".join([*parts, write_weighed(progress.weighed)])
@@ -160,14 +161,14 @@ def write_weighed(weighed: Mapping[tuple[str, ...], float]) -> str:
     """Return the best sets of terms with their scores over that of no term, as HTML; empty before the first one."""
     if not weighed:
         return ""
-    base = weighed.get((), min(weighed.values()))
+    base, over = (weighed[()], "nothing") if () in weighed else (min(weighed.values()), "the lowest")
     best = sorted(weighed, key=lambda terms: -weighed[terms])[:BEST]
     gains = [weighed[terms] - base for terms in best]
     rows = [[name_set(terms), f"{gain:+.1f}" if terms else "0"] for terms, gain in zip(best, gains, strict=True)]
     bars = [max(gain, 0.0) / max(*gains, 1e-9) for gain in gains]
     about = "The score of an explanation is its log evidence with that of held-out data, less a price for each term."
     note = write_note(f"{about} An explanation that leads by 3 is 20 times as probable.")
-    return write_heading("Explanations so far") + write_table(["Missing", "Score over nothing"], rows, bars) + note
+    return write_heading("Explanations so far") + write_table(["Missing", f"Score over {over}"], rows, bars) + note
 
 
 def name_set(terms: Sequence[str]) -> str:

@@ -36,6 +36,7 @@ WAY = tuple(SCREENS)[:6]
 LOG = logging.getLogger("lostmotion.app")
 BEGINNING = 50
 """Milliseconds after which the first screen is filled: the browser is connected then."""
+_SCRIPT = (Path(__file__).parent / "page.js").read_text(encoding="utf-8")
 _TEMPLATE = (Path(__file__).parent / "page.html.j2").read_text(encoding="utf-8")
 
 
@@ -115,7 +116,7 @@ class Page:
         where = " · ".join(filter(None, (desk.folder.root.name, desk.recording)))
         whole = html.escape(str(desk.folder.root), quote=True)
         told = f'<span title="{whole}">{html.escape(where)}</span>'
-        self.head.object = f'<div class="lm-head"><b>lostmotion</b>{told}</div>'
+        self.head.object = f'<div class="lm-head"><h1>lostmotion</h1>{told}</div>'
         if address is not None:
             address.update_query(screen=self.title, recording=desk.recording)
 
@@ -128,6 +129,7 @@ def make_page(folder: WorkFolder, registry: Registry, plugins: tuple[str, ...]) 
     made = pn.Template(_TEMPLATE, theme=DarkTheme if is_dark() else DefaultTheme)
     made.add_variable("policy", POLICY)
     made.add_variable("app_favicon", "data:,")
+    made.add_variable("script", _SCRIPT)
     made.add_variable("style", STYLE.replace(":host, :root", ":root"))
     made.add_panel("page", page.view)
     pn.state.onload(lambda: pn.state.add_periodic_callback(page.begin, period=BEGINNING, count=1))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -11,10 +12,13 @@ from bokeh.models import ColumnDataSource
 from lostmotion.errors import DataError
 from lostmotion.recording.clock import find_time
 from lostmotion.recording.table import Table
+from lostmotion.recording.timing import GapError
+from lostmotion.recording.units import name_and_unit
 from lostmotion.recording.value_checks import fill_lost
 from lostmotion.report import colours
 from lostmotion_app.curves import Array, CurvePanels, abreast, colour_of, make_figure, thin
 from lostmotion_app.parts import make_html, write_note
+from lostmotion_app.used_parts import UsedPart
 
 UNITS = (
     "N", "kN", "mN", "N m", "mN m", "N cm", "lbf", "kgf", "m", "mm", "um", "cm", "inch", "rad", "mrad", "deg", "turn",
@@ -36,14 +40,16 @@ class RecordedFigures:
     def __init__(self) -> None:
         self.view = pn.Column(sizing_mode="stretch_width", margin=0)
         self.time, self.columns, self.span = np.zeros(0), dict[str, Array](), (0.0, 1.0)
+        self.even = slice(None)
         self.curves = CurvePanels("time (s)")
         self.units: dict[str, str] = {}
-        self.boxes: list[tuple[Any, Any, Any]] = []
+        self.boxes: list[Sequence[Any]] = []
+        tools = "pan,wheel_zoom,box_zoom,reset,save"
         self.spectrum = make_figure(
-            "frequency (Hz)", "power spectral density", height=260, x_axis_type="log", y_axis_type="log",
-            tools="pan,wheel_zoom,box_zoom,reset,save",
+            "frequency (Hz)", "power spectral density", says="Power spectral density", height=260, tools=tools,
+            x_axis_type="log", y_axis_type="log",
         )  # fmt: skip
-        self.phase = make_figure("", "", height=260, tools="pan,wheel_zoom,box_zoom,reset,save")
+        self.phase = make_figure("", "", says="Phase plane: rate of change over the value", height=260, tools=tools)
         self.lines = (ColumnDataSource({"x": [], "y": []}), ColumnDataSource({"x": [], "y": []}))
         self.spectrum.line("x", "y", source=self.lines[0], color=colour_of(colours.AFTER))
         self.phase.scatter("x", "y", source=self.lines[1], color=colour_of(colours.AFTER), size=2, alpha=0.5)
@@ -52,7 +58,10 @@ class RecordedFigures:
 
     def show_table(self, table: Table, source: str) -> None:
         """Draw the columns of a table over its time, or over the number of the row where it has no time."""
-        self.time, label, clock = find_axis(table, source)
+        self.time, label, clock, stretches = find_axis(table, source)
+        self.even = slice(*max(stretches, key=lambda rows: rows[1] - rows[0]))
+        ends = np.array([last for _, last in stretches[:-1]], dtype=np.intp)  # no line leads over a gap
+        at = np.insert(self.time, ends, self.time[ends - 1])
         columns = {name: table.columns[name] for name in table.full_names if name != clock}
         whole = [(name, one) for name, one in columns.items() if one.size == self.time.size]
         self.columns = dict(whole[:MOST_COLUMNS])
@@ -60,11 +69,8 @@ class RecordedFigures:
         self.curves, self.boxes = CurvePanels(label), []
         for name, values in self.columns.items():
             panel = self.curves.add_panel(label_of(name, self.units.get(name, "")))
-            self.curves.add_curve(panel, self.time, values, colour=colours.RECORDED)
+            self.curves.add_curve(panel, at, np.insert(values, ends, np.nan), colour=colours.RECORDED)
         self.curves.fit_range(*self.span)
-        nothing = (self.span[0], self.span[0])
-        outer = self.curves.shade(*nothing), self.curves.shade(*nothing), self.curves.shade(*nothing)
-        self.boxes = list(zip(*outer, strict=True))
         names = list(self.columns)
         self.column.options, self.column.value = names, names[-1] if names else None
         self._show_column()
@@ -75,13 +81,18 @@ class RecordedFigures:
             abreast(self.spectrum, self.phase),
         ]  # fmt: skip
 
-    def mark(self, start: float, end: float, hold: float) -> None:
-        """Shade what is not used, and what is held out."""
-        held = end - hold * (end - start)
-        for before, kept, after in self.boxes:
-            before.update(left=self.span[0], right=start, fill_color="#7f7f7f", fill_alpha=0.35)
-            kept.update(left=held, right=end, fill_color=colours.AFTER, fill_alpha=0.10)
-            after.update(left=end, right=self.span[1], fill_color="#7f7f7f", fill_alpha=0.35)
+    def mark(self, stretches: Sequence[UsedPart]) -> None:
+        """Shade what is not used, and what is held out; the stretches are in the order of their times."""
+        low, high = self.span
+        edges = [low, *(end for one in stretches for end in (one.start, one.end)), high]
+        shades = [(*edges[k : k + 2], "#7f7f7f", 0.35) for k in range(0, len(edges), 2)]
+        shades += [(one.held, one.end, colours.AFTER, 0.10) for one in stretches]
+        while len(self.boxes) < len(shades):
+            self.boxes.append(self.curves.shade(low, low))
+        spare = [(low, low, "#7f7f7f", 0.0)] * (len(self.boxes) - len(shades))
+        for boxes, (left, right, colour, alpha) in zip(self.boxes, [*shades, *spare], strict=True):
+            for box in boxes:
+                box.update(left=left, right=right, fill_color=colour, fill_alpha=alpha)
 
     def _show_column(self) -> None:
         """Draw spectrum and phase plane of the chosen column."""
@@ -94,7 +105,7 @@ class RecordedFigures:
 
         from lostmotion.signals import spectrum
 
-        even, dt = fill_lost(values), float(np.median(np.diff(self.time)))
+        even, dt = fill_lost(values[self.even]), float(np.median(np.diff(self.time)))
         found = spectrum(even, dt, segments=8)
         at, density = thin(found.frequency[1:], found.density[1:], 0.0, np.inf)
         self.lines[0].data = {"x": at, "y": np.maximum(density, np.finfo(float).tiny)}
@@ -109,20 +120,23 @@ class RecordedFigures:
 
 def label_of(name: str, unit: str) -> str:
     """Return the label of an axis, with its unit if the name has none."""
-    return name if not unit or unit in name else f"{name} ({unit})"
+    return name if not unit or unit in name or name_and_unit(name)[1] else f"{name} ({unit})"
 
 
-def find_axis(table: Table, source: str) -> tuple[Array, str, str | None]:
+def find_axis(table: Table, source: str) -> tuple[Array, str, str | None, Sequence[tuple[int, int]]]:
     """Return the time (n,) of a table in s, the label of the axis, and the column of the time.
 
-    Where the table has no time, it is the number of the row.
+    The last value is (first row, row after the last) of each stretch between gaps. Where the table has no time, it is
+    the number of the row.
     """
     try:
         found = find_time(table, source)
+    except GapError as gaps:
+        return gaps.time, "time (s)", gaps.column, gaps.stretches
     except DataError:
         longest = max(table.columns[name].size for name in table.full_names)
-        return np.arange(longest, dtype=float), "row", None
-    return found.time, "time (s)", found.column
+        return np.arange(longest, dtype=float), "row", None, [(0, longest)]
+    return found.time, "time (s)", found.column, [(0, found.time.size)]
 
 
 def write_rest(count: int) -> str:

@@ -13,11 +13,13 @@ from lostmotion.quantities import si_factor, spell_unit
 from lostmotion.recording.clock import read_time
 from lostmotion.recording.spec import Channel, RecordingSpec
 from lostmotion.recording.table import Table
+from lostmotion.recording.time_gaps import describe_ends
 from lostmotion.recording.units import is_unit
 from lostmotion.recording.value_checks import LARGEST, runs_of
 from lostmotion.recording.warnings import BACKWARD, list_far, list_frozen
 from lostmotion.settings import DEFAULT, RecordingSettings
 from lostmotion_app.case_content import Content, list_channels
+from lostmotion_app.used_parts import cut_entry
 
 Array = NDArray[np.float64]
 Change = Callable[[Content], None]
@@ -34,10 +36,10 @@ def list_changes(number: int, spec: RecordingSpec, table: Table, notes: Sequence
         other_sign = [("other sign", {"factor": -channel.factor})] if signs else []
         for says, entries in (*_list_units(channel, table), *other_sign):
             yield f"{channel.column}: {says}", _make_channel_change(channel.column, entries)
-    if stretch := find_sound_stretch(spec, table):
-        words = {"t_start": "from", "t_end": "until"}
-        says = " ".join(f"{words[key]} {value:.6g} s" for key, value in stretch.items())
-        yield f"Use it {says}", lambda content: content["recordings"][number].update(stretch)
+    if len(parts := cut_entry({}, spec, table)) > 1:
+        yield f"Cut it at its gaps into {len(parts)} recordings", _make_cut(number, parts)
+    for stretch in filter(None, (parts[0], find_sound_stretch(spec, table))):
+        yield f"Use it {describe_ends(stretch)}", _make_cut(number, [stretch])
 
 
 def _list_units(channel: Channel, table: Table) -> Iterator[tuple[str, dict[str, Any]]]:
@@ -54,6 +56,19 @@ def _list_units(channel: Channel, table: Table) -> Iterator[tuple[str, dict[str,
         yield f"numbers in {other}", {"factor": float(f"{channel.factor * ratio:.12g}")}
     elif other and other != stated:
         yield f"unit {other}", {"unit": other}
+
+
+def _make_cut(number: int, parts: Sequence[Mapping[str, Any]]) -> Change:
+    """Return a change that puts a recording for each stretch, given by its ends, in the place of one."""
+
+    def change(content: Content) -> None:
+        whole = content["recordings"][number]
+        entries = [{**whole, **keys} for keys in parts]
+        if "name" in whole and len(entries) > 1:
+            entries = [{**one, "name": f"{whole['name']} {k}"} for k, one in enumerate(entries, 1)]
+        content["recordings"][number : number + 1] = entries
+
+    return change
 
 
 def _has_same_dimension(unit: str, channel: Channel) -> bool:

@@ -5,29 +5,23 @@ A change is offered only if the recording, read again with it, has not this warn
 
 from __future__ import annotations
 
-import math
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Sequence
 from copy import deepcopy
 from dataclasses import dataclass
 from difflib import unified_diff
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
-from lostmotion.case import dump_case, load_case
 from lostmotion.errors import CaseError, DataError
 from lostmotion.recording.formats import read_table
 from lostmotion.recording.load import recording_of
 from lostmotion.recording.spec import RecordingSpec
 from lostmotion.recording.table import Table
-from lostmotion.results.expectation import CaseCheck
-from lostmotion_app.case_content import Content, drop_value_guess, find_guessed_value, move_paths, multiply_column
-from lostmotion_app.desk import CASE, Desk
+from lostmotion_app.case_content import Content, drop_value_guess, find_guessed_value
+from lostmotion_app.desk import Desk
 from lostmotion_app.recording_changes import list_changes
 
-NEAR, WIDER = 0.005, 100.0
-"""A value is at a bound within this share of the range of its prior; a prior is extended by this factor."""
 _NUMBER = re.compile(r"[-+]?\d[\d.,]*(e[-+]?\d+)?")
 
 
@@ -68,15 +62,16 @@ def list_warnings(desk: Desk, table: Table | None = None) -> list[WarnedCase]:
     content = desk.content
     if not content or desk.is_robot:
         return []
-    found = list(list_guesses(content))
-    for number, spec in enumerate(read_specs(desk, content)):
-        path = desk.case.parent / content["recordings"][number]["file"]
-        read = table if table is not None and number == 0 else read_table(path)
-        several = f"{path.name}: " if len(content["recordings"]) > 1 else ""
-        found += [
-            WarnedCase(several + one.says, one.remedies) for one in _warn_recording(desk, content, number, spec, read)
-        ]
-    return found
+    files = [desk.case.parent / one["file"] for one in content["recordings"]]
+    tables: dict[Path, Table] = {} if table is None else {files[0]: table}
+    found: dict[tuple[str, ...], WarnedCase] = {}
+    for number, (path, spec) in enumerate(zip(files, desk.read_specs(content), strict=True)):
+        read = tables[path] = tables.get(path) or read_table(path)
+        name = f"{path.name}: " if len(set(files)) > 1 else ""
+        for one in _warn_recording(desk, content, number, spec, read):
+            same = (name, shape_of(one.says), *(remedy.says for remedy in one.remedies))
+            found.setdefault(same, WarnedCase(name + one.says, one.remedies))
+    return [*list_guesses(content), *found.values()]
 
 
 def list_guesses(content: Content) -> Iterator[WarnedCase]:
@@ -91,76 +86,40 @@ def list_guesses(content: Content) -> Iterator[WarnedCase]:
         yield WarnedCase(f"Supposed: {says}", (*asked, Remedy("Confirm", confirmed)))
 
 
-def list_check_warnings(result: CaseCheck, content: Content) -> Iterator[WarnedCase]:
-    """Yield the warnings of a check of the case with their remedies: a factor, or a known value."""
-    for one in result.scales:
-        changed = multiply_column(content, one.column, one.factor)
-        says = f"{one.column} does not fit the model: {one.says}?"
-        yield WarnedCase(says, (Remedy(f"Multiply {one.column} by {one.factor:.4g}", changed),))
-    estimated = content["model"].get("estimate", {})
-    for name, prior in estimated.items():
-        found = result.expected.parameters.get(name)
-        if found is not None and (wider := widen_prior(prior, found.median)):
-            changed = deepcopy(content)
-            changed["model"]["estimate"][name] = wider
-            says = f"{name} is at the bound of its prior, which may be too narrow"
-            yield WarnedCase(says, (Remedy(f"{name}: {wider['low']:.4g} to {wider['high']:.4g}", changed),))
-    for pair in result.expected.pairs:
-        both = [name for name in (pair.one, pair.other) if name in estimated]
-        if len(both) == 2:
-            says = f"This recording hardly tells {pair.one} from {pair.other}: a known value of one of them helps."
-            yield WarnedCase(says, tuple(Remedy("Set", content, name) for name in both))
-
-
-def widen_prior(prior: Mapping[str, Any], value: float) -> dict[str, Any]:
-    """Return a prior that extends further beyond the bound at which a value is; empty for a value at no bound."""
-    if "low" not in prior:
-        return {}
-    low, high = float(prior["low"]), float(prior["high"])
-    if prior.get("scale") == "log":
-        near, ends = math.log(high / low) * NEAR, (low / WIDER, high * WIDER)
-        away = abs(math.log(value / low)), abs(math.log(value / high))
-    else:
-        near, ends = (high - low) * NEAR, (low - WIDER * (high - low), high + WIDER * (high - low))
-        away = abs(value - low), abs(value - high)
-    if min(away) > near:
-        return {}
-    return {**prior, **({"low": ends[0]} if away[0] < away[1] else {"high": ends[1]})}
-
-
-def read_specs(desk: Desk, content: Content) -> tuple[RecordingSpec, ...]:
-    """Return the recordings that a content of the case describes; raises `CaseError` for a content that is no case."""
-    with TemporaryDirectory() as spare:
-        place = Path(spare).resolve()
-        dump_case(move_paths(content, desk.case.parent, place, desk.registry.names("simulator")), place / CASE)
-        return load_case(place / CASE).recordings
-
-
 def _warn_recording(
     desk: Desk, content: Content, number: int, spec: RecordingSpec, table: Table
 ) -> Iterator[WarnedCase]:
     """Yield the warnings about one recording of a case."""
-    notes = read_notes(spec, table)
-    tried = []
+    notes, usable = read_notes([spec], table)
+    tried, count = [], len(content["recordings"])
     for says, change in list_changes(number, spec, table, notes) if notes else ():
         changed = deepcopy(content)
         change(changed)
         try:
-            left = read_notes(read_specs(desk, changed)[number], table)
+            specs = desk.read_specs(changed)
         except CaseError:
             continue
-        if is_better(notes, left):
+        left, used = read_notes(specs[number : number + 1 + len(specs) - count], table)
+        if is_better(notes, left) or (used and not usable):  # the warnings of an unusable recording are not seen
             tried.append((Remedy(says, changed), set(map(shape_of, left))))
     for note in notes:
         yield WarnedCase(note, tuple(remedy for remedy, left in tried if shape_of(note) not in left))
 
 
-def read_notes(spec: RecordingSpec, table: Table) -> tuple[str, ...]:
-    """Return the warnings about a recording; that it cannot be used is one."""
-    try:
-        return recording_of(spec, table, Path(spec.file).name, "").notes
-    except DataError as err:
-        return (str(err),)
+def read_notes(specs: Sequence[RecordingSpec], table: Table) -> tuple[tuple[str, ...], bool]:
+    """Return the warnings about the recordings of one table, and whether they can be used; if not, that is a warning.
+
+    A warning that is the same in several of them is there once.
+    """
+    notes, usable = dict[str, str](), True
+    for spec in specs:
+        try:
+            found = recording_of(spec, table, Path(spec.file).name, "").notes
+        except DataError as err:
+            found, usable = (str(err),), False
+        for note in found:
+            notes.setdefault(shape_of(note), note)
+    return tuple(notes.values()), usable
 
 
 def shape_of(note: str) -> str:

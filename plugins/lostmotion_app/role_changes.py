@@ -8,7 +8,6 @@ from dataclasses import replace
 from pathlib import Path
 
 from lostmotion.errors import LostMotionError
-from lostmotion.preparation.guessed import check_guesses, find_coherent
 from lostmotion.recording.outline import GivenRoles, outline_table
 
 _RATE = re.compile(r"give rate = (\d[\d.e+-]*)")
@@ -23,6 +22,8 @@ def list_role_changes(
 
 def _list_candidates(path: Path, roles: GivenRoles, says: str) -> Iterator[tuple[str, GivenRoles]]:
     """Yield a rate in place of uneven times, columns that may drive the machine, and that nothing drives it."""
+    from lostmotion.preparation.guessed import find_coherent  # which imports a second of SciPy: the first screen waits
+
     if stated := _RATE.search(says):
         rate = float(stated[1].rstrip("."))
         yield f"A rate of {rate:g} Hz in place of the time", replace(roles, time=None, rate=rate)
@@ -33,6 +34,8 @@ def _list_candidates(path: Path, roles: GivenRoles, says: str) -> Iterator[tuple
 
 
 def _is_usable(path: Path, roles: GivenRoles, factors: Mapping[str, float]) -> bool:
+    from lostmotion.preparation.guessed import check_guesses
+
     try:
         check_guesses(outline_table(path, roles), factors, free=roles.drive == "none")
     except LostMotionError:

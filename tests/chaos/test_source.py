@@ -69,6 +69,16 @@ def test_many_short_gaps_are_refused_with_their_number(folder, name):
         load_source(folder / name, wanted, Registry())
 
 
+def test_the_longest_stretch_between_gaps_in_the_time_is_taken(folder):
+    table = np.loadtxt(folder / "low.csv", delimiter=",", skiprows=1)
+    rows = np.delete(table, [*range(100, 130), 131], axis=0)
+    np.savetxt(folder / "low.csv", rows, delimiter=",", header="time,force,position", comments="")
+    source = load_source(folder / "low.csv", WantedChannel(columns=("position",)), Registry())
+    np.testing.assert_allclose(source.x, table[132:, 2])
+    assert any(f"The time has gaps: the longest section without gaps is analysed, {ROWS - 132} of" in note
+               for note in source.notes)  # fmt: skip
+
+
 def test_a_rate_stands_in_for_time(folder):
     np.savetxt(folder / "bare.csv", np.sin(np.arange(300)), header="angle", comments="")
     assert load_source(folder / "bare.csv", WantedChannel(rate=250.0), Registry()).dt == pytest.approx(0.004)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import h5py
@@ -204,3 +205,19 @@ def test_columns_are_those_of_the_table(tmp_path: Path) -> None:
     columns = read_columns(tmp_path / "run.csv")
     assert list(columns) == list(got.columns)
     assert read_table(tmp_path / "run.csv").units["x"] == "mm"
+
+
+def test_a_file_that_has_not_changed_is_read_once_and_one_that_was_changed_again(tmp_path: Path) -> None:
+    path = tmp_path / "run.csv"
+    path.write_text("time,x\n0,1\n1,2\n")
+    assert read_table(path) is not read_table(path)  # it was changed just now: the next change may have the same time
+    old = path.stat().st_mtime - 60.0
+    os.utime(path, (old, old))
+    kept = read_table(path)
+    assert read_table(path) is kept
+    with pytest.raises(ValueError, match="read-only"):
+        kept.columns["x"][0] = 3.0
+    path.write_text("time,x\n0,1\n1,5\n")
+    assert read_table(path).columns["x"][1] == 5.0
+    os.utime(path, (old + 1.0, old + 1.0))
+    assert read_table(path).columns["x"][1] == 5.0

@@ -100,6 +100,27 @@ def test_a_process_ends_at_its_limit_of_processor_time(tmp_path):
     assert 0.9 < used < 2.5
 
 
+def test_a_study_has_a_row_for_each_machine_also_for_those_at_the_limit_and_those_that_fail(tmp_path):
+    effects, store, path = load("small_effects"), load("validation_store"), tmp_path / "check.jsonl"
+
+    def run(trial):
+        while trial == 3:
+            pass
+        if trial == 4:
+            raise ValueError("no machine")
+        return {"status": "ok", "named": ["named"], "widths": {"c": 1.2}, "expected": {"c": 1.0}}
+
+    effects.run_trials(path, range(2, 5), run, 1.0)
+    rows = effects.read_rows(path)
+    assert [row["status"] for row in rows] == ["ok", "timeout", "failed: no machine"]
+    effects.run_trials(path, range(2, 6), run, 1.0)
+    assert [row["trial"] for row in effects.read_rows(path)] == [2, 3, 4, 5]
+    assert effects.read_rows(path)[:3] == rows
+    head, rates = store.condense_check(tmp_path, {})
+    assert (head["of"], head["commands"][0].split()[-4:]) == (4, ["--first", "2", "--out", "OUT"])
+    assert [(row["hits"], row["of"]) for row in rates] == [(2, 2), (2, 2)]
+
+
 def test_the_judged_process_reads_the_code_of_its_checkout(tmp_path):
     judge = load("judge")
     (tmp_path / "framework" / "lostmotion").mkdir(parents=True)

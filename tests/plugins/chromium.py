@@ -252,6 +252,16 @@ class Chromium:
         self.send("DOM.enable")
         self.send("DOM.setFileInputFiles", files=[str(path)], objectId=found["result"]["objectId"])
 
+    def read_aloud(self):
+        """Return role, name and properties of each element, as a program that reads the page aloud gets them."""
+        self.send("Accessibility.enable")
+        found = []
+        for node in self.send("Accessibility.getFullAXTree")["nodes"]:
+            if not node.get("ignored"):
+                own = {one["name"]: one["value"].get("value") for one in node.get("properties", ())}
+                found.append((node["role"]["value"], node.get("name", {}).get("value", ""), own))
+        return found
+
     def picture(self, path, whole=False):
         """Write a picture of the page as PNG: what the window shows, or the whole length of the page."""
         more = {}

@@ -306,6 +306,12 @@ def test_without_panel_the_command_says_what_to_install(tmp_path, monkeypatch):
     assert "lostmotion[app]" in str(done.exception)
 
 
+def test_the_first_screen_waits_for_no_part_of_scipy_that_is_slow_to_import():
+    first = "import lostmotion_app.server, lostmotion_app.page, lostmotion_app.screens.data, sys; print(*sys.modules)"
+    told = subprocess.run([sys.executable, "-c", first], capture_output=True, text=True, check=True).stdout.split()
+    assert {"scipy.signal", "scipy.stats", "numba", "xarray", "matplotlib"} & set(told) == set()
+
+
 def test_help_has_examples():
     done = CliRunner().invoke(command.command, ["--help"])
     assert done.exit_code == 0

@@ -1,6 +1,7 @@
 """The page in a real browser: from a CSV file to a named cause, reload, cancel, a killed server, a narrow page."""
 
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -202,6 +203,60 @@ def test_the_screens_come_before_their_fields_and_take_the_arrow_keys(tmp_path, 
         browser.enter("robot_joint")
         browser.wait_gone("gear_pair")
         assert browser.evaluate("named('Model').value") == "robot_joint"
+
+
+FIELDS = ("tab", "slider", "button", "combobox", "textbox", "checkbox", "figure", "tabpanel")
+
+
+def read_fields(browser):
+    """Return the names of tabs, sliders and other elements by role, and their properties by role and name."""
+    browser.wait("all(document).filter((e) => seen(e) && e.matches('.noUi-handle')).every((e) => e.ariaLabel)")
+    told = [one for one in browser.read_aloud() if one[0] in FIELDS]
+    assert [(role, name) for role, name, _ in told if not name.strip() or name == "null"] == []
+    return {role: [name for one, name, _ in told if one == role] for role in FIELDS}, {one[:2]: one[2] for one in told}
+
+
+def test_programs_that_read_aloud_get_names_roles_and_values_and_a_gap_is_cut(tmp_path, serve):
+    write_recording(tmp_path)
+    rows = np.delete(np.loadtxt(tmp_path / "rig.csv", delimiter=",", skiprows=1), range(900, 1000), axis=0)
+    np.savetxt(tmp_path / "rig.csv", rows, delimiter=",", header="time [s],force [N],position [m]", comments="")
+    shutil.copy(tmp_path / "rig.csv", tmp_path / "other.csv")
+    server = serve(tmp_path)
+    with Chromium() as browser:
+        browser.open(server.address + "?recording=rig.csv")
+        browser.wait_for("1 gap in the time, up to 0.505 s: cut into 2 recordings")
+        browser.wait_for("Further recordings with the same columns")
+        browser.wait("all(document).some((e) => seen(e) && e.ariaValueText === '6.995')")
+        names, values = read_fields(browser)
+        assert names["tab"] == ["Data", "Model", "Check", "Run", "Results", "Take away", "Analyse"]
+        assert values["tab", "Data"]["selected"]
+        assert not values["tab", "Model"]["selected"]
+        assert names["slider"] == ["Stretch to use (s), begin", "Stretch to use (s), end", "Held out: last share"]
+        assert values["slider", "Stretch to use (s), end"]["valuetext"] == "6.995"
+        assert "force [N] over time (s)" in names["figure"]
+        assert "Further recordings with the same columns" in names["combobox"]
+        assert len(set(names["textbox"])) == len(names["textbox"])
+        browser.press("Tab", 9)
+        browser.press("ArrowRight", 39)
+        browser.wait_for("Prediction error of free runs")
+        browser.wait_for("k tried")
+        names, values = read_fields(browser)
+        assert values["tab", "Model"]["selected"]
+        assert [values["button", name]["pressed"] for name in ("Library", "Equations")] == ["true", "false"]
+        assert names["slider"] == ["m tried", "c tried", "k tried"]
+        before = float(values["slider", "k tried"]["valuetext"])
+        browser.evaluate("(all(document).filter((e) => seen(e) && e.matches('.noUi-handle')).pop().focus(), true)")
+        browser.press("ArrowRight", 39)
+        handle = "all(document).filter((e) => seen(e) && e.matches('.noUi-handle')).pop().ariaValueText"
+        assert float(browser.wait(f"{handle} !== '{before:g}' && {handle}")) == pytest.approx(1.0233 * before, rel=1e-3)
+        browser.evaluate("(all(document).find((e) => e.matches('.bk-tab.bk-active')).focus(), true)")
+        browser.press("End", 35)
+        browser.wait_for("It needs no model.")
+        browser.press("Home", 36)
+        browser.wait_for("What was read")
+        assert browser.problems == []
+    recordings = parse_case(tmp_path / "lostmotion-app" / "rig.csv" / "case.toml")["recordings"]
+    assert [(one.get("t_start"), one.get("t_end")) for one in recordings] == [(None, 4.495), (5.0, None)]
 
 
 def test_a_known_value_removes_the_sentence_that_it_was_supposed(tmp_path, serve):

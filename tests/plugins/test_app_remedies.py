@@ -3,6 +3,7 @@
 import sys
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,9 +11,12 @@ import pytest
 from lostmotion.case import dump_case
 from lostmotion.errors import CaseError, DataError
 from lostmotion.provenance import origin_of
+from lostmotion.recording.formats import read_table
 from lostmotion.recording.outline import GivenRoles
+from lostmotion.recording.warnings import BACKWARD
 from lostmotion.registry import default
 from lostmotion.results import Interval
+from lostmotion.results.diagnosis import Mechanism
 from lostmotion.results.expectation import CaseCheck, Expectation, ParameterPair, WrongScale
 
 pytest.importorskip("panel", reason="no page: Panel is absent (the extra `app`)")
@@ -21,8 +25,10 @@ sys.path.insert(0, str(Path(__file__).parent))
 from lostmotion_app.case_content import list_channels
 from lostmotion_app.desk import Desk
 from lostmotion_app.folder import WorkFolder
-from lostmotion_app.remedies import list_changed_lines, list_check_warnings, list_warnings
+from lostmotion_app.remedies import list_changed_lines, list_warnings
+from lostmotion_app.result_warnings import list_check_warnings, list_result_warnings
 from lostmotion_app.role_changes import list_role_changes
+from lostmotion_app.used_parts import drop_stretch, list_used_parts
 from lostmotion_app.warning_list import WarningList
 
 HEAD = "time [s],force [N],position [m]"
@@ -177,6 +183,66 @@ def test_a_supposition_is_confirmed_once_and_a_value_is_given(open_desk):
     assert desk.content["model"]["known"]["m"] == 2.5
 
 
+def lose_rows(rows):
+    """Return a table without two stretches of 0.5 s and of 5 ms; between them are 1.5, 3 and 1.995 s."""
+    return np.delete(rows, [*range(300, 400), 1000], axis=0)
+
+
+CUT = [{"t_start": 2.0, "t_end": 4.995}, {"t_start": 5.005}, {"t_end": 1.495}]
+
+
+def list_stretches(desk):
+    return [{key: one[key] for key in ("t_start", "t_end") if key in one} for one in desk.content["recordings"]]
+
+
+def test_a_recording_with_gaps_in_its_time_is_cut_there(open_desk):
+    desk = open_desk(lose_rows(simulate()))
+    assert list_stretches(desk) == CUT
+    assert list_notes(desk) == []
+    case = desk.read_case()
+    assert [one.n for one in case.recordings] == [600, 399, 300]
+    assert desk.list_further() == []
+    parts = list_used_parts(desk.content, (0.0, 6.995), 0.3)
+    assert [(one.start, one.end, one.held) for one in parts] == [
+        (0.0, 1.495, 0.0), (2.0, 4.995, 4.995), (5.005, 6.995, 6.995)
+    ]  # fmt: skip
+    desk.draft(NOTHING, {}, "linear_oscillator")
+    assert list_stretches(desk) == CUT
+    table = read_table(desk.folder.find("run.csv"))
+    desk.use_stretch(1.2, 4.0, table)
+    assert list_stretches(desk) == [{"t_start": 2.0, "t_end": 4.0}]  # 0.3 s before the gap are not enough
+    desk.use_stretch(None, None, table)
+    assert list_stretches(desk) == CUT
+    desk.use_stretch(2.0, 4.0, table)
+    (one,) = list_used_parts(desk.content, (0.0, 6.995), 0.25)
+    assert (one.start, one.end, one.held) == (2.0, 4.0, 3.5)
+
+
+def test_gaps_in_the_case_of_a_user_have_a_remedy_and_a_shorter_one(open_desk):
+    desk = open_desk(lose_rows(simulate()))
+    content = desk.content
+    content["recordings"] = [{**drop_stretch(content["recordings"][0]), "name": "monday"}]
+    desk.save(content)
+    (warned,) = list_notes(desk)
+    assert "a gap of 0.505 s in time" in warned.says
+    cut, longest = warned.remedies
+    assert (cut.says, longest.says) == ("Cut it at its gaps into 3 recordings", "Use it from 2 s until 4.995 s")
+    desk.change(cut.content)
+    assert list_stretches(desk) == CUT
+    assert [one.name for one in desk.read_case().recordings] == ["monday 1", "monday 2", "monday 3"]
+    assert list_notes(desk) == []
+    desk.save(longest.content)
+    assert list_stretches(desk) == CUT[:1]
+    assert list_notes(desk) == []
+
+
+def test_a_fault_behind_a_gap_is_told_once_the_gap_is_cut(open_desk):
+    desk = open_desk(change_sign(lose_rows(simulate())))
+    (warned,) = list_notes(desk)
+    assert "power flows from the machine" in warned.says
+    assert [one.says for one in warned.remedies] == SIGNS
+
+
 def test_what_drives_the_machine_is_asked(open_desk, tmp_path):
     with pytest.raises(CaseError) as told:
         open_desk(simulate(), "t,channel 1,position [m]")
@@ -223,6 +289,39 @@ def test_a_check_offers_the_factor_and_a_known_value(open_desk):
     filled = pair.remedies[1].fill(4000.0)["model"]
     assert filled["known"] == {"k": 4000.0}
     assert "k" not in filled["estimate"]
+
+
+def test_a_result_offers_the_factor_of_a_wrong_scale_and_of_a_gain_that_was_named(open_desk):
+    desk = open_desk(simulate())
+    scale = WrongScale(column="position [m]", factor=0.001, says="thousandths of the unit", left=0.01)
+
+    def name(mechanism, at, error, state="named"):
+        found = {"error": Interval(error, error, error, "1")}
+        return Mechanism(mechanism=mechanism, at=at, probability=0.99, state=state, parameters=found, says="")
+
+    def list_factors(**made):
+        given = {"scales": (), "found": (), "says": (), "parameters": SimpleNamespace(after={}), **made}
+        warned = list(list_result_warnings(SimpleNamespace(**given), desk))
+        return [(one.says, [remedy.says for remedy in one.remedies]) for one in warned]
+
+    assert list_factors() == []
+    says = "the scale of position [m] does not fit the model: thousandths of the unit?"
+    assert list_factors(scales=(scale,)) == [(says, ["Multiply position [m] by 0.001"])]
+    high = "the values of position [m] are 20 % too large"
+    assert list_factors(found=[name("sensor_gain", "position", 0.25)]) == [(high, ["Multiply position [m] by 0.8"])]
+    low = "the values of force [N] are 25 % too small"
+    assert list_factors(found=[name("excitation_gain", "drive", 0.25)]) == [(low, ["Multiply force [N] by 1.25"])]
+    assert (
+        list_factors(found=[name("sensor_gain", "position", 0.25, "likely"), name("coulomb_friction", "", 1.0)]) == []
+    )
+    low = desk.content["model"]["estimate"]["k"]["low"]
+    ((says, offered),) = list_factors(parameters=SimpleNamespace(after={"k": Interval(low, low, low, "N/m")}))
+    assert says == "the prior of k may be too narrow: the value is at its bound"
+    assert len(offered) == 1
+    desk = open_desk(change_sign(simulate()))
+    ((says, offered),) = list_factors(says=(f"The sign of a column is wrong: {BACKWARD}.",))
+    assert "power flows" in says
+    assert offered == SIGNS
 
 
 def test_a_button_shows_what_it_changed_and_undo_restores_it(open_desk):

@@ -70,7 +70,12 @@ def cut_heldout(observations: Sequence[Observation], held: Sequence[Observation]
     """Return the held-out parts: the end of a single recording, or whole recordings after a short transient."""
     if len(observations) == 1:
         return (HeldOutStretch(observations[0], observations[0].samples - held[0].samples),)
-    return tuple(HeldOutStretch(t, max(t.samples // 20, 5)) for t in held)
+    return tuple(HeldOutStretch(t, count_transient(t)) for t in held)
+
+
+def count_transient(observation: Observation) -> int:
+    """Return the number of first samples in which a filter finds the state of a machine that moves already."""
+    return max(observation.samples // 20, 5)
 
 
 def compute_rates(fit: Fit, observations: Sequence[Observation]) -> Array:

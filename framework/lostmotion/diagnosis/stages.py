@@ -13,7 +13,7 @@ from lostmotion.diagnosis.compare import cut_heldout
 from lostmotion.diagnosis.moving import check_motion, cut_rest
 from lostmotion.diagnosis.outliers import leave_out_outliers
 from lostmotion.diagnosis.periodic_drive import leave_out_gauge_noise
-from lostmotion.diagnosis.scales import describe_wrong_scales, find_wrong_scales
+from lostmotion.diagnosis.scales import find_wrong_scales
 from lostmotion.errors import DataError
 from lostmotion.evidence.bare import Budget
 from lostmotion.evidence.corrections import Corrections, find_corrections
@@ -40,6 +40,7 @@ from lostmotion.likelihood.latent import LatentForce, smooth_latent_force
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.system import System
+from lostmotion.results.expectation import WrongScale
 from lostmotion.settings import DEFAULT, LocateSettings, Settings
 
 STEPS, PER = 6e8, 5e4
@@ -94,8 +95,8 @@ class SearchResult:
     found terms along it. `random_gain` is the log-likelihood that a random force beyond the usual adds. `learned` are
     the curves that were learned because the library did not suffice; `after` is the fit with them. `withdrawn` are the
     keys of terms that were found by likelihood and withdrawn because of held-out data. The given `recordings` are
-    corrected for usual errors of their channels (`corrections`); all others are corrected recordings. `scale` is a
-    sentence on a column whose scale does not fit the model.
+    corrected for usual errors of their channels (`corrections`); all others are corrected recordings. `scales` are the
+    columns whose scale does not fit the model.
     """
 
     before: Fit
@@ -115,7 +116,7 @@ class SearchResult:
     quantised: Mapping[str, tuple[Values, Values]] = field(default_factory=dict)
     learned: UnknownForce | None = None
     withdrawn: tuple[str, ...] = ()
-    scale: tuple[str, ...] = ()
+    scales: tuple[WrongScale, ...] = ()
 
     @property
     def settings(self) -> Settings:
@@ -181,14 +182,14 @@ def diagnose(
     nominal, observations = leave_out_gauge_noise(nominal, observations)
     nominal, observations = leave_out_outliers(nominal, observations)
     train, held = split_heldout(observations, settings.heldout)
-    scale = describe_wrong_scales(find_wrong_scales(nominal, case, rng.spawn(1)[0]))
+    scales = find_wrong_scales(nominal, case, rng.spawn(1)[0])
     pieces = [(piece.observation, piece.begin) for piece in cut_heldout(observations, held)]
     course = Course(list_fitted_keys(system), pieces, choose_budget(nominal.posterior), say)
     explained = course.find_explanations(nominal)
     first = SearchResult(
         nominal, nominal, explained, held[0], _NOT_LOCATED, None, _EMPTY, {}, {}, 0.0, train, held, tuple(observations)
     )
-    return explain_by(explained, replace(first, scale=scale), rng.spawn(1)[0], say)
+    return explain_by(explained, replace(first, scales=scales), rng.spawn(1)[0], say)
 
 
 def choose_budget(posterior: Posterior) -> Budget:

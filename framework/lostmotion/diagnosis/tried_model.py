@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.diagnosis.compare import SEGMENT
+from lostmotion.diagnosis.compare import SEGMENT, count_transient
 from lostmotion.errors import CaseError, ContractError, nearest
 from lostmotion.inference.setup import choose_steps, make_posterior
 from lostmotion.likelihood.noise_levels import LEVELS_TRIED, compute_random_level
@@ -71,17 +71,19 @@ class TriedModel:
         values: Mapping[str, float],
         terms: Collection[str] = (),
         *,
-        begin: float = 0.0,
+        begin: float | None = None,
         every: float | None = None,
     ) -> TriedPrediction:
         """Return the prediction with some `values` (SI) by parameter, and with `terms` by key.
 
-        It begins `begin` s after the first sample, and restarts after `every` s, or by default after some cycles of
-        the motion. Raises `CaseError` for a name that the model does not have.
+        It begins `begin` s after the first sample: by default after a short transient, or at once if nothing drives
+        the machine. It restarts after `every` s, or by default after some cycles of the motion. Raises `CaseError` for
+        a name that the model does not have.
         """
         posterior = self._set_values(values, terms)
         observation = posterior.observations[0]
-        first = min(max(round(begin / observation.dt), 0), observation.samples - 2)
+        transient = 0 if observation.free else count_transient(observation)
+        first = transient if begin is None else min(max(round(begin / observation.dt), 0), observation.samples - 2)
         cycle = choose_horizon(observation, float("nan"), posterior.scales.time).unit_time
         length = max(round((SEGMENT * cycle if every is None else every) / observation.dt), 2)
         theta = self._choose_level(posterior)

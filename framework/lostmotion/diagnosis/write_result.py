@@ -18,7 +18,7 @@ from lostmotion.diagnosis.free_decays import describe_decays
 from lostmotion.diagnosis.gather_facts import list_units
 from lostmotion.diagnosis.notes import write_notes
 from lostmotion.diagnosis.rivals import Proposals, describe_confusions
-from lostmotion.diagnosis.scales import LEFT, describe_wrong_sign
+from lostmotion.diagnosis.scales import LEFT, describe_wrong_scales, describe_wrong_sign
 from lostmotion.diagnosis.stages import SearchResult
 from lostmotion.diagnosis.states import NAMED, is_valid, limit_confidence, list_open_terms, sort_findings
 from lostmotion.diagnosis.unknowns import describe_dependence
@@ -68,13 +68,14 @@ def make_result(
         over_time=over_time,
         by_recording=by_recording,
     )
-    scale = d.scale or describe_wrong_sign(prepared.recordings)
-    if explains_scale(found, facts.force_after.rms / (facts.force_before.rms or 1.0)):
-        scale = ()
+    explained = explains_scale(found, facts.force_after.rms / (facts.force_before.rms or 1.0))
+    scales = () if explained else d.scales
+    scale = () if explained else describe_wrong_scales(scales) or describe_wrong_sign(prepared.recordings)
     return Diagnosis(
         title=case.title,
         verdict="mismatch" if found else "adequate",
         says=(*scale, *summarise(facts, found, rest)),
+        scales=scales,
         found=found,
         open=rest,
         ranking=rank_candidates(facts, found),

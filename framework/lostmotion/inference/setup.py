@@ -65,7 +65,7 @@ def split_heldout(
     if len(observations) == 1:
         cut = round((1.0 - limits.share) * count_lasting_samples(observations[0], limits))
         return (observations[0].part(0, cut),), (observations[0].part(cut, observations[0].samples),)
-    kept = max(1, len(observations) - max(1, round(limits.share * len(observations))))
+    kept = limits.count_fitted(len(observations))
     return tuple(observations[:kept]), tuple(observations[kept:])
 
 

@@ -40,7 +40,7 @@ CASE: Mapping[str, Rule] = {**RUN, "model": maybe(modelled), "known": maybe(KNOW
 TRIED: Mapping[str, Rule] = {
     "values": maybe(KNOWN),
     "terms": words,
-    "begin": number,
+    "begin": maybe(number),
     "every": maybe(positive),
     "registry": RUN["registry"],
 }

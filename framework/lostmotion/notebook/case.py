@@ -245,14 +245,15 @@ class Case:
         values: Mapping[str, float] | None = None,
         terms: str | Sequence[str] = (),
         *,
-        begin: float = 0.0,
+        begin: float | None = None,
         every: float | None = None,
         registry: Registry | None = None,
     ) -> TriedPrediction:
         """Return how the model would predict the first recording with some `values` (SI), without a fit.
 
         Estimated parameters without a value are at the middle of their priors. `terms` are keys of terms, whose values
-        are named `coulomb_friction.force`. Free runs restart after `every` s, by default some cycles of the motion.
+        are named `coulomb_friction.force`. Free runs begin `begin` s after the first sample, by default after a short
+        transient, and restart after `every` s, by default some cycles of the motion.
         """
         from lostmotion.diagnosis.tried_model import TriedModel
 

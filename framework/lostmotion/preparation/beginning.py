@@ -38,6 +38,8 @@ HEARD = 1e-3
 """Frequencies of the drive count from this share of the strongest one on."""
 SPRUNG = 0.02
 """A stiffness is used when its force is at least this share of the drive."""
+LONG = 50_000
+"""The number of samples of a drive in which its period is sought first."""
 Waves = NDArray[np.complex128]
 POWERS = {"position": 0, "velocity": 1, "acceleration": 2}
 
@@ -210,15 +212,23 @@ def _format_case(
         f"title = {_quote(Path(outline.file).stem)}",
         *_format_guesses(supposed),
         "",
-        "[[recordings]]",
-        f"file = {_quote(file)}",
-        *_format_channels(outline, factors),
-        "",
+        *_format_recordings(outline, factors, file),
         "[model]",
         _format_model(machine),
         "",
     )
     return "\n".join([*head, *_format_parameters(outline, machine, scales)]) + "\n"
+
+
+def _format_recordings(outline: Outline, factors: Mapping[str, float], file: str) -> Iterator[str]:
+    """Yield the lines of the recording, or of each of its stretches between gaps in the time."""
+    if outline.cut:
+        used = "each is a recording, the last ones are held out" if len(outline.stretches) > 1 else "one is used"
+        yield f"# The time has gaps. Of the stretches between them {used}."
+    for stretch in outline.stretches or (None,):
+        yield from ("[[recordings]]", f"file = {_quote(file)}", *_format_channels(outline, factors))
+        yield from (f"{key} = {value!r}" for key, value in (stretch.keys.items() if stretch else ()))
+        yield ""
 
 
 def _format_guesses(supposed: Sequence[str]) -> Iterator[str]:
@@ -340,7 +350,7 @@ def _round(value: float) -> str:
 def _list_findings(outline: Outline, machine: Model, factors: Mapping[str, float]) -> Iterator[str]:
     """Yield the findings in the table, one sentence each."""
     yield f"{outline.file}: {outline.samples} rows at {1.0 / outline.dt:.6g} Hz, {outline.clock.says}"
-    yield from (f"  {note}" for note in outline.clock.notes)
+    yield from (f"  {note}" for note in (*outline.clock.notes, *([outline.cut] if outline.cut else ())))
     for column in outline.columns:
         yield _describe_column(column, outline, factors.get(column.name, 1.0))
     yield from (f"  not read: {why}" for why in outline.unread)
@@ -353,7 +363,12 @@ def _list_findings(outline: Outline, machine: Model, factors: Mapping[str, float
 
 
 def _period(pushed: Array, dt: float) -> float | None:
-    """Return the period (s) of a drive (n,), or None; one that is too short for its spectrum is laid over itself."""
+    """Return the period (s) of a drive (n,), or None; one that is too short for its spectrum is laid over itself.
+
+    Of a long drive a part is examined first.
+    """
+    if pushed.size > LONG and (found := _period(pushed[:LONG], dt)):
+        return found
     period = refined_period(pushed, dt)
     if period is None:
         lag = period_found(pushed, _noise_level(pushed))

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from lostmotion.errors import DataError
 from lostmotion.recording.column_names import COUNTER, names_other, names_time
 from lostmotion.recording.table import Table
-from lostmotion.recording.timing import EvenClock, check_step, even_clock, name_sample
+from lostmotion.recording.timing import EvenClock, GapError, check_step, even_clock, name_sample
 from lostmotion.recording.units import TIME_UNITS, is_unit, seconds, time_unit
 
 Array = NDArray[np.float64]
@@ -142,7 +142,10 @@ def checked_clock(
     stated = stated or unit_by_size(table.columns[column])[0]
     if not stated:
         _refuse_whole(time, column, source)
-    clock = even_clock(time, source, table.line + first if table.line else 0)
+    try:
+        clock = even_clock(time, source, table.line + first if table.line else 0)
+    except GapError as err:
+        raise GapError(str(err), err.time, err.stretches, column) from None
     rate = 1.0 / clock.dt
     if SLOWEST <= rate <= FASTEST or stated:
         return clock

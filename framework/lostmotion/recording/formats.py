@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import time
 import warnings
 import zipfile
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -22,8 +24,13 @@ from lostmotion.recording.text import read_text
 from lostmotion.recording.unpacked import check_hdf5, check_mat, check_npz
 
 Array = NDArray[np.float64]
+Reader = Callable[[Path], Table]
 PACKING = ("_FillValue", "missing_value", "scale_factor", "add_offset")
 """The attributes that say how readings are stored (CF conventions)."""
+MOST_KEPT = 2**28
+"""The greatest size (bytes) of a table that is kept."""
+SETTLED = 2.0
+"""Seconds after its last change from which a file is taken as it is."""
 BAG = "db3"
 """The ending whose reader takes the folder of a bag of ROS 2, too."""
 
@@ -34,9 +41,42 @@ def read_columns(path: Path) -> dict[str, Array]:
 
 
 def read_table(path: Path) -> Table:
-    """Return the table of a file as `table_of` does; foreign formats are read in another process."""
+    """Return the table of a file as `table_of` does; foreign formats are read in another process.
+
+    The table that was read last is kept: a case, its check and a page read the same file several times.
+    """
     path = Path(path)
-    if _find_reader(path) in (read_text, _read_npz):
+    reader = _find_reader(path)
+    state = _find_state(path, reader)
+    if state is None or state not in _LAST:
+        _LAST.clear()
+        table = _read_file(path, reader)
+        if state is None or sum(column.nbytes for column in table.columns.values()) > MOST_KEPT:
+            return table
+        for column in table.columns.values():
+            column.flags.writeable = False
+        _LAST[state] = table
+    return _LAST[state]
+
+
+_LAST: dict[tuple[Reader, str, int, int], Table] = {}
+"""The table that was read last, by reader, path of the file, time of its last change, and size."""
+
+
+def _find_state(path: Path, reader: Reader) -> tuple[Reader, str, int, int] | None:
+    """Return what changes with the content of a file; None for a folder, and where it was changed just now.
+
+    Two changes within the resolution of the times of a file cannot be told apart.
+    """
+    with suppress(OSError, ValueError):
+        told = path.stat()
+        if path.is_file() and time.time() - told.st_mtime > SETTLED:
+            return reader, str(path.resolve()), told.st_mtime_ns, told.st_size
+    return None
+
+
+def _read_file(path: Path, reader: Reader) -> Table:
+    if reader in (read_text, _read_npz):
         return table_of(path)
     _require_file(path)
     return read_in_subprocess(path)
@@ -73,7 +113,7 @@ def is_recording(path: str | Path) -> bool:
     return is_bag_folder(Path(path)) or ending in ENDINGS or ending in offered_readers()
 
 
-def _find_reader(path: Path) -> Callable[[Path], Table]:
+def _find_reader(path: Path) -> Reader:
     ending = BAG if is_bag_folder(path) else path.suffix[1:].lower()
     if ending in ENDINGS:
         return ENDINGS[ending]
@@ -221,7 +261,7 @@ def _unit_of(attributes: Any) -> str:
     return word.strip() if isinstance(word, str) else ""
 
 
-ENDINGS: Mapping[str, Callable[[Path], Table]] = {
+ENDINGS: Mapping[str, Reader] = {
     "csv": read_text,
     "tsv": read_text,
     "txt": read_text,

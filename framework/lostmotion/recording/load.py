@@ -384,8 +384,9 @@ def _find_inside(spec: RecordingSpec, time: Array) -> NDArray[np.bool_]:
     """Return which samples lie from `t_start` to `t_end`, both included, with a tolerance for rounding errors."""
     if spec.t_start is None and spec.t_end is None:
         return np.ones(time.size, dtype=bool)
-    low = -np.inf if spec.t_start is None else spec.t_start - 1e-9 * (1 + abs(spec.t_start))
-    high = np.inf if spec.t_end is None else spec.t_end + 1e-9 * (1 + abs(spec.t_end))
+    step = float(np.median(np.diff(time)))  # a date in s is so large that 1e-9 of it may be many steps
+    low = -np.inf if spec.t_start is None else spec.t_start - min(1e-9 * (1 + abs(spec.t_start)), 0.4 * step)
+    high = np.inf if spec.t_end is None else spec.t_end + min(1e-9 * (1 + abs(spec.t_end)), 0.4 * step)
     inside = (time >= low) & (time <= high)
     if not inside.any():
         raise DataError(

@@ -21,6 +21,8 @@ from lostmotion.recording.column_names import KINDS, kind_named
 from lostmotion.recording.counts import centre_position, holds_counts, sum_changes
 from lostmotion.recording.formats import read_table
 from lostmotion.recording.table import Table
+from lostmotion.recording.time_gaps import Stretch, cut_at_gaps, cut_table, describe_cut
+from lostmotion.recording.timing import GapError
 from lostmotion.recording.units import check_name, kinds_of, name_and_unit
 
 Array = NDArray[np.float64]
@@ -71,7 +73,8 @@ class OutlinedColumn:
 class Outline:
     """The supposed roles in a table: time column (None where the rate was given), sampling step (s), other columns.
 
-    `drive` is None where no column seems to be a drive; `unread` are the reasons of columns that cannot be read.
+    `drive` is None where no column seems to be a drive; `unread` are the reasons of columns that cannot be read. Where
+    the time has gaps, ``stretches` are the parts that are used, and `cut` says so; columns are of the longest part.
     """
 
     file: str
@@ -84,6 +87,8 @@ class Outline:
     response: OutlinedColumn
     clock: FoundTime
     unread: tuple[str, ...] = ()
+    stretches: tuple[Stretch, ...] = ()
+    cut: str = ""
 
     @property
     def base_driven(self) -> bool:
@@ -104,7 +109,10 @@ class GivenRoles:
 
 
 def outline_table(path: Path, roles: GivenRoles) -> Outline:
-    """Return the supposed roles of the columns in the file `path`; `DataError` where a role cannot be found."""
+    """Return the supposed roles of the columns in the file `path`; `DataError` where a role cannot be found.
+
+    A recording with gaps in its time is cut there.
+    """
     table, source = read_table(path), Path(path).name
     units = roles.units or {}
     for name in filter(None, (roles.time, roles.drive, roles.response, *units, *roles.differences)):
@@ -113,8 +121,30 @@ def outline_table(path: Path, roles: GivenRoles) -> Outline:
         if name not in table.columns and not (name == roles.drive == "none"):
             listed = ", ".join(table.full_names)
             raise DataError(f"{source} has no column {name!r}{nearest(name, table.columns)}: it has {listed}")
-    found = find_time(table, source, None if roles.rate else roles.time, roles.rate, units)
-    time = found.column
+    given = None if roles.rate else roles.time
+    try:
+        return _outline(table, source, roles, find_time(table, source, given, roles.rate, units))
+    except GapError as gaps:
+        return _outline_stretches(table, source, roles, gaps)
+
+
+def _outline_stretches(table: Table, source: str, roles: GivenRoles, gaps: GapError) -> Outline:
+    """Return the roles of the columns of a table whose time has gaps, from its longest stretch between them."""
+    longest = next(iter(cut_at_gaps(gaps)), None)
+    if longest is None:
+        raise gaps
+    part = cut_table(table, longest, gaps.time.size)
+    made = _outline(part, source, roles, find_time(part, source, roles.time, None, roles.units))
+    moving = [table.columns[one.name] for one in (made.drive, made.response) if one is not None]
+    stretches = cut_at_gaps(gaps, moving)
+    if not stretches:
+        raise gaps
+    return replace(made, samples=gaps.time.size, stretches=stretches, cut=describe_cut(gaps, stretches))
+
+
+def _outline(table: Table, source: str, roles: GivenRoles, found: FoundTime) -> Outline:
+    """Return the roles of the columns of a table with its time."""
+    units, time = roles.units or {}, found.column
     samples = found.time.size if time else _most_common_size(table)
     others = [name for name in table.full_names if time is None or table.columns[name] is not table.columns[time]]
     columns = tuple(

@@ -6,6 +6,7 @@ which is found as the least-squares line through all stamps.
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import dataclass
 
@@ -32,6 +33,14 @@ SHORTEST, LONGEST = 1e-12, 1e6
 """The range of sampling steps (s) that is accepted."""
 
 
+class GapError(DataError):
+    """A time with gaps: times (n,) of the rows in s, their column, and (first row, row after the last) between gaps."""
+
+    def __init__(self, says: str, time: Array, stretches: tuple[tuple[int, int], ...], column: str = "") -> None:
+        super().__init__(says)
+        self.time, self.stretches, self.column = time, stretches, column
+
+
 @dataclass(frozen=True)
 class EvenClock:
     """The even grid `start + dt * k` (s) of a time column; `uneven` tells that channels must be resampled to it."""
@@ -50,8 +59,8 @@ def even_clock(time: Array, source: str, line: int = 0) -> EvenClock:
     Time columns are often rounded, by single precision or by few printed digits. Deviations that rounding explains are
     accepted, so the step is the mean over the whole column: the median would be a multiple of the rounding. Jitter of
     the stamps, or of the true steps, up to `JITTER` of the step (rms) is accepted too; the grid is then the
-    least-squares line through the stamps. `DataError` is raised for gaps, repeated stamps, decreasing time, more
-    jitter, and a changing rate with which stamps deviate from the grid by more than a step.
+    least-squares line through the stamps. `GapError` is raised for gaps, `DataError` for repeated stamps, decreasing
+    time, more jitter, and a changing rate with which stamps deviate from the grid by more than a step.
     """
     _check_order(time, source, line)
     with np.errstate(over="ignore"):
@@ -273,6 +282,17 @@ def _refuse_jitter(time: Array, source: str) -> None:
     )
 
 
+def _list_stretches(steps: Array, bad: NDArray[np.intp]) -> tuple[tuple[int, int], ...]:
+    """Return (first row, row after the last) of each stretch between gaps; where stamps are coarse, lost rows are gaps.
+
+    `steps` (n - 1,) are those of the time, and `bad` are those that are gaps.
+    """
+    edges = [0, *(int(one) + 1 for one in bad), steps.size + 1]
+    long = [(first, last) for first, last in itertools.pairwise(edges) if last - first > 2]
+    alone = [first + int(k) + 1 for first, last in long for k in _find_alone(steps[first : last - 1])]
+    return tuple(itertools.pairwise(sorted({*edges, *alone})))
+
+
 def _refuse_steps(time: Array, dt: float, bad: NDArray[np.intp], source: str, line: int) -> None:
     steps = np.diff(time)
     if bad.size > max(3, time.size // 100) or np.abs(steps[bad] - dt).max() < 0.4 * dt:
@@ -281,11 +301,14 @@ def _refuse_steps(time: Array, dt: float, bad: NDArray[np.intp], source: str, li
     here, there = f"{time[k]:.9g}", f"{time[k + 1]:.9g}"
     if steps[k] > dt:
         more = f" (and at {bad.size - 1} more places)" if bad.size > 1 else ""
-        raise DataError(
+        says = (
             f"{source}: a gap of {steps[k]:.4g} s in time between {here} s and {there} s{more} "
             f"({name_sample(k + 1, line)}), where steps of {dt:.4g} s were expected: cut it into two recordings, one "
             f"with t_end = {here}, one with t_start = {there}"
         )
+        if np.any(steps[bad] <= dt):  # stamps that repeat too: parts between gaps are not even
+            raise DataError(says)
+        raise GapError(says, time, _list_stretches(steps, bad))
     count = f", {int(np.count_nonzero(steps <= 0.0))} such samples in all" if steps[k] <= 0.0 else ""
     raise DataError(
         f"{source}: time moves by only {steps[k]:.4g} s from {here} s to {there} s ({name_sample(k + 1, line)}), where "

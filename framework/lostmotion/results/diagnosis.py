@@ -10,7 +10,7 @@ from lostmotion.results import Interval
 from lostmotion.results.absent import AbsentTerm, UnlimitedTerm
 from lostmotion.results.background import FittedMachine, Origin, RecordingFacts
 from lostmotion.results.behaviour import Behaviour, Decays
-from lostmotion.results.expectation import Expectation
+from lostmotion.results.expectation import Expectation, WrongScale
 from lostmotion.results.mismatch import ForceDependence, UnexplainedForce
 from lostmotion.results.shared_values import Comparison, OwnParameters, Sharing
 
@@ -304,6 +304,9 @@ class Diagnosis:
     schema: str = described("name and number of this format", default=SCHEMA)
     verdict: str = described("`adequate`: this recording shows no missing physics; or `mismatch`")
     says: tuple[str, ...] = described("the result in sentences")
+    scales: tuple[WrongScale, ...] = described(
+        "columns whose scale does not fit the model, the most likely one first", default=(), spare=True
+    )
     found: tuple[Mechanism, ...] = described(
         "the missing mechanisms, named ones first; empty where the verdict is `adequate`"
     )

@@ -180,6 +180,10 @@ class HeldOutSettings:
     alive: ClassVar[float] = 4.0
     """A motion has decayed when its standard deviation is less than this many times the noise of the sensor."""
 
+    def count_fitted(self, recordings: int) -> int:
+        """Return how many of several recordings are fitted; the last ones are held out."""
+        return max(1, recordings - max(1, round(self.share * recordings)))
+
 
 @dataclass(frozen=True)
 class NameSettings:

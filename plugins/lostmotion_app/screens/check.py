@@ -15,7 +15,8 @@ from lostmotion_app.desk import Desk
 from lostmotion_app.job_view import JobView
 from lostmotion_app.jobs import Job
 from lostmotion_app.parts import make_html, run_next, write_answer, write_heading, write_list, write_note
-from lostmotion_app.remedies import list_check_warnings, list_warnings
+from lostmotion_app.remedies import list_warnings
+from lostmotion_app.result_warnings import list_check_warnings
 from lostmotion_app.screens import PageScreen
 from lostmotion_app.sections import write_grid
 from lostmotion_app.warning_list import WarningList

@@ -29,6 +29,7 @@ from lostmotion_app.parts import (
 from lostmotion_app.remedies import list_warnings
 from lostmotion_app.role_changes import list_role_changes
 from lostmotion_app.screens import PageScreen
+from lostmotion_app.used_parts import list_used_parts
 from lostmotion_app.used_stretch import UsedStretch
 from lostmotion_app.warning_list import WarningList
 
@@ -240,16 +241,15 @@ class DataScreen(PageScreen):
                 self.warned = now
 
     def _offer_stretch(self) -> None:
-        """Set the slider of the stretch to that of the case, and shade what is held out."""
-        low, high = self.figures.span
-        first = self.desk.content["recordings"][0]
-        now = (first.get("t_start", low), first.get("t_end", high))
-        self.stretch.offer((low, high), *now)
-        self.figures.mark(*now, self.desk.hold)
+        """Set the slider of the stretch to that of the case, and shade what is held out or not used."""
+        parts = list_used_parts(self.desk.content, self.figures.span, self.desk.hold)
+        self.stretch.offer(self.figures.span, parts[0].start, parts[-1].end)
+        self.figures.mark(parts)
 
     def _offer_further(self) -> None:
         """Offer the other recordings of the folder."""
         names = [name for name in self.desk.folder.list_recordings() if name != self.desk.recording]
+        self.further.visible = bool(names)
         self.further.param.update(options=names, value=[one for one in self.desk.list_further() if one in names])
 
     def _add(self) -> None:
@@ -257,23 +257,21 @@ class DataScreen(PageScreen):
         with self.problem.watch():
             if self.desk.content and list(self.further.value) != self.desk.list_further():
                 self.desk.add_recordings(list(self.further.value))
+                self._offer_stretch()
                 self.desk.tell()
 
     def _mark(self) -> None:
-        """Keep the stretch in the case, and shade what is held out."""
+        """Keep the stretch in the case, and shade what is held out or not used."""
         with self.problem.watch():
-            (start, end), (low, high) = self.stretch.read(), self.figures.span
+            ends, limits = self.stretch.read(), self.figures.span
             self.desk.hold = self.stretch.hold.value
-            self.figures.mark(start, end, self.desk.hold)
-            if content := self.desk.content:
-                first = content["recordings"][0]
-                for key, value, limit in (("t_start", start, low), ("t_end", end, high)):
-                    first.pop(key, None)
-                    if value != limit:
-                        first[key] = float(value)
-                self.desk.save(content)
-                self.desk.tell()
-                run_next(self._list_warnings)
+            if not self.desk.content or self.table is None:
+                return
+            start, end = (None if one == limit else float(one) for one, limit in zip(ends, limits, strict=True))
+            self.desk.use_stretch(start, end, self.table)
+            self.figures.mark(list_used_parts(self.desk.content, limits, self.desk.hold))
+            self.desk.tell()
+            run_next(self._list_warnings)
 
     def _show_command(self) -> None:
         roles, gains = self._read_roles(), self._read_factors()
@@ -311,7 +309,7 @@ class _Channel:
             name=f"Unit of the {role} (--unit)", options=list(recorded_figures.UNITS), restrict=False, min_characters=1,
             placeholder="from the file", sizing_mode="stretch_width",
         )  # fmt: skip
-        self.factor = NumberField("Factor (--factor)", "1", width=110)
+        self.factor = NumberField(f"{role.capitalize()} factor", "1", width=110)
 
     @property
     def widgets(self) -> list[Any]:

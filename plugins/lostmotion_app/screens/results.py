@@ -20,7 +20,7 @@ from lostmotion.report.pages import Grid, PageSection
 from lostmotion.report.words import format_quantity, percent, sentence, to_words, typeset
 from lostmotion.robots import arm_page
 from lostmotion.storage import load_json
-from lostmotion_app.desk import DIAGNOSIS, Desk
+from lostmotion_app.desk import CASE, DIAGNOSIS, Desk
 from lostmotion_app.found_figures import MissingForce, SwitchedPrediction
 from lostmotion_app.parts import (
     make_html,
@@ -32,14 +32,18 @@ from lostmotion_app.parts import (
     write_note,
     write_table,
 )  # fmt: skip
+from lostmotion_app.remedies import WarnedCase
+from lostmotion_app.result_warnings import list_result_warnings
 from lostmotion_app.screens import PageScreen
 from lostmotion_app.sections import write_grid, write_sections
+from lostmotion_app.warning_list import WarningList
 
 ELSEWHERE = ("prediction", "missing")
 """Sections of the report that this screen has in another form."""
 FIRST = ("joints", "ranking")
 """The section that is seen first, for machines and for robots."""
 MOST_EARLIER = 30
+CHANGED = "The case has changed since this diagnosis: run it again."
 
 
 class ResultsScreen(PageScreen):
@@ -51,7 +55,8 @@ class ResultsScreen(PageScreen):
         super().__init__(desk)
         self.choice = pn.widgets.Select(name="Result", sizing_mode="stretch_width", max_width=520)
         self.section = pn.widgets.Select(name="Section of the report", width=320)
-        self.answer, self.drawn, self.earlier, self.same = (make_html() for _ in range(4))
+        self.answer, self.drawn, self.earlier, self.same, self.stale = (make_html() for _ in range(5))
+        self.warnings = WarningList(desk, self._show_changed)
         self.prediction, self.missing = SwitchedPrediction(), MissingForce()
         self.found: DiagnosisResult | RobotResult | None = None
         self.sections: tuple[PageSection[Any], ...] = ()
@@ -62,8 +67,8 @@ class ResultsScreen(PageScreen):
     def make_view(self) -> Any:
         """Return the parts of the screen below each other."""
         return pn.Column(
-            self.choice, self.problem.pane, self.earlier, self.answer, self.prediction.view, self.missing.view,
-            self.section, self.drawn, self.same, sizing_mode="stretch_width",
+            self.choice, self.problem.pane, self.earlier, self.stale, self.warnings.view, self.answer,
+            self.prediction.view, self.missing.view, self.section, self.drawn, self.same, sizing_mode="stretch_width",
         )  # fmt: skip
 
     def show(self) -> None:
@@ -89,8 +94,11 @@ class ResultsScreen(PageScreen):
         with self.problem.watch():
             folder = self.desk.folder.find(name)
             now = (name, (folder / DIAGNOSIS).stat().st_mtime)
-            if now != self.shown:
+            if now == self.shown:
+                self._list_warnings()
+            else:
                 self.shown = now
+                self.warnings.forget()
                 self.answer.object = write_note(f"Reading {name} ...")
                 run_next(lambda: self._show_result(folder))
 
@@ -118,6 +126,24 @@ class ResultsScreen(PageScreen):
             "lostmotion", "diagnose", "CASE.toml", "--out", self.desk.folder.name_of(folder)
         )
         self._draw_section()
+        run_next(self._list_warnings)
+
+    def _show_changed(self) -> None:
+        """Show what is left of the warnings after a remedy; the result is that of the case before."""
+        self.desk.tell()
+        run_next(self._list_warnings)
+
+    def _list_warnings(self) -> None:
+        """Show the warnings of a result about the case of this recording, if the case is still that of the result."""
+        with self.problem.watch():
+            folder, found = self.desk.folder.find(self.shown[0]), self.found
+            own = folder in self.desk.list_results() and (folder / CASE).is_file() and bool(self.desk.content)
+            changed = own and self.desk.has_changed(folder)
+            self.stale.object = write_note(CHANGED) if changed else ""
+            warned: list[WarnedCase] = []
+            if isinstance(found, DiagnosisResult) and own and not changed:
+                warned += list_result_warnings(found.result, self.desk)
+            self.warnings.show(warned)
 
     def _draw_section(self) -> None:
         self.drawn.object = ""

@@ -14,7 +14,8 @@ from lostmotion.preparation.prepare import case_of
 from lostmotion.recording import Recording, Table, load_recording, read_table
 from lostmotion.recording.clock import FoundTime, find_time
 from lostmotion.recording.folders import digest_recording
-from lostmotion.recording.timing import resample_channel
+from lostmotion.recording.time_gaps import cut_at_gaps, cut_table
+from lostmotion.recording.timing import GapError, resample_channel
 from lostmotion.registry import Registry
 from lostmotion.settings import DEFAULT, RecordingSettings
 from lostmotion_chaos.signals.series import LEAST
@@ -151,8 +152,20 @@ def _check_missing(x: Array, kept: int) -> None:
 
 def _load_from_file(path: Path, wanted: WantedChannel) -> Source:
     """Return the requested columns of a recording file as one channel."""
-    table = read_table(path)
-    found = find_time(table, path.name, None if wanted.rate else wanted.time, wanted.rate)
+    table, gaps = read_table(path), list[str]()
+    given = None if wanted.rate else wanted.time
+    try:
+        found = find_time(table, path.name, given, wanted.rate)
+    except GapError as err:
+        longest = next(iter(cut_at_gaps(err)), None)
+        if longest is None:
+            raise
+        gaps = [
+            f"The time has gaps: the longest section without gaps is analysed, {longest.last - longest.first} of"
+            f" {err.time.size} samples."
+        ]
+        table = cut_table(table, longest, err.time.size)
+        found = find_time(table, path.name, given)
     names = _choose_columns(table, wanted.columns, found.column, path.name)
     if found.column and table.columns[names[0]].size != found.time.size:
         raise DataError(
@@ -161,7 +174,7 @@ def _load_from_file(path: Path, wanted: WantedChannel) -> Source:
         )
     unit = table.units.get(names[0], "")
     first = f"{path.name}: {table.columns[names[0]].size} rows at {1.0 / found.clock.dt:.6g} Hz, {found.says}"
-    notes = [first, *found.notes]
+    notes = [first, *gaps, *found.notes]
     series = [_resample(table.columns[name], found) for name in names]
     pieces = [values[_find_longest_stretch(values, notes)] for values in series]
     if len(pieces) == 1:
