@@ -234,8 +234,9 @@ class ExplanationSearch:
         if bare.posterior.active in self.found:
             self._lift(self.found[bare.posterior.active])
         if late := {onset_key(key) for key in bare.posterior.active if find_onset(bare.posterior, key) > ALWAYS}:
-            always = restart(bare).hold_values(dict.fromkeys(late, ALWAYS))
-            self.weigh(maximise(always, bare.theta, tolerance=ROUGHLY), begin, choice)
+            always = maximise(restart(bare).hold_values(dict.fromkeys(late, ALWAYS)), bare.theta, tolerance=ROUGHLY)
+            if always.status != "diverged":
+                self.weigh(always, begin, choice)
 
     def _renew_bare(self, bare: Fit, found: Hypothesis) -> Fit:
         """Return the fit of a set without a discrepancy, from where its hypothesis is if that is much better."""
