@@ -94,14 +94,15 @@ class ExplanationSearch:
     def _run(self) -> None:
         """Climb, weigh what is near the best set, and extend it."""
         self.bare.climb(self.budget)
-        plain = self.bare.fits[self.bare.leave_out_waves(self.bare.lead)]
+        lead = self.bare.lead
+        plain = self.bare.fits[self.bare.leave_out_waves(lead)]
         self.use_errors(renew_hums(self.errors, plain, self.recordings or plain.posterior.observations))
-        self.weigh(self.bare.fits[self.bare.lead])
+        self.weigh(self.bare.fits[lead])
         if frozenset() not in self.found:
             self._drop_all(self.best)
         if len(self.best.terms) > 1:
             self._weigh_promised(self.found[frozenset()])
-        self._reduce(self.bare.lead)
+        self._reduce(lead)
         self._weigh_close()
         self._replace_each()
         while (target := self._choose_next()) is not None:
