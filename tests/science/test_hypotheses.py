@@ -131,8 +131,8 @@ def test_the_linear_response_equals_its_plain_twin():
 
 @pytest.fixture(scope="module")
 def rubbing(tmp_path_factory):
-    """Return the search, not yet run, for a machine with dry friction."""
-    return start_search(tmp_path_factory.mktemp("rub"), rub)
+    """Return the search for a machine with dry friction, after its run."""
+    return start_search(tmp_path_factory.mktemp("rub"), rub).run()
 
 
 @pytest.mark.parametrize("bent", [{}, {"cosine": 1e-3, "sine": -7e-4, "pitch": 0.03}])
@@ -225,11 +225,10 @@ def test_every_sensor_has_three_errors_and_every_drive_two(rubbing):
 
 
 def test_dry_friction_is_the_explanation_with_the_true_damping(rubbing):
-    found = rubbing.run()
-    shares = compute_probabilities(found.found.values(), found.best.scatter)
+    shares = compute_probabilities(rubbing.found.values(), rubbing.best.scatter)
     friction = sum(p for terms, p in shares.items() if any("friction" in key for key in terms))
     assert friction > 0.95
-    best = found.best
+    best = rubbing.best
     assert best.terms == {"coulomb_friction"}
     sd = math.sqrt(
         best.covariance[list(best.frame.posterior.space.keys).index("c")][
