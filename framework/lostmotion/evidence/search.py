@@ -37,7 +37,7 @@ REACH = 8.0
 MOST_UNKNOWN = 2
 """The number of sets with terms, best first, beside which an unknown force is fitted."""
 FAR = 300.0
-"""A known subset whose score is lower than the best by more than this is not fitted again from another point."""
+"""A known subset whose score is lower than the best by more than this is fitted again only from a better point."""
 
 
 @dataclass
@@ -306,9 +306,7 @@ class ExplanationSearch:
 
     def _drop(self, target: Hypothesis, key: str, less: Terms) -> None:
         """Fit a set `less` without one of the terms, perhaps with a simpler law in its place, starting from the set."""
-        known, least = self.found.get(less), self.score(self.best) - FAR
-        far = known is not None and self.score(known) < least
-        if far or (target.terms, less) in self.dropped:
+        if (target.terms, less) in self.dropped:
             return
         self.dropped.add((target.terms, less))
         own = self._get_own_values(target)
@@ -316,9 +314,18 @@ class ExplanationSearch:
         for simpler in less - target.terms:
             shared = {simpler + name.removeprefix(key): v for name, v in own.items() if name.startswith(f"{key}.")}
             posterior = add_term(posterior, ScoreTest(simpler, 0.0, shared, 1.0), {})
+        if (
+            self._is_far(less)
+            and not posterior.log_likelihood(posterior.space.start) > self.bare.fits[less].log_likelihood
+        ):
+            return
         fit = self.bare.fits.get(less) or maximise(posterior, tolerance=ROUGHLY)
         if fit.status != "diverged":
             self.weigh(fit, _leave_out(target, [key]), target.choice)
+
+    def _is_far(self, terms: Terms) -> bool:
+        """Return whether a set was weighed, and its score is far below the best one."""
+        return terms in self.found and self.score(self.found[terms]) < self.score(self.best) - FAR
 
     def _drop_all(self, target: Hypothesis) -> None:
         """Weigh the model without any term, starting from a set."""
