@@ -67,6 +67,17 @@ def find_machines(name: str, machines: Path, limit: int) -> list[Path]:
     return [folder for folder in folders if (folder / "case.toml").exists()][: limit or None]
 
 
+def limit_processor(limit: float) -> None:
+    """End this process after `limit` s of processor time."""
+    seconds = int(limit)
+    resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 5))
+
+
+def is_timeout(status: int | None) -> bool:
+    """Return whether an exit status is that of a process at its limit of time."""
+    return status in (-signal.SIGXCPU, -signal.SIGKILL)
+
+
 def run_command(command: list[str], code: Path, place: Path, limit: float) -> tuple[int, float, float]:
     """Return the exit status of a command of a checkout, its processor time and its time on the clock, in s.
 
@@ -74,13 +85,11 @@ def run_command(command: list[str], code: Path, place: Path, limit: float) -> tu
     """
     path = os.pathsep.join(str(code / part) for part in ("framework", "plugins"))
     env = {**os.environ, "PYTHONPATH": path, **dict.fromkeys(ONE_THREAD, "1")}
-    begin, seconds = time.monotonic(), int(limit)
-
-    def bound() -> None:
-        resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 5))
-
+    begin = time.monotonic()
     with (place / "said.txt").open("w") as said:
-        child = subprocess.Popen(command, env=env, cwd=place, stdout=said, stderr=said, preexec_fn=bound)
+        child = subprocess.Popen(
+            command, env=env, cwd=place, stdout=said, stderr=said, preexec_fn=lambda: limit_processor(limit)
+        )
     watch = threading.Timer(PATIENCE * limit, child.kill)
     watch.start()
     try:
@@ -107,7 +116,7 @@ def diagnose(folder: Path, code: Path, limit: float) -> dict:
         status, used, clock = run_command(command, code, place, limit)
         row = {"cpu": round(used, 2), "clock": round(clock, 2)}
         file = place / "out" / "diagnosis.json"
-        if status in (-signal.SIGXCPU, -signal.SIGKILL):
+        if is_timeout(status):
             return {**row, "status": "timeout", "limit": limit}
         if status or not file.exists():
             said = (place / "said.txt").read_text().strip().splitlines()

@@ -11,8 +11,6 @@ import itertools
 import json
 import math
 import multiprocessing
-import resource
-import signal
 import time
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
@@ -21,7 +19,7 @@ from pathlib import Path
 
 import numpy as np
 
-from judge import describe_code
+from judge import describe_code, is_timeout, limit_processor
 from judge_truth import EXCITATION_NOISE, write_driven_case, write_table
 from lostmotion.case import dump_case
 from lostmotion.errors import LostMotionError
@@ -131,21 +129,21 @@ def run_limited(run: Trial, trial: int, limit: float) -> dict[str, object]:
     """Return the row of a trial, run in a process that may use `limit` s of processor time (`cpu`, s)."""
     context = multiprocessing.get_context("fork")
     here, there = context.Pipe(duplex=False)
-    process = context.Process(target=_send_row, args=(there, run, trial, int(limit)), daemon=True)
+    process = context.Process(target=_send_row, args=(there, run, trial, limit), daemon=True)
     process.start()
     there.close()
     try:
         row: dict[str, object] = here.recv()
     except EOFError:
         process.join()
-        timed_out = process.exitcode in (-signal.SIGXCPU, -signal.SIGKILL)
+        timed_out = is_timeout(process.exitcode)
         return {"status": "timeout" if timed_out else f"failed: exit status {process.exitcode}", "cpu": limit}
     process.join()
     return row
 
 
-def _send_row(there: Connection, run: Trial, trial: int, limit: int) -> None:
-    resource.setrlimit(resource.RLIMIT_CPU, (limit, limit + 5))
+def _send_row(there: Connection, run: Trial, trial: int, limit: float) -> None:
+    limit_processor(limit)
     try:
         row = dict(run(trial))
     except (LostMotionError, ValueError, ArithmeticError) as err:

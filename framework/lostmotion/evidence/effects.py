@@ -21,7 +21,14 @@ from lostmotion.evidence.hypothesis import Hypothesis, solve_posterior
 from lostmotion.inference.candidates import make_term_parameters
 from lostmotion.inference.far_values import hold_shape
 from lostmotion.inference.late import can_have_onset
-from lostmotion.inference.natural import compute_size, find_term, list_star_points, list_tried_values, sort_slots
+from lostmotion.inference.natural import (
+    compute_size,
+    find_term,
+    is_scanned,
+    list_star_points,
+    list_tried_values,
+    sort_slots,
+)
 from lostmotion.inference.rounding import drop_rounding
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.posterior import Posterior
@@ -131,14 +138,9 @@ def _list_effects(
     usual = _list_star_shapes(posterior, shapes)
     tried = drop_rounding(posterior, key, (*usual, *more)) if shapes else usual
     yield from differentiate_term(posterior, theta, filtered, key, tried)
-    if _is_scanned(amplitudes):
+    if is_scanned(amplitudes):
         reached = np.array(list_tried_values(amplitudes[0].param, posterior.scales))[:, None]
         yield from differentiate_term(posterior, theta, filtered, key, [{}] * len(reached), reached)
-
-
-def _is_scanned(amplitudes: Sequence[Slot]) -> bool:
-    """Return whether the only amplitude of a term has a range to be scanned."""
-    return len(amplitudes) == 1 and amplitudes[0].param.scan is not None
 
 
 def get_usual_shape(posterior: Posterior, key: str) -> Mapping[str, float] | None:
@@ -311,7 +313,7 @@ def _predict(found: Hypothesis, effect: TermEffect, joined: Curvature, less: flo
     sizes, low = step[n:], np.array([slot.param.low for slot in effect.amplitudes])
     if np.all(sizes < low):
         return lost
-    if _is_scanned(effect.amplitudes) and not REACHED[0] < (sizes / effect.sizes).item() < REACHED[1]:
+    if is_scanned(effect.amplitudes) and not REACHED[0] < (sizes / effect.sizes).item() < REACHED[1]:
         return lost
     start = {s.key: float(a) for s, a in zip(effect.amplitudes, np.maximum(sizes, low), strict=True)}
     return Promise(effect.key, quadratic.evaluate(choice) - less, {**effect.shape, **start}, step[:n], choice)

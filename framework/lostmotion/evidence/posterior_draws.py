@@ -50,7 +50,7 @@ def draw_own(found: Hypothesis, count: int, rng: np.random.Generator) -> Array:
         root = compute_root(found.scatter * other.covariance)
         middle = (found.at + step)[: found.frame.own] + shares @ (found.at + step)
         away = rng.standard_normal((len(rows), found.frame.own)) @ root.T
-        if max(choice, default=-1) >= 0:
+        if choice != found.frame.none:
             away *= np.sqrt(FREEDOM / rng.chisquare(FREEDOM, len(rows)))[:, None]
         made[rows] = middle + away
     low, high = (bound[: found.frame.own] for bound in found.frame.bounds)

@@ -314,12 +314,10 @@ class ExplanationSearch:
         for simpler in less - target.terms:
             shared = {simpler + name.removeprefix(key): v for name, v in own.items() if name.startswith(f"{key}.")}
             posterior = add_term(posterior, ScoreTest(simpler, 0.0, shared, 1.0), {})
-        if (
-            self._is_far(less)
-            and not posterior.log_likelihood(posterior.space.start) > self.bare.fits[less].log_likelihood
-        ):
+        known = self.bare.fits.get(less)
+        if known and self._is_far(less) and not posterior.log_likelihood(posterior.space.start) > known.log_likelihood:
             return
-        fit = self.bare.fits.get(less) or maximise(posterior, tolerance=ROUGHLY)
+        fit = known or maximise(posterior, tolerance=ROUGHLY)
         if fit.status != "diverged":
             self.weigh(fit, _leave_out(target, [key]), target.choice)
 

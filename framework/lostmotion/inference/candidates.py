@@ -30,6 +30,7 @@ from lostmotion.inference.natural import (
     compute_size,
     find_term,
     is_choice,
+    is_scanned,
     list_star_points,
     list_tried_values,
     make_free_parameters,
@@ -108,7 +109,7 @@ def run_score_tests(
     late = bounded and amplitudes[0].param.dimension == TIME
     if len(amplitudes) == 1 and not posterior.active and not late and (far := try_far_values(fit, amplitudes[0], key)):
         hints.append(ScoreTest(key, far.gain, {amplitudes[0].key: far.value}, hints[0].distinct, far.base))
-    if len(amplitudes) == 1 and amplitudes[0].param.scan:
+    if is_scanned(amplitudes):
         hints += _test_secants(fit, slopes, key, amplitudes[0])
     return hints
 

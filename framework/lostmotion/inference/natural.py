@@ -127,6 +127,11 @@ def list_star_points(grids: Sequence[Sequence[float]]) -> list[tuple[float, ...]
     return list(dict.fromkeys(points)) or [()]
 
 
+def is_scanned(amplitudes: Sequence[Slot]) -> bool:
+    """Return whether the only amplitude of a term has a range to be scanned: its effect is not proportional to it."""
+    return len(amplitudes) == 1 and amplitudes[0].param.scan is not None
+
+
 def list_tried_values(param: Param, scales: Scales) -> tuple[float, ...]:
     """Return the values at which a shape parameter is tried."""
     if param.scan:
