@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -135,12 +134,14 @@ def _list_effects(
     secants to the values of the range are effects too.
     """
     amplitudes, shapes = sort_slots(posterior, key)
+    if is_scanned(amplitudes) and not shapes:
+        param = amplitudes[0].param
+        sizes = (SMALL * compute_size(param, posterior.scales), *list_tried_values(param, posterior.scales))
+        yield from differentiate_term(posterior, theta, filtered, key, [{}] * len(sizes), np.array(sizes)[:, None])
+        return
     usual = _list_star_shapes(posterior, shapes)
     tried = drop_rounding(posterior, key, (*usual, *more)) if shapes else usual
     yield from differentiate_term(posterior, theta, filtered, key, tried)
-    if is_scanned(amplitudes):
-        reached = np.array(list_tried_values(amplitudes[0].param, posterior.scales))[:, None]
-        yield from differentiate_term(posterior, theta, filtered, key, [{}] * len(reached), reached)
 
 
 def get_usual_shape(posterior: Posterior, key: str) -> Mapping[str, float] | None:
@@ -237,18 +238,22 @@ def _compute_differences(
     amplitudes, fixed = sort_slots(posterior, key)
     frees = (*make_term_parameters(posterior, key, amplitudes, {}), *(hold_shape(slot) for slot in fixed))
     wider, own, count = posterior.extend(frees, {key}), len(theta), len(amplitudes)
-    points = []
-    for shape, size in zip(shapes, sizes, strict=True):
-        zero = np.concatenate([theta, np.zeros(count), [shape[s.key] for s in fixed]])
-        points += [zero, *(zero + np.eye(len(zero))[own + a] * size[a] for a in range(count))]
-    seen = wider.innovations(np.array(points))
-    errors = seen.errors.reshape(len(shapes), 1 + count, -1)
-    variances = seen.variances.reshape(len(shapes), 1 + count, -1)
-    told: Any = np.asarray(seen.finite).reshape(len(shapes), 1 + count).all(axis=1)
-    finite = np.repeat(told[:, None, None], count, axis=1)
+    held = [tuple(shape[s.key] for s in fixed) for shape in shapes]
+    nulls = {values: np.concatenate([theta, np.zeros(count), values]) for values in held}
+    moved = [
+        nulls[values] + np.eye(own + count + len(fixed))[own + a] * size[a]
+        for values, size in zip(held, sizes, strict=True)
+        for a in range(count)
+    ]
+    seen = wider.innovations(np.array([*nulls.values(), *moved]))
+    of_null = np.repeat([list(nulls).index(values) for values in held], count)
+    finite = seen.finite[len(nulls) :] & seen.finite[of_null]
     with np.errstate(invalid="ignore"):
-        slopes = [np.where(finite, (e[:, 1:] - e[:, :1]) / sizes[..., None], np.nan) for e in (errors, variances)]
-    return slopes[0], slopes[1]
+        slopes = [
+            np.where(finite[:, None], (e[len(nulls) :] - e[of_null]) / sizes.reshape(-1, 1), np.nan)
+            for e in (seen.errors, seen.variances)
+        ]
+    return slopes[0].reshape(*sizes.shape, -1), slopes[1].reshape(*sizes.shape, -1)
 
 
 def join_effects(expansion: Expansion, effects: Sequence[TermEffect]) -> Expansion:

@@ -26,7 +26,7 @@ from lostmotion.evidence.hypothesis import Hypothesis, compute_step
 from lostmotion.inference.mixture import compute_root
 from lostmotion.inference.natural import sort_slots
 
-CHAIN = 400
+CHAIN = 100
 """The number of draws of smooth forces; with more draws of parameters each is used again."""
 FREEDOM = 3.0
 """Degrees of freedom of draws beside a smooth force. Of 96 parameters in machines with flaws of many kinds (the first

@@ -15,7 +15,7 @@ from functools import cached_property
 import numpy as np
 
 from lostmotion.contracts import Array, SensorTerm, place_of
-from lostmotion.inference.candidates import compute_slopes, predict_gain, run_score_test
+from lostmotion.inference.candidates import compute_slopes, predict_gain
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.natural import compute_size, find_term, list_tried_values, sort_slots
 from lostmotion.inference.resonance_scan import scan_resonances
@@ -190,9 +190,7 @@ def scan_shapes(fit: Fit) -> dict[str, list[dict[str, float]]]:
         of_sensor = find_term(posterior, key)[0].acts == "sensor"
         if best := _select_best_shape(_make_sensor_errors(posterior, fit.theta, key) if of_sensor else motion, key):
             slopes, least = slopes or compute_slopes(fit), fit.posterior.settings.select.shape_gain
-            if predict_gain(fit, slopes, key, best) > least:
-                hint = run_score_test(fit, slopes, key, [best])
-                found |= {key: [best]} if best.items() <= hint.start.items() else {}
+            found |= {key: [best]} if predict_gain(fit, slopes, key, best) > least else {}
     return found
 
 
