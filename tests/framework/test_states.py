@@ -50,25 +50,12 @@ def test_a_change_at_the_very_beginning_may_be_a_wrong_known_value(share, sure):
     assert doubts == () if sure else ["first 3 % of the recording" in doubt for doubt in doubts] == [True]
 
 
-@pytest.mark.parametrize(("more", "sure"), [(12.0, False), (8.0, True)])
-def test_a_further_name_beside_a_discrepancy_that_explains_more_is_likely(more, sure):
-    rub, late = make_found(FRICTION, gain=29.0), make_found(DELAY, gain=10.0)
-    facts = make_facts(rub, late, leftover=more)
-    said = ["add 12 to the log evidence, this term 10" in doubt for doubt in list_doubts(facts, late)]
-    assert said == ([] if sure else [True])
-    assert list_doubts(facts, rub) == ()
-
-
 @pytest.mark.parametrize(("after", "sure"), [(0.06, False), (0.05004, True), (0.04, True)])
 def test_a_name_that_makes_free_runs_worse_is_likely(after, sure):
     """The errors that the page shows are 5 %, and 6 %, 5 % or 4 %."""
     predicted = {"before": make_prediction(0.05), "after": make_prediction(after)}
     said = ["rises from 5 % to 6 %" in doubt for doubt in doubts_of(make_found(FRICTION), **predicted)]
     assert said == ([] if sure else [True])
-
-
-def test_a_single_name_needs_its_probability_only():
-    assert doubts_of(make_found(FRICTION, gain=10.0), leftover=300.0) == ()
 
 
 @pytest.mark.parametrize(

@@ -79,11 +79,6 @@ def test_the_gain_of_a_term_is_its_evidence_beside_a_discrepancy(rubbing):
     assert rubbing.gain(unfitted) == rubbing.promised[unfitted]
 
 
-def test_the_discrepancy_adds_what_the_terms_alone_lack(rubbing):
-    more = rubbing.best.log_evidence - rubbing.chosen.log_evidence
-    assert rubbing.leftover == max(more, 0.0)
-
-
 @pytest.mark.parametrize(("deviations", "vague"), [(1.0, ["force"]), (4.0, [])])
 def test_an_amplitude_whose_region_reaches_zero_is_vague(rubbing, deviations, vague):
     best = rubbing.best

@@ -349,6 +349,26 @@ def test_a_set_is_not_worse_than_its_subset(rubbing):
     assert search.found[terms] is lifted
 
 
+@pytest.mark.parametrize(("more", "kept"), [(8.0, True), (12.0, False)])
+def test_a_law_that_adds_less_than_the_discrepancy_is_no_name(rubbing, monkeypatch, more, kept):
+    """A cubic spring adds 10 beside friction, which adds 500; the discrepancy adds `more` to both."""
+    rub, cubic = frozenset({"coulomb_friction"}), frozenset({"cubic_stiffness"})
+    base = rubbing.found[frozenset()]
+    search = copy.copy(rubbing)
+    search.found = {}
+    for terms, score in ((frozenset(), 0.0), (rub, 500.0), (cubic, 40.0), (rub | cubic, 510.0)):
+        frame = replace(base.frame, posterior=base.frame.posterior.acting(terms))
+        search.found[terms] = replace(base, frame=frame, log_evidence=score, price=0.0)
+    monkeypatch.setattr(ExplanationSearch, "_drop_each", lambda self: None)
+    monkeypatch.setattr(ExplanationSearch, "_measure_leftover", lambda self, found: more)
+    search.leave_out_sharers()
+    assert set(search.found) == {frozenset(), rub, cubic} | ({rub | cubic} if kept else set())
+
+
+def test_the_leftover_of_the_right_law_is_small(rubbing):
+    assert rubbing._measure_leftover(rubbing.best) < 0.0 < rubbing._measure_leftover(rubbing.found[frozenset()])
+
+
 @pytest.mark.parametrize("onset", [3.0, ALWAYS])
 def test_a_law_with_an_onset_is_weighed_without_it_as_well(tmp_path, onset):
     """Friction that acts from the beginning has no onset, even where its bare fit has one; late friction keeps it."""

@@ -119,11 +119,11 @@ class Facts:
     terms by their keys. `unnamed` is the entry of a force without a name, `quantised` those of quantisation.
     `augmented` states whether anything was added to the nominal model, `structured` whether the force that is left has
     a structure, `remains` the share of the missing force that is left. `unknown` is the probability of a force that the
-    library lacks, with its log evidence `unknown_gain`; `smooth_fitted` states whether one was fitted. `leftover` is
-    the log evidence of the discrepancy, `explanations` the number of fitted sets, `skipped` names those that were not
-    extended. `withdrawn` are the keys of terms that held-out data refuted, `corrected` clauses on corrected errors,
-    `contacts` notes on short contacts. `position` is the smoothed position where no sensor shows it. `recordings` are
-    whole, `fitted` and `held` their parts. `said` are the notes on the case and its recordings.
+    library lacks, with its log evidence `unknown_gain`; `smooth_fitted` states whether one was fitted. `explanations`
+    is the number of fitted sets, `skipped` names those that were not extended. `withdrawn` are the keys of terms that
+    held-out data refuted, `corrected` clauses on corrected errors, `contacts` notes on short contacts. `position` is
+    the smoothed position where no sensor shows it. `recordings` are whole, `fitted` and `held` their parts. `said` are
+    the notes on the case and its recordings.
     """
 
     settings: Settings
@@ -153,7 +153,6 @@ class Facts:
     smooth_fitted: bool = False
     unknown: float = 0.0
     unknown_gain: float = 0.0
-    leftover: float = 0.0
     explanations: int = 1
     skipped: tuple[str, ...] = ()
     withdrawn: tuple[str, ...] = ()

@@ -80,7 +80,6 @@ def gather_facts(outcome: Outcome, case: CaseFile, said: Sequence[str] = ()) -> 
         smooth_fitted=any(one.unknown for one in d.explained.found.values()),
         unknown=unknown,
         unknown_gain=gain,
-        leftover=d.explained.leftover,
         explanations=len(d.explained.found),
         skipped=d.explained.skipped,
         withdrawn=d.withdrawn,

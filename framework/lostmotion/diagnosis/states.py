@@ -95,21 +95,13 @@ def doubt_vague_size(_: Facts, found: FoundTerm) -> Iterator[str]:
 
 
 @doubt()
-def doubt_rest(facts: Facts, found: FoundTerm) -> Iterator[str]:
-    """Yield a doubt beside an unknown force, and if a further term adds less than the discrepancy does.
-
-    A further term takes a share of the discrepancy more easily than the one that adds most.
-    """
-    unknown, ordered = facts.inclusion(UNKNOWN), sorted(facts.found, key=lambda one: one.key)
+def doubt_rest(facts: Facts, _: FoundTerm) -> Iterator[str]:
+    """Yield a doubt beside an unknown force."""
+    unknown = facts.inclusion(UNKNOWN)
     if unknown > facts.settings.name.rival:
         yield (
             "Beside the term, an unknown force that is larger than the usual errors of a model has the probability"
             f" {rounded(unknown)}: the term may be a part of it."
-        )
-    elif found.key != max(ordered, key=lambda one: one.support.gain).key and facts.leftover > found.support.gain:
-        yield (
-            f"Beside the terms, small errors of the model without a name add {rounded(facts.leftover)} to the log"
-            f" evidence, this term {rounded(max(found.support.gain, 0.0))}: it may be a part of them."
         )
 
 

@@ -76,10 +76,10 @@ class Course:
         return whole
 
     def _complete(self, search: ExplanationSearch) -> None:
-        """Weigh the best set without each of its terms, and unknown forces, unless the user has cancelled."""
+        """Weigh what is left without each law of the best set, and unknown forces, unless the user has cancelled."""
         if not search.cancelled:
             with search.cancellable():
-                search.drop_each()
+                search.leave_out_sharers()
                 search.weigh_unknown()
 
     def _find_memory(self, search: ExplanationSearch) -> Fit | None:

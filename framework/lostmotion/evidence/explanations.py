@@ -95,11 +95,6 @@ class Explanations:
         less = self.found.get(self.best.terms - {key})
         return self.best.score() - less.score() if less else self.gain(key)
 
-    @property
-    def leftover(self) -> float:
-        """The log evidence that the discrepancy adds to the most probable terms; at least 0."""
-        return max(self.best.log_evidence - self.chosen.log_evidence, 0.0)
-
     def refute(self) -> Explanations:
         """Return the explanations without the most probable set of terms; without any, no curves are learned."""
         return replace(self, refuted=self.refuted | {self.terms if self.best.terms else frozenset({UNKNOWN})})

@@ -117,7 +117,7 @@ class ExplanationSearch:
         """Use these errors of channels from now on."""
         self.errors = self.bare.errors = errors
 
-    def drop_each(self) -> None:
+    def _drop_each(self) -> None:
         """Weigh the best set without each of its terms, and with simpler ones, until the best set stays the same."""
         tried: set[Terms] = set()
         while (best := self.best).terms not in tried:
@@ -141,6 +141,26 @@ class ExplanationSearch:
         for key in sorted(target.frame.terms):
             for less in self.bare.reduce(target.terms, key):
                 self._drop(target, key, less)
+
+    def leave_out_sharers(self) -> None:
+        """Leave out laws that add less to the best set than its discrepancy does, but the one that adds most.
+
+        They only share with the discrepancy what it explains: several such names are one force without a name.
+        """
+        self._drop_each()
+        while len(best := self.best.terms) > 1 and all(best - {key} in self.found for key in best):
+            gains = {key: self.best.score() - self.found[best - {key}].score() for key in sorted(best)}
+            least = min(gains, key=lambda key: gains[key])
+            if gains[least] >= self._measure_leftover(self.best):
+                return
+            for terms in [one for one in self.found if one > {least}]:
+                del self.found[terms]
+            self.say(f"{least} only shares what a smooth force explains")
+            self._drop_each()
+
+    def _measure_leftover(self, found: Hypothesis) -> float:
+        """Return the log evidence that the discrepancy adds to the laws of a hypothesis."""
+        return (found.log_evidence - self.bare.fits[found.terms].log_evidence) / self.temper
 
     def weigh_unknown(self) -> None:
         """Fit the best sets, and the model without any term, with an unknown force."""
