@@ -349,6 +349,22 @@ def test_a_set_is_not_worse_than_its_subset(rubbing):
     assert search.found[terms] is lifted
 
 
+def test_no_recording_tells_the_unit_of_force(rubbing):
+    """All that has the unit of force, changed together with the scale of the drive, leaves the errors as they are."""
+    best = rubbing.best
+    frame, seen = best.frame, best.expansion
+    change = np.zeros(frame.count)
+    (scale,) = [i for i, one in enumerate(frame.errors) if isinstance(one, DriveError) and not one.late]
+    for i, name in enumerate(frame.names):
+        change[i] = {"c": 1.0, "k": 1.0, "m": 1.0, "log_random_force": 1.0}.get(name, 0.0)
+        change[i] = best.at[i] if name == "coulomb_friction.force" else change[i]
+    drive = seen.errors[frame.channels.start + scale]
+    left = change @ seen.errors
+    left -= (left @ drive) / (drive @ drive) * drive
+    known = 1.0 / rubbing.nominal.posterior.settings.rival.known**2
+    assert np.sum(left**2 / seen.here.variances) < 0.01 * known
+
+
 @pytest.mark.parametrize(("more", "kept"), [(8.0, True), (12.0, False)])
 def test_a_law_that_adds_less_than_the_discrepancy_is_no_name(rubbing, monkeypatch, more, kept):
     """A cubic spring adds 10 beside friction, which adds 500; the discrepancy adds `more` to both."""

@@ -28,6 +28,7 @@ from lostmotion.evidence.slopes import list_force_slopes
 from lostmotion.inference.curves import compute_coefficient_size
 from lostmotion.inference.fit import choose_first_steps, list_stencil_points, make_stencil
 from lostmotion.inference.learned import OverPhase, OverPosition, OverTime, OverVelocity, compute_spread
+from lostmotion.inference.natural import find_term
 from lostmotion.likelihood.innovations import Innovations, join_innovations, join_recordings
 from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.space import FreeParameter
@@ -257,11 +258,18 @@ class JointFrame:
 
     @cached_property
     def _exact(self) -> Array:
-        """The small finite-difference steps of own parameters of the model (own,); zero for others."""
-        names = {p.name for p in self.posterior.system.model.params}
+        """The small finite-difference steps of own parameters that change with a unit (own,); zero for others.
+
+        They are those of the model, and forces and lengths of laws: with longer steps over a kink, derivatives of laws
+        would not add up to zero with those of the model. What rounds a sensor has no derivative at a point.
+        """
+        laws = [find_term(self.posterior, key) for key in self.terms]
+        slots = [slot for term, slots in laws if term.acts != "sensor" for slot in slots]
+        scaled = {slot.key for slot in slots if slot.param.dimension.force or slot.param.dimension.length}
+        scaled |= {p.name for p in self.posterior.system.model.params}
         own = self.posterior.space.free[: self.own]
         units = np.array([1.0 if f.log else min(f.sd, f.high - f.low) for f in own])
-        return EXACT * units * [f.parameter in names for f in own]
+        return EXACT * units * [f.parameter in scaled for f in own]
 
     @cached_property
     def _terms(self) -> dict[str, OverPosition]:
