@@ -17,8 +17,9 @@ from lostmotion.diagnosis.stages import list_fitted_keys
 from lostmotion.evidence.forecast import Detectable, Forecast, make_forecast, measure_levels
 from lostmotion.evidence.hypothesis import WAVE
 from lostmotion.inference.curves import add_all_curves
-from lostmotion.inference.fit import Fit, solve_scaled
+from lostmotion.inference.fit import Fit
 from lostmotion.inference.natural import find_term
+from lostmotion.inference.scaled_equations import solve_scaled
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.space import RANDOM

@@ -26,9 +26,9 @@ from lostmotion.evidence.effects import (
 )
 from lostmotion.evidence.expansion import compute_cross_information, differentiate_density
 from lostmotion.evidence.hypothesis import Hypothesis, group_amplitudes
-from lostmotion.inference.fit import solve_scaled
 from lostmotion.inference.natural import compute_size, find_term, sort_slots
 from lostmotion.inference.penalties import is_simpler
+from lostmotion.inference.scaled_equations import solve_scaled
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.system import Slot

@@ -15,7 +15,8 @@ from scipy.stats import chi2, norm
 from lostmotion.evidence.channel_errors import ChannelError, DriveError, ScaleError
 from lostmotion.evidence.hypothesis import Hypothesis
 from lostmotion.evidence.sensor_hum import SensorHum
-from lostmotion.inference.fit import Fit, maximise, solve_scaled
+from lostmotion.inference.fit import Fit, maximise
+from lostmotion.inference.scaled_equations import solve_scaled
 from lostmotion.likelihood.observation import Observation
 
 CLEAR = 4.0

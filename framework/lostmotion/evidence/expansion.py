@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from scipy.linalg.lapack import dpotrf, dtrtrs
 
 from lostmotion.contracts import Array
-from lostmotion.inference.fit import solve_scaled
+from lostmotion.inference.scaled_equations import solve_scaled
 from lostmotion.likelihood.innovations import Innovations
 
 BLOCKS = 40

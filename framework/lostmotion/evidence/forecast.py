@@ -32,9 +32,10 @@ from lostmotion.evidence.effects import (
 from lostmotion.evidence.expansion import Expansion
 from lostmotion.evidence.explanations import TIED
 from lostmotion.evidence.hypothesis import Hypothesis
-from lostmotion.inference.fit import Fit, choose_first_steps, solve_scaled
+from lostmotion.inference.fit import Fit, choose_first_steps
 from lostmotion.inference.natural import compute_size, find_term, sort_slots
 from lostmotion.inference.penalties import compute_penalty, is_simpler
+from lostmotion.inference.scaled_equations import solve_scaled
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.space import RANDOM

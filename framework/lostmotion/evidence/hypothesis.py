@@ -21,9 +21,10 @@ from scipy.stats import chi2
 from lostmotion.contracts import Array
 from lostmotion.evidence.discrepancy import Choice, JointFrame, Quadratic
 from lostmotion.evidence.expansion import Curvature, Expansion
-from lostmotion.inference.fit import STRIDE, solve_scaled
+from lostmotion.inference.fit import STRIDE
 from lostmotion.inference.natural import find_term, sort_slots
 from lostmotion.inference.penalties import is_simpler
+from lostmotion.inference.scaled_equations import solve_scaled
 from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.system import Slot
 

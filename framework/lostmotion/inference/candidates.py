@@ -20,7 +20,6 @@ from lostmotion.inference.fit import (
     maximise,
     raise_random_force,
     restart,
-    solve_scaled,
 )
 from lostmotion.inference.late import (
     refine_change,
@@ -37,6 +36,7 @@ from lostmotion.inference.natural import (
     sort_slots,
 )
 from lostmotion.inference.rounding import drop_rounding, find_shortest_wave
+from lostmotion.inference.scaled_equations import solve_scaled
 from lostmotion.likelihood.posed import LATEST
 from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.space import FreeParameter

@@ -12,9 +12,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.linalg.lapack import dpotrf, dpotrs
 
 from lostmotion.contracts import Array
+from lostmotion.inference.scaled_equations import solve_scaled
 from lostmotion.likelihood.innovations import Innovations
 from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.space import RANDOM
@@ -35,8 +35,6 @@ ROUGHLY = 0.1
 """A fit that is to be compared with others has converged when a step predicts less gain in log posterior than this."""
 HOPELESS = 30.0
 """Such a fit is abandoned if it will not come closer than this to the best one in log posterior."""
-LEAST_PIVOT = 1e-5
-"""With a smaller pivot a matrix of unit diagonal is nearly singular: its solution is that of least squares then."""
 
 
 @dataclass(frozen=True)
@@ -94,22 +92,6 @@ class Fit:
         return dict(
             zip(self.posterior.space.keys, np.sqrt(np.maximum(np.diag(self.local.covariance), 0.0)), strict=True)
         )
-
-
-def solve_scaled(information: Array, right: Array) -> Array:
-    """Return the solution of `information @ x = right`, with each coordinate scaled to unit information.
-
-    Parameters differ by many orders of magnitude, and a cut at small eigenvalues would drop some of them.
-    """
-    unit = 1.0 / np.sqrt(np.maximum(np.diag(information), 1e-300))
-    scaled = information * np.outer(unit, unit)
-    tall = unit if right.ndim == 1 else unit[:, None]
-    if not len(unit):
-        return np.zeros_like(right)
-    lower, failed = dpotrf(scaled, lower=1)
-    if failed or not np.all(np.diag(lower) > LEAST_PIVOT):
-        return np.asarray(tall * np.linalg.lstsq(scaled, tall * right, rcond=1e-12)[0], dtype=float)
-    return np.asarray(tall * dpotrs(lower, tall * right, lower=1)[0], dtype=float)
 
 
 def choose_first_steps(posterior: Posterior) -> Array:
