@@ -46,7 +46,7 @@ def test_choices_are_drawn_by_their_evidence(pushed):
     seen = np.array([drawn.count(one) / DRAWS for one in choices])
     assert seen.sum() == pytest.approx(1.0)
     assert 0.5 * np.abs(seen - shares).sum() < 0.12
-    assert shares.max() < 0.98  # or nothing is averaged
+    assert shares.max() < 0.95  # or nothing is averaged
 
 
 @pytest.mark.parametrize("beside", [True, False])

@@ -148,10 +148,10 @@ class ExplanationSearch:
         They only share with the discrepancy what it explains: several such names are one force without a name.
         """
         self._drop_each()
-        while len(best := self.best.terms) > 1 and all(best - {key} in self.found for key in best):
-            gains = {key: self.best.score() - self.found[best - {key}].score() for key in sorted(best)}
+        while len((best := self.best).terms) > 1 and all(best.terms - {key} in self.found for key in best.terms):
+            gains = {key: best.score() - self.found[best.terms - {key}].score() for key in sorted(best.terms)}
             least = min(gains, key=lambda key: gains[key])
-            if gains[least] >= self._measure_leftover(self.best):
+            if gains[least] >= self._measure_leftover(best):
                 return
             for terms in [one for one in self.found if one > {least}]:
                 del self.found[terms]
