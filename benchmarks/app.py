@@ -33,6 +33,7 @@ SIMULATED = (
     "harmonic:amplitude=100,omega=40", "--rate", "640", "--noise", "0.01",
 )  # fmt: skip
 ERROR = "(words().match(/free runs: [^0-9]*([0-9.e-]+) %/) || [])[1]"
+DIAGNOSED = "diagnose-1: done, [0-9]+ s, ([0-9]+) s of processor time"
 PANEL = "Bokeh.documents[0].get_model_by_name('panel 0')"
 KNOWN = {"m": "1", "k0": "40000", "k1": "0"}
 UNITS = {"m": "kg", "k0": "N/m", "k1": "N/m"}
@@ -143,8 +144,12 @@ def measure(folder: Path) -> None:
         browser.click("Run")
         browser.wait_for("a process of its own", PATIENCE)
         browser.type("Budget in s of processor time (--budget)", "20")
+        before_run = server.processor
         press(browser, "Diagnose")
         browser.wait_for("diagnose-1: done", PATIENCE)
+        own, job = server.processor - before_run, float(browser.evaluate(f"words().match(/{DIAGNOSED}/)[1]"))
+        print(f"| the page open during a diagnosis of {job:.0f} s of processor time | 3 % | | {own:.2f} s,"
+              f" {own / job:.1%} |", flush=True)  # fmt: skip
         browser.click("Results")
         browser.wait_for("with ticked terms ", PATIENCE)
         browser.wait(ERROR, PATIENCE)
