@@ -156,7 +156,13 @@ def list_promises(screen: Screen, beside: ArmHypothesis, price: float, temper: f
             shift = np.zeros(len(seen.at))
             shift[used] = -pulled[:, part] @ step
             best[effect.key] = replace(found, shift=shift)
-    return sorted(best.values(), key=lambda p: -p.gain)
+    return _leave_richer(sorted(best.values(), key=lambda p: -p.gain), frame.terms)
+
+
+def _leave_richer(promises: Sequence[ArmPromise], present: frozenset[str]) -> list[ArmPromise]:
+    """Return the promises without laws of which a simpler form is proposed: they follow once that is in the set."""
+    proposed = {p.effect.key for p in promises if p.gain > 0.0} - present
+    return [p for p in promises if proposed.isdisjoint(p.effect.extends)]
 
 
 def _weigh_shape(
