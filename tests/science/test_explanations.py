@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from explained import VALUES, bend, explain_machine, made_of
 
-from lostmotion.diagnosis.gather_facts import _list_reaching
+from lostmotion.diagnosis.gather_facts import _list_reaching, _widen_vague
 from lostmotion.diagnosis.stages import diagnose, explain_by
 from lostmotion.diagnosis.unknowns import make_learned_entry
 from lostmotion.evidence.corrections import find_corrections
@@ -81,11 +81,16 @@ def test_the_gain_of_a_term_is_its_evidence_beside_a_discrepancy(rubbing):
 
 @pytest.mark.parametrize(("deviations", "vague"), [(1.0, ["force"]), (4.0, [])])
 def test_an_amplitude_whose_region_reaches_zero_is_vague(rubbing, deviations, vague):
+    """Its stated interval then reaches zero as well, where draws stop at a bound."""
     best = rubbing.best
     at, place = best.at.copy(), best.frame.names.index("coulomb_friction.force")
     at[place] = deviations * np.sqrt(best.scatter * best.covariance[place, place])
     moved = replace(best, expansion=replace(best.expansion, at=at))
     assert list_vague(moved, "coulomb_friction") == vague
+    told = {"coulomb_friction.force": Interval(0.8, 0.1, 1.5, "N"), "c": Interval(8.0, 7.0, 9.0, "N s/m")}
+    made = _widen_vague(moved, ["coulomb_friction"], told)
+    assert (made["coulomb_friction.force"].low == 0.0) == bool(vague)
+    assert made["c"] == told["c"]
 
 
 @pytest.mark.parametrize(("low", "vague"), [(-0.1, ["force"]), (0.1, [])])

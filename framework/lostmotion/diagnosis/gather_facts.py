@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -22,7 +23,7 @@ from lostmotion.diagnosis.outcome import Outcome, compute_intervals
 from lostmotion.diagnosis.stages import SearchResult, list_fitted_keys, list_physical_keys
 from lostmotion.diagnosis.states import NAMED
 from lostmotion.diagnosis.unknowns import make_learned_entry, make_unnamed_entry, weigh_unknown
-from lostmotion.evidence.hypothesis import group_amplitudes, list_vague
+from lostmotion.evidence.hypothesis import Hypothesis, group_amplitudes, list_vague
 from lostmotion.inference.contacts import list_short_contacts
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.late import estimate_onset
@@ -50,7 +51,7 @@ def gather_facts(outcome: Outcome, case: CaseFile, said: Sequence[str] = ()) -> 
     """Return the facts of a diagnosis; `said` are the notes on the case and its recordings."""
     d = outcome.diagnosis
     model, first = d.after.posterior.system.model, d.explained.chosen.posterior.observations[0]
-    intervals = compute_intervals(d.after, outcome.draws_after)
+    intervals = _widen_vague(d.explained.best, d.named, compute_intervals(d.after, outcome.draws_after))
     unknown, gain = weigh_unknown(d)
     return Facts(
         settings=d.settings,
@@ -224,6 +225,21 @@ def _make_found(outcome: Outcome, key: str, intervals: Mapping[str, Interval]) -
         sensor=_name_sensor(d, term),
         unlocated=unlocated,
     )
+
+
+def _widen_vague(best: Hypothesis, named: Iterable[str], intervals: Mapping[str, Interval]) -> dict[str, Interval]:
+    """Return the intervals, with that of each vague amplitude up to the value that does nothing.
+
+    Where this value is a bound, quantiles of draws lie beside it, however probable it is.
+    """
+    found = dict(intervals)
+    for key in named:
+        vague = set(list_vague(best, key))
+        for slot in sort_slots(best.frame.posterior, key)[0] if vague else ():
+            if slot.param.name in vague and slot.key in found:
+                null, told = slot.param.null or 0.0, found[slot.key]
+                found[slot.key] = replace(told, low=min(told.low, null), high=max(told.high, null))
+    return found
 
 
 def _make_support(d: SearchResult, key: str, intervals: Mapping[str, Interval]) -> Support:
