@@ -30,6 +30,8 @@ from lostmotion.robots.gears import Gear
 NUDGE = 1e-3
 """The step of differences over a coordinate, in units of it; of a small value, this part of its size at least."""
 SHARE = 0.02
+NEAR = 0.05
+"""Logarithms of levels that differ less have the same derivatives of one-step errors over them."""
 ROUNDS, CLOSE = 25, 0.05
 """The largest number of rounds of a fit, and the gain of a round after which it ends."""
 MOST_STEPS, CHORD, LONGEST_STEP = 8, 0.1, 1.5
@@ -99,12 +101,20 @@ class ArmFrame:
             last=self.last if last is None else last, keep=keep, **more,  # type: ignore[arg-type]
         )  # fmt: skip
 
-    def expand(self, at: Array, *, last: int | None = None) -> tuple[Expansion, FilteredLog]:
-        """Return the expansion of the one-step errors at coordinates; its prior is that of the own ones."""
+    def expand(
+        self, at: Array, *, last: int | None = None, near: Expansion | None = None
+    ) -> tuple[Expansion, FilteredLog]:
+        """Return the expansion of the one-step errors at coordinates; its prior is that of the own ones.
+
+        The derivatives over levels are those of another expansion of the same samples, where one is `near`.
+        """
         kept = self.run(at, last=last, keep=True)
         own, force = len(self.own), self.discrepancy.force(at[len(self.own) :])
         errors, variances = np.zeros((2, len(at), kept.seen.errors.size))
-        for i in range(own):
+        known = slice(self.levels if self.is_near(at, near) else 0)
+        if near is not None:
+            errors[known], variances[known] = near.errors[known], near.variances[known]
+        for i in range(known.stop, own):
             step = max(NUDGE, 0.0 if self.own[i].log else SHARE * abs(float(at[i])))
             step = -step if at[i] + step > self.bounds[1][i] else step
             moved = at.copy()
@@ -119,10 +129,14 @@ class ArmFrame:
         gears = {e.joint: e.make(self.read(at)) for e in self.gears}
         errors[own:] = self.arm.differentiate(kept, self.discrepancy.columns, gears)
         middle = np.concatenate([[c.mean for c in self.own], np.zeros(len(at) - own)])
-        known = np.concatenate([[1.0 / c.sd**2 for c in self.own], np.zeros(len(at) - own)])
+        precision = np.concatenate([[1.0 / c.sd**2 for c in self.own], np.zeros(len(at) - own)])
         flat = Innovations(kept.seen.errors.ravel(), kept.seen.variances.ravel(), kept.seen.finite)
         blocks = {"own": slice(0, own), "discrepancy": slice(own, len(at))}
-        return Expansion(flat, at, errors, variances, middle, known, blocks), kept
+        return Expansion(flat, at, errors, variances, middle, precision, blocks), kept
+
+    def is_near(self, at: Array, near: Expansion | None) -> bool:
+        """Return whether an expansion has nearly the same levels as some coordinates."""
+        return near is not None and bool(np.all(np.abs(at[: self.levels] - near.at[: self.levels]) < NEAR))
 
     def follow(self, at: Array) -> ArmFrame:
         """Return the frame whose inertias in the discrepancy have the accelerations at coordinates."""
@@ -211,11 +225,13 @@ def fit_hypothesis(
     hypothesis with less log evidence than `worth` is fitted the less exactly, the more it lacks.
     """
     at, chosen = np.clip(start, *frame.bounds), choice or frame.discrepancy.none
+    near: Expansion | None = None
     for again in (True, False):
-        climbed = _climb(frame, at, chosen, worth)
+        climbed = _climb(frame, at, chosen, worth, near)
         if climbed is None:
             return None
         at, chosen, seen, kept = climbed
+        near = seen
         if not (again and frame.discrepancy.inertias):
             break
         frame = frame.follow(at)
@@ -236,15 +252,19 @@ def _compute_log_evidence(frame: ArmFrame, seen: Expansion, choice: Choice, prec
 
 
 def _climb(
-    frame: ArmFrame, at: Array, chosen: Choice, worth: float
+    frame: ArmFrame, at: Array, chosen: Choice, worth: float, near: Expansion | None
 ) -> tuple[Array, Choice, Expansion, FilteredLog] | None:
-    """Return the coordinates of the maximum, the choice of smooth forces, and the expansion and filter there."""
+    """Return the coordinates of the maximum, the choice of smooth forces, and the expansion and filter there.
+
+    `near` is an expansion of the frame that may be near the start.
+    """
     if not math.isfinite(frame.target(at, chosen)[0]):
         return None
     own = len(frame.own)
     damping = 0.0
     for _ in range(ROUNDS):
-        seen, kept = frame.expand(at)
+        seen, kept = frame.expand(at, near=near)
+        near = near if frame.is_near(at, near) else seen
         if not np.isfinite(seen.information).all():
             return None
         chosen = _choose_forces(frame, seen, chosen)
@@ -257,7 +277,7 @@ def _climb(
         if gain < IDLE * (worth - _compute_log_evidence(frame, seen, chosen, precision) - gain):
             break
     if not np.array_equal(at, seen.at):
-        seen, kept = frame.expand(at)
+        seen, kept = frame.expand(at, near=near)
     return at, chosen, seen, kept
 
 
@@ -311,9 +331,13 @@ def find_precision(frame: ArmFrame, seen: Expansion, choice: Choice) -> tuple[ND
 def score_heldout(found: ArmHypothesis, first: int, last: int) -> float:
     """Return the log density of the samples from `first` to `last`, averaged over the posterior of the fitted ones."""
     frame, picks = found.frame, len(found.frame.arm.log.picks)
+    near: Expansion | None = None
 
     def expand(step: Array) -> Expansion:
-        return cut_before(frame.expand(found.at + step, last=last)[0], first * picks)
+        nonlocal near
+        seen, _ = frame.expand(found.at + step, last=last, near=near)
+        near = near or seen
+        return cut_before(seen, first * picks)
 
     def score(step: Array) -> float:
         moved = frame.run(found.at + step, last=last).seen
