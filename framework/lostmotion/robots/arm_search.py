@@ -25,8 +25,8 @@ MOST_FITTED, MOST_SMALL, MOST_GEARS = 6, 3, 3
 """The numbers of effects that are fitted beside a set: by promises at the fitted random force, by those at a small one
 or with values of the model held, and of gears."""
 REACH, STRONGER = 3.0, 3.0
-"""Sets within this distance of the best score are extended. A fit gains at most this many times what its slope promises
-(seen: 0.8 to 2.6): those that cannot come so near to the best set are not made."""
+"""Sets within this distance of the best score are extended. Fits gain more than their slopes promise, but beside one
+set by factors that differ less than this: those that cannot come so near to the best set are not made."""
 SMALL = 0.1
 """The random force of a second start, as a share of the fitted one: a gap is else taken for noise."""
 SAME_LAW = 3.0
@@ -110,9 +110,12 @@ class ArmSearch:
     def extend(self, target: ArmHypothesis) -> None:
         """Fit the sets with one more effect that promise to be better: those that may come near to the best, last."""
         groups, singles = self._list_proposals(target)
-        self._fit_all(target, [*groups, *singles[:1]])
-        lead = self.best.score(self.temper) - target.score(self.temper) - REACH
-        self._fit_all(target, [one for one in singles[1:] if STRONGER * one.promises[0].gain > lead])
+        first = [*groups, *singles[:1]]
+        self._fit_all(target, first)
+        gained = self.best.score(self.temper) - target.score(self.temper)
+        promised = max((sum(p.gain for p in one.promises) for one in first), default=1.0)
+        most = STRONGER * max(gained / promised, 1.0)
+        self._fit_all(target, [one for one in singles[1:] if most * one.promises[0].gain > gained - REACH])
 
     def _list_proposals(self, target: ArmHypothesis) -> tuple[list[Proposal], list[Proposal]]:
         """Return what is proposed beside a set: groups of effects, and single effects, the best first."""
