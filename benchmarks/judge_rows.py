@@ -204,12 +204,25 @@ def print_oracle(folder: Path, others: Sequence[Path]) -> None:
     print("| who | machines | named above 0.95, right | recall at 95 % precision, above |\n|---|---|---|---|")
     for other in others:
         rows = {k: r for k, r in read_set(other, "imperfect").items() if k in oracle and r["status"] == "ok"}
-        told = [(e["probability"], is_right(e, r["truth"])) for r in rows.values() for e in list_names(r)]
-        print_recall(f"{other.name}: all names", told, len(rows))
-        sure = [(e["probability"], is_right(e, r["truth"])) for r in rows.values() for e in list_names(r) if is_sure(e)]
-        print_recall(f"{other.name}: state named", sure, len(rows))
+        for words, sure in (("all names", False), ("state named", True)):
+            print_recall(f"{other.name}: {words}", list_told(rows.values(), sure=sure), len(rows))
         print_recall("oracle, the same machines", list_oracle([oracle[k] for k in rows]), len(rows))
     print_recall("oracle", list_oracle(oracle.values()), len(oracle))
+
+
+def list_told(rows: Iterable[dict], *, sure: bool) -> list[tuple[float, bool]]:
+    """Return the probability of each name, and whether it is right; `FLAWS` are left out where they are not hidden.
+
+    The oracle knows the flaws of a machine, and names none of them.
+    """
+    told = []
+    for row in rows:
+        hidden, several = row["truth"]["effects"], row["truth"]["several"]
+        for entry in list_names(row):
+            right = any(names_effect(entry, effect, several=several) for effect in hidden)
+            if (right or entry["mechanism"] not in FLAWS) and (is_sure(entry) or not sure):
+                told.append((entry["probability"], right))
+    return told
 
 
 def list_oracle(rows: Iterable[dict]) -> list[tuple[float, bool]]:

@@ -59,6 +59,15 @@ def test_rounding_is_a_flaw_of_every_machine_of_the_imperfect_world():
     assert rows.list_false(make_row([find("sensor_quantisation", at="sensor")])) == ["sensor_quantisation"]
 
 
+def test_a_flaw_counts_beside_the_oracle_only_where_it_is_what_is_hidden():
+    rows, flaw, friction = load("judge_rows"), find("sensor_quantisation", at="sensor"), find("coulomb_friction", 0.9)
+    beside = make_row([flaw, friction], world="imperfect")
+    assert rows.list_told([beside], sure=False) == [(0.9, True)]
+    assert rows.list_told([beside], sure=True) == []
+    hidden = make_row([flaw], world="imperfect", accept=("sensor_quantisation",))
+    assert rows.list_told([hidden], sure=True) == [(0.99, True)]
+
+
 def test_intervals_of_the_machine_count_only_where_all_that_is_named_is_right():
     rows = load("judge_rows")
     right = make_row([find("coulomb_friction", force=1.05)])
