@@ -37,7 +37,7 @@ UNKNOWN_PRICE = 1.0
 """The log odds of an unknown force against those of one effect of the library."""
 
 
-class Proposal(NamedTuple):
+class ProposedFit(NamedTuple):
     """Effects that are fitted beside a set, from starts whose random forces are shifted (logarithms)."""
 
     promises: Group
@@ -117,7 +117,7 @@ class ArmSearch:
         most = STRONGER * max(gained / promised, 1.0)
         self._fit_all(target, [one for one in singles[1:] if most * one.promises[0].gain > gained - REACH])
 
-    def _list_proposals(self, target: ArmHypothesis) -> tuple[list[Proposal], list[Proposal]]:
+    def _list_proposals(self, target: ArmHypothesis) -> tuple[list[ProposedFit], list[ProposedFit]]:
         """Return what is proposed beside a set: groups of effects, and single effects, the best first."""
         temper, small = self.temper, self._make_small(target)
         promises = list_promises(self.screen, target, self.price, temper)
@@ -129,18 +129,18 @@ class ArmSearch:
             known |= {p.effect.key for p in usual}
         more = list_promises(self.screen, small, self.price, temper)[:MOST_SMALL] if small is not None else []
         gears = list_gear_promises(self.screen, target, SMALL, self.price, temper)[:MOST_GEARS]
-        singles = [Proposal((p,), (0.0,)) for p in usual if p.gain > 0.0]
-        singles += [Proposal((p,), (math.log(SMALL),)) for p in more if p.gain > 0.0 and p.effect.key not in known]
-        singles += [Proposal((p,), tuple(math.log(level) for level in p.levels)) for p in gears if p.gain > 0.0]
-        return [Proposal(group, (0.0,)) for group in groups], singles
+        singles = [ProposedFit((p,), (0.0,)) for p in usual if p.gain > 0.0]
+        singles += [ProposedFit((p,), (math.log(SMALL),)) for p in more if p.gain > 0.0 and p.effect.key not in known]
+        singles += [ProposedFit((p,), tuple(math.log(level) for level in p.levels)) for p in gears if p.gain > 0.0]
+        return [ProposedFit(group, (0.0,)) for group in groups], singles
 
-    def _fit_all(self, target: ArmHypothesis, proposals: Sequence[Proposal]) -> None:
+    def _fit_all(self, target: ArmHypothesis, proposals: Sequence[ProposedFit]) -> None:
         """Fit what is proposed beside a set, and keep it."""
         told = [name_set(frozenset(p.effect.key for p in one.promises)) for one in proposals]
         if told:
             self.say(f"fits beside {name_set(target.terms)}: {', '.join(told)}")
 
-        def fit(one: Proposal) -> ArmHypothesis | None:
+        def fit(one: ProposedFit) -> ArmHypothesis | None:
             if self.budget.spent:
                 self.skipped = True
                 return None
