@@ -52,6 +52,11 @@ def is_right(entry: dict, truth: dict) -> bool:
     """Return whether what an entry names is in a machine."""
     if truth["further"].get("world") == "imperfect" and entry["mechanism"] in FLAWS:
         return True
+    return names_hidden(entry, truth)
+
+
+def names_hidden(entry: dict, truth: dict) -> bool:
+    """Return whether an entry names one of the hidden effects of a machine."""
     return any(names_effect(entry, effect, several=truth["several"]) for effect in truth["effects"])
 
 
@@ -217,9 +222,8 @@ def list_told(rows: Iterable[dict], *, sure: bool) -> list[tuple[float, bool]]:
     """
     told = []
     for row in rows:
-        hidden, several = row["truth"]["effects"], row["truth"]["several"]
         for entry in list_names(row):
-            right = any(names_effect(entry, effect, several=several) for effect in hidden)
+            right = names_hidden(entry, row["truth"])
             if (right or entry["mechanism"] not in FLAWS) and (is_sure(entry) or not sure):
                 told.append((entry["probability"], right))
     return told

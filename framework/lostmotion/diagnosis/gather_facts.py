@@ -235,7 +235,7 @@ def _widen_vague(best: Hypothesis, named: Iterable[str], intervals: Mapping[str,
     found = dict(intervals)
     for key in named:
         vague = set(list_vague(best, key))
-        for slot in sort_slots(best.frame.posterior, key)[0] if vague else ():
+        for slot in sort_slots(best.frame.posterior, key)[0]:
             if slot.param.name in vague and slot.key in found:
                 null, told = slot.param.null or 0.0, found[slot.key]
                 found[slot.key] = replace(told, low=min(told.low, null), high=max(told.high, null))

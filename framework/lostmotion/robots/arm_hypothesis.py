@@ -111,10 +111,10 @@ class ArmFrame:
         kept = self.run(at, last=last, keep=True)
         own, force = len(self.own), self.discrepancy.force(at[len(self.own) :])
         errors, variances = np.zeros((2, len(at), kept.seen.errors.size))
-        known = slice(self.levels if self.is_near(at, near) else 0)
+        first = self.levels if self.is_near(at, near) else 0
         if near is not None:
-            errors[known], variances[known] = near.errors[known], near.variances[known]
-        for i in range(known.stop, own):
+            errors[:first], variances[:first] = near.errors[:first], near.variances[:first]
+        for i in range(first, own):
             step = max(NUDGE, 0.0 if self.own[i].log else SHARE * abs(float(at[i])))
             step = -step if at[i] + step > self.bounds[1][i] else step
             moved = at.copy()
