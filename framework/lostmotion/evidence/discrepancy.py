@@ -295,9 +295,10 @@ def make_frame(
     frees = [replace(f, start=float(c)) for f, c in zip(posterior.space.free, theta, strict=True)] + known
     forces = []
     for key, term in curves:
-        size, count = compute_coefficient_size(term, posterior), min(term.count, MOST_WAVES)
+        size, count = compute_coefficient_size(term, posterior), min(term.count, MOST_WAVES + term.plain)
         shares = SIZES if isinstance(term, OverPhase) else sizes
         options = np.array([s * size * compute_spread(term, length)[:count] for s in shares for length in LENGTHS])
+        options[: len(SIZES) * len(LENGTHS), : term.plain] = 0.0
         forces.append(SmoothForce(key, slice(len(frees), len(frees) + count), options))
         frees += [FreeParameter(f"{key}.v{i}", "", 0.0, -1e3 * size, 1e3 * size, linear=True) for i in range(count)]
     wide = posterior.over(frees).acting(posterior.active | {key for key, _ in curves})

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import ClassVar
 
 import numpy as np
@@ -51,12 +52,21 @@ def compute_spectrum(waves: Array, length: float) -> Array:
     return np.asarray(np.sqrt(2.0 * power / power.sum()))
 
 
+@lru_cache
+def fit_lines(count: int, plain: int) -> Array:
+    """Return the constants, and the slopes of the straight lines (plain, count), of so many sines over the range."""
+    z = np.linspace(-1.0, 1.0, 401)
+    sines = np.sin(np.outer(z + WIDER, 0.5 * math.pi / WIDER * np.arange(1, count + 1)))
+    return np.asarray(np.linalg.lstsq(np.vander(z, plain, increasing=True), sines, rcond=None)[0])
+
+
 @dataclass(frozen=True)
 class LearnedTerm(Term):
     """A force that is learned as a curve: a sum of `count` sines of one variable.
 
     `depends` names the covariates of the force, `times` the factor of the curve. The kernel reads the curve from a
-    table of so many `cells`, over the variable `source`, and multiplies it by the `factor`.
+    table of so many `cells`, over the variable `source`, and multiplies it by the `factor`. The first `plain` functions
+    are the constant and the straight line, which the sines then lack: a force of these forms has a name.
     """
 
     at: str = "ground"
@@ -64,6 +74,7 @@ class LearnedTerm(Term):
     factor: int = ONE
     cells: int = CELLS
     count: ClassVar[int] = COARSE
+    plain: ClassVar[int] = 0
     over: ClassVar[str]
     depends: ClassVar[tuple[str, ...]]
     times: ClassVar[str] = ""
@@ -76,22 +87,29 @@ class LearnedTerm(Term):
 
         `length` is the correlation length in half widths of the range, of a Matern process of order 5/2.
         """
-        return compute_spectrum(cls.waves(), length)
+        sines = compute_spectrum(cls.waves(), length)
+        lines = fit_lines(len(sines), cls.plain)
+        return np.concatenate([np.sqrt(lines**2 @ sines**2), sines])
 
     @classmethod
     def waves(cls) -> Array:
-        """Return the angular frequency (count,) of each function, in rad per half width of the range."""
-        return np.asarray(0.5 * math.pi / WIDER * np.arange(1, cls.count + 1), dtype=float)
+        """Return the angular frequency of each sine, in rad per half width of the range."""
+        return np.asarray(0.5 * math.pi / WIDER * np.arange(1, cls.count - cls.plain + 1), dtype=float)
 
     @classmethod
     def basis(cls, z: Array) -> Array:
         """Return the functions (points, count) at places `z` (points,), in half widths from the middle of the range."""
-        return np.asarray(np.sin(np.outer(np.clip(z, -1.0, 1.0) + WIDER, cls.waves())), dtype=float)
+        z = np.clip(z, -1.0, 1.0)
+        sines, plain = np.sin(np.outer(z + WIDER, cls.waves())), np.vander(z, cls.plain, increasing=True)
+        return np.column_stack([plain, sines - plain @ fit_lines(sines.shape[1], cls.plain)])
 
     @classmethod
     def slopes(cls, z: Array) -> Array:
         """Return the derivatives (points, count) of the functions within the range."""
-        return np.asarray(cls.waves() * np.cos(np.outer(z + WIDER, cls.waves())), dtype=float)
+        slopes = cls.waves() * np.cos(np.outer(z + WIDER, cls.waves()))
+        plain = np.zeros((len(z), cls.plain))
+        plain[:, 1:] = 1.0
+        return np.column_stack([plain, slopes - plain @ fit_lines(slopes.shape[1], cls.plain)])
 
     def prepared(self, p: Array) -> Array:
         """Return begin and cells per unit of the table, the need of the law, then value and slope at each node."""
@@ -136,6 +154,7 @@ class OverPosition(LearnedTerm):
     name: ClassVar[str] = "unknown_over_position"
     formula: ClassVar[str] = "f(x)"
     count: ClassVar[int] = FINE
+    plain: ClassVar[int] = 2
     over: ClassVar[str] = "position"
     depends: ClassVar[tuple[str, ...]] = ("position",)
     params = make_params(FINE, FORCE, LENGTH)
@@ -148,6 +167,7 @@ class OverVelocity(LearnedTerm):
     source: int = VELOCITY
     name: ClassVar[str] = "unknown_over_velocity"
     formula: ClassVar[str] = "f(v)"
+    plain: ClassVar[int] = 2
     over: ClassVar[str] = "velocity"
     depends: ClassVar[tuple[str, ...]] = ("velocity",)
     params = make_params(COARSE, FORCE, SPEED)
@@ -187,6 +207,7 @@ class OverTime(LearnedTerm):
     source: int = TIME_PASSED
     name: ClassVar[str] = "unknown_over_time"
     formula: ClassVar[str] = "f(t)"
+    plain: ClassVar[int] = 1
     over: ClassVar[str] = "time"
     depends: ClassVar[tuple[str, ...]] = ("time",)
     params = make_params(COARSE, FORCE, TIME)
