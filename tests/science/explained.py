@@ -46,8 +46,17 @@ def made_of(folder, extra, *, seed=0, stated=1.0, shown=lambda x: x, late=0.0):
 
 
 def bend(size):
-    """Return a smooth force (N) over the position that no term has: a wave of a few turns that narrows and fades."""
-    return lambda x, v, t: size * np.sin(x / 0.012 * (1.0 + 4.0 * x) + 0.7) * (1.0 - 4.0 * x)
+    """Return a smooth force (N) over the position that no term has: a wave of a few turns that narrows and fades.
+
+    It has neither a constant nor a straight line over the range of the motion, for which there are terms.
+    """
+
+    def wave(x):
+        return size * np.sin(x / 0.012 * (1.0 + 4.0 * x) + 0.7) * (1.0 - 4.0 * x)
+
+    seen = np.linspace(-0.075, 0.075, 301)
+    line = np.polyfit(seen, wave(seen), 1)
+    return lambda x, v, t: wave(x) - np.polyval(line, x)
 
 
 def explain(nominal, keys, pieces=()):

@@ -152,7 +152,7 @@ def test_derivatives_of_the_linearised_filter_equal_differences(rubbing, monkeyp
     sizes = np.concatenate([np.ones(frame.own), frame.widths(typical)])[:, None]
     for block in fast.blocks.values():  # the shortest waves turn within a sample, and have little weight in the prior
         apart = np.linalg.norm((sizes * (fast.errors - slow.errors))[block])
-        assert apart < 0.05 * np.linalg.norm((sizes * slow.errors)[block])
+        assert apart < 0.1 * np.linalg.norm((sizes * slow.errors)[block])
 
 
 def test_a_recording_does_not_tell_the_scales_of_its_channels(rubbing):

@@ -71,12 +71,14 @@ def add_all_curves(fit: Fit, until: float = 0.0) -> Fit:
     if any(isinstance(term, LearnedTerm) for term in old.terms):
         return fit
     driven = all(observation.harmonic.omega > 0.0 for observation in posterior.observations)
-    curves = list_all_curves(old.model, driven=driven)
+    plain = list_all_curves(old.model, driven=driven)
+    moved = smooth_motions(fit, [place_of(old.model, curve) for curve in plain])
+    ranges = [_find_ranges(fit, curve, moved, until) for curve in plain]
+    curves = [_fit_lines(fit, curve, moved, found) for curve, found in zip(plain, ranges, strict=True)]
     system = replace(old, terms=(*old.terms, *curves))
     known = system.vector({key: posterior.known[old.index[key]] for key in system.index if key in old.index})
-    moved = smooth_motions(fit, [place_of(old.model, curve) for curve in curves])
-    for curve in curves:
-        for key, value in _find_ranges(fit, curve, moved, until).items():
+    for curve, found in zip(curves, ranges, strict=True):
+        for key, value in found.items():
             known[system.index[f"{key_of(curve)}.{key}"]] = value
     return replace(fit, posterior=replace(posterior, dynamics=replace(posterior.dynamics, system=system), known=known))
 
@@ -111,6 +113,16 @@ def _find_ranges(fit: Fit, curve: LearnedTerm, moved: Motions, until: float) -> 
     if isinstance(curve, Surface):
         found |= {f"{k}2": v for k, v in _centre_range(*_find_range(fit, curve, curve.beside, moved, until)).items()}
     return found | ({"time": time} if isinstance(curve, OverHistory) else {})
+
+
+def _fit_lines(fit: Fit, curve: LearnedTerm, moved: Motions, found: Mapping[str, float]) -> LearnedTerm:
+    """Return a curve over the motion whose sines have no constant and no straight line along the recorded motion."""
+    if curve.over not in ("position", "velocity") or not curve.plain:
+        return curve
+    seen = moved[place_of(fit.posterior.system.model, curve).name]
+    values = np.concatenate([motion[int(curve.over == "velocity")] for motion in seen])
+    lines = curve.fit_lines(np.clip((values - found["middle"]) / found["half"], -1.0, 1.0))
+    return replace(curve, straight=tuple(map(tuple, lines.tolist())))
 
 
 def _centre_range(low: float, high: float) -> dict[str, float]:

@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import ClassVar
 
 import numpy as np
@@ -52,12 +51,7 @@ def compute_spectrum(waves: Array, length: float) -> Array:
     return np.asarray(np.sqrt(2.0 * power / power.sum()))
 
 
-@lru_cache
-def fit_lines(count: int, plain: int) -> Array:
-    """Return the constants, and the slopes of the straight lines (plain, count), of so many sines over the range."""
-    z = np.linspace(-1.0, 1.0, 401)
-    sines = np.sin(np.outer(z + WIDER, 0.5 * math.pi / WIDER * np.arange(1, count + 1)))
-    return np.asarray(np.linalg.lstsq(np.vander(z, plain, increasing=True), sines, rcond=None)[0])
+EVENLY = np.linspace(-1.0, 1.0, 401)
 
 
 @dataclass(frozen=True)
@@ -66,13 +60,15 @@ class LearnedTerm(Term):
 
     `depends` names the covariates of the force, `times` the factor of the curve. The kernel reads the curve from a
     table of so many `cells`, over the variable `source`, and multiplies it by the `factor`. The first `plain` functions
-    are the constant and the straight line, which the sines then lack: a force of these forms has a name.
+    are the constant and the straight line: a force of these forms has a name. The sines are without them: `straight`
+    are the constants and the slopes of each, (plain, sines), by least squares.
     """
 
     at: str = "ground"
     source: int = POSITION
     factor: int = ONE
     cells: int = CELLS
+    straight: tuple[tuple[float, ...], ...] = ()
     count: ClassVar[int] = COARSE
     plain: ClassVar[int] = 0
     over: ClassVar[str]
@@ -81,15 +77,13 @@ class LearnedTerm(Term):
     physics: ClassVar[str] = "A force that no term of the library has"
     paper: ClassVar[str] = "Solin, Särkkä, Statistics and Computing 30 (2020) 419-446"
 
-    @classmethod
-    def spread(cls, length: float) -> Array:
+    def spread(self, length: float) -> Array:
         """Return the prior standard deviation (count,) of each coefficient, for a force of unit standard deviation.
 
         `length` is the correlation length in half widths of the range, of a Matern process of order 5/2.
         """
-        sines = compute_spectrum(cls.waves(), length)
-        lines = fit_lines(len(sines), cls.plain)
-        return np.concatenate([np.sqrt(lines**2 @ sines**2), sines])
+        sines = compute_spectrum(self.waves(), length)
+        return np.concatenate([np.sqrt(self._lines**2 @ sines**2), sines])
 
     @classmethod
     def waves(cls) -> Array:
@@ -97,19 +91,34 @@ class LearnedTerm(Term):
         return np.asarray(0.5 * math.pi / WIDER * np.arange(1, cls.count - cls.plain + 1), dtype=float)
 
     @classmethod
-    def basis(cls, z: Array) -> Array:
-        """Return the functions (points, count) at places `z` (points,), in half widths from the middle of the range."""
-        z = np.clip(z, -1.0, 1.0)
-        sines, plain = np.sin(np.outer(z + WIDER, cls.waves())), np.vander(z, cls.plain, increasing=True)
-        return np.column_stack([plain, sines - plain @ fit_lines(sines.shape[1], cls.plain)])
+    def sines(cls, z: Array) -> Array:
+        """Return the sines (points, sines) at places `z` (points,), in half widths from the middle of the range."""
+        return np.asarray(np.sin(np.outer(z + WIDER, cls.waves())), dtype=float)
+
+    @property
+    def _lines(self) -> Array:
+        return np.array(self.straight) if self.straight else self.fit_lines(EVENLY)
 
     @classmethod
-    def slopes(cls, z: Array) -> Array:
+    def fit_lines(cls, z: Array) -> Array:
+        """Return the constants and the slopes of the sines (plain, sines), as they are at places `z` (points,)."""
+        if not cls.plain:
+            return np.zeros((0, len(cls.waves())))
+        plain = np.vander(z, cls.plain, increasing=True)
+        return np.asarray(np.linalg.lstsq(plain, cls.sines(z), rcond=None)[0])
+
+    def basis(self, z: Array) -> Array:
+        """Return the functions (points, count) at places `z` (points,), in half widths from the middle of the range."""
+        z = np.clip(z, -1.0, 1.0)
+        plain = np.vander(z, self.plain, increasing=True)
+        return np.column_stack([plain, self.sines(z) - plain @ self._lines])
+
+    def slopes(self, z: Array) -> Array:
         """Return the derivatives (points, count) of the functions within the range."""
-        slopes = cls.waves() * np.cos(np.outer(z + WIDER, cls.waves()))
-        plain = np.zeros((len(z), cls.plain))
+        slopes = self.waves() * np.cos(np.outer(z + WIDER, self.waves()))
+        plain = np.zeros((len(z), self.plain))
         plain[:, 1:] = 1.0
-        return np.column_stack([plain, slopes - plain @ fit_lines(slopes.shape[1], cls.plain)])
+        return np.column_stack([plain, slopes - plain @ self._lines])
 
     def prepared(self, p: Array) -> Array:
         """Return begin and cells per unit of the table, the need of the law, then value and slope at each node."""
@@ -247,7 +256,7 @@ def _make_phases(count: int) -> Array:
     return np.asarray(np.tile([0.5 * math.pi, 0.0], count // 2), dtype=float)
 
 
-def compute_spread(term: LearnedTerm | type[LearnedTerm], length: float) -> Array:
+def compute_spread(term: LearnedTerm, length: float) -> Array:
     """Return the prior standard deviation (count,) of each coefficient of a curve, for a force of unit deviation."""
     return term.spread(length)
 
