@@ -55,11 +55,15 @@ SWEEPS = 4
 
 @dataclass(frozen=True)
 class SmoothForce:
-    """The coefficients of one smooth force: its key, its coordinates, and the prior widths (options, count)."""
+    """The coefficients of one smooth force: its key, its coordinates, and the prior widths (options, count).
+
+    `straight` (options,) is the number of constants and straight lines that the force may have.
+    """
 
     key: str
     columns: slice
     options: Array
+    straight: Array
 
 
 Choice = tuple[int, ...]
@@ -70,7 +74,8 @@ Choice = tuple[int, ...]
 class JointFrame:
     """The coordinates of a hypothesis: own parameters, known values, coefficients of smooth forces, channel errors.
 
-    `posterior` has the first three as free parameters. Channel errors are applied to the recordings.
+    `posterior` has the first three as free parameters. Channel errors are applied to the recordings. `odds` are the log
+    odds against a constant or a straight line in a smooth force, those against the term of this form.
     """
 
     posterior: Posterior
@@ -78,6 +83,7 @@ class JointFrame:
     known: slice
     forces: tuple[SmoothForce, ...]
     errors: tuple[ChannelError, ...]
+    odds: float = 0.0
 
     @cached_property
     def count(self) -> int:
@@ -163,9 +169,10 @@ class JointFrame:
         return found[self.own :]
 
     def price(self, choice: Choice) -> float:
-        """Return the log penalty of a choice: each force that is present has one of its sizes and lengths."""
+        """Return the log penalty of a choice: each force that is present has one of its options, and its lines."""
+        present = [(force, option) for force, option in zip(self.forces, choice, strict=True) if option >= 0]
         return sum(
-            math.log(len(force.options)) for force, option in zip(self.forces, choice, strict=True) if option >= 0
+            math.log(len(force.options)) + self.odds * float(force.straight[option]) for force, option in present
         )
 
     def place(self, at: Array) -> Posterior:
@@ -284,11 +291,16 @@ def _add_channels(errors: Array, variances: Array, here: Innovations, changed: I
 
 
 def make_frame(
-    posterior: Posterior, theta: Array, errors: tuple[ChannelError, ...], sizes: Sequence[float] = SIZES
+    posterior: Posterior,
+    theta: Array,
+    errors: tuple[ChannelError, ...],
+    sizes: Sequence[float] = SIZES,
+    odds: float = 0.0,
 ) -> JointFrame:
     """Return the coordinates of the hypothesis with the terms of a posterior, begun at its own coordinates `theta`.
 
-    The system of the posterior has every curve (`add_all_curves`), none of which is active.
+    The system of the posterior has every curve (`add_all_curves`), none of which is active. Forces larger than the
+    usual `SIZES` may have a constant and a straight line, against each of which there are these log `odds`.
     """
     curves = [(key_of(t), t) for t in posterior.system.terms if isinstance(t, SMOOTH)]
     own, known = len(theta), list_known_values(posterior)
@@ -297,12 +309,14 @@ def make_frame(
     for key, term in curves:
         size, count = compute_coefficient_size(term, posterior), min(term.count, MOST_WAVES + term.plain)
         shares = SIZES if isinstance(term, OverPhase) else sizes
-        options = np.array([s * size * compute_spread(term, length)[:count] for s in shares for length in LENGTHS])
-        options[: len(SIZES) * len(LENGTHS), : term.plain] = 0.0
-        forces.append(SmoothForce(key, slice(len(frees), len(frees) + count), options))
+        whole = np.array([s * size * compute_spread(term, length)[:count] for s in shares for length in LENGTHS])
+        larger, bent = whole[len(SIZES) * len(LENGTHS) :], whole.copy()
+        bent[:, : term.plain] = 0.0
+        straight = np.repeat([0.0, float(term.plain)], [len(bent), len(larger)])
+        forces.append(SmoothForce(key, slice(len(frees), len(frees) + count), np.concatenate([bent, larger]), straight))
         frees += [FreeParameter(f"{key}.v{i}", "", 0.0, -1e3 * size, 1e3 * size, linear=True) for i in range(count)]
     wide = posterior.over(frees).acting(posterior.active | {key for key, _ in curves})
-    return JointFrame(wide, own, slice(own, own + len(known)), tuple(forces), errors)
+    return JointFrame(wide, own, slice(own, own + len(known)), tuple(forces), errors, odds)
 
 
 def list_known_values(posterior: Posterior) -> list[FreeParameter]:

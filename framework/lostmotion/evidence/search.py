@@ -287,9 +287,9 @@ class ExplanationSearch:
     def _weigh_unknown(self, target: Hypothesis) -> None:
         """Fit a set with a smooth force that is larger than the usual discrepancy; its price is that of a term."""
         self.say(f"weighing an unknown force beside {name_terms(target.terms)}")
-        bare, price = self.bare.fits[target.terms], target.price + compute_unknown_price(len(self.keys))
-        frame = make_frame(bare.posterior, bare.theta, self.errors, LARGE)
-        made = fit_hypothesis(frame, frame.transfer(target.values), price, target.choice)
+        bare, odds = self.bare.fits[target.terms], compute_unknown_price(len(self.keys))
+        frame = make_frame(bare.posterior, bare.theta, self.errors, LARGE, odds)
+        made = fit_hypothesis(frame, frame.transfer(target.values), target.price + odds, target.choice)
         if max(made.choice, default=-1) >= len(SIZES) * len(LENGTHS):
             self._keep(replace(made, unknown=True), bare)
 
