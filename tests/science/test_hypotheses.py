@@ -16,11 +16,12 @@ from lostmotion.diagnosis.stages import list_fitted_keys
 from lostmotion.evidence import discrepancy
 from lostmotion.evidence.bare import BareFits
 from lostmotion.evidence.channel_errors import DriveError, ScaleError, SensorError, list_channel_errors
-from lostmotion.evidence.discrepancy import LENGTHS, list_known_values, make_frame
+from lostmotion.evidence.discrepancy import list_known_values, make_frame
 from lostmotion.evidence.effects import Promise
 from lostmotion.evidence.expansion import Expansion, compute_log_evidence
 from lostmotion.evidence.hypothesis import fit_hypothesis
 from lostmotion.evidence.search import Budget, ExplanationSearch, compute_probabilities
+from lostmotion.evidence.smooth_forces import LENGTHS
 from lostmotion.inference.candidates import ScoreTest, add_term, join_term
 from lostmotion.inference.curves import add_all_curves
 from lostmotion.inference.fit import ROUGHLY, begin_at, choose_first_steps, hold_free, maximise

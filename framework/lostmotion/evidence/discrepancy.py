@@ -4,8 +4,7 @@ No model of a real machine is exact. A likelihood that ignores this accepts any 
 becomes more certain with the length of the recording (Kennedy, O'Hagan, J. R. Stat. Soc. B 63 (2001) 425-464). The
 discrepancy consists of
 
-- smooth forces over position, velocity, time and drive phase: Gaussian processes of reduced rank (`learned.py`), each
-  of one of `SIZES` and `LENGTHS`, or absent;
+- smooth forces over position, velocity, time and drive phase, or none (`smooth_forces.py`);
 - known values that are wrong by `rival.known`;
 - errors of the channels: scale and bend of each sensor, scale and delay of each drive (`channel_errors.py`).
 """
@@ -25,9 +24,10 @@ from lostmotion.contracts import Array
 from lostmotion.evidence.channel_errors import ChannelError
 from lostmotion.evidence.expansion import Curvature, Expansion, compute_log_evidence
 from lostmotion.evidence.slopes import list_force_slopes
+from lostmotion.evidence.smooth_forces import SIZES, SMOOTH, SmoothForce, make_smooth_force
 from lostmotion.inference.curves import compute_coefficient_size
 from lostmotion.inference.fit import choose_first_steps, list_stencil_points, make_stencil
-from lostmotion.inference.learned import OverPhase, OverPosition, OverTime, OverVelocity, compute_spread
+from lostmotion.inference.learned import OverPosition
 from lostmotion.inference.natural import find_term
 from lostmotion.likelihood.innovations import Innovations, join_innovations, join_recordings
 from lostmotion.likelihood.posterior import Posterior
@@ -35,35 +35,12 @@ from lostmotion.likelihood.space import FreeParameter
 from lostmotion.likelihood.system import key_of
 from lostmotion.likelihood.tangents import Tangents, linearise_filter
 
-SMOOTH = (OverPosition, OverVelocity, OverTime, OverPhase)
-SIZES = (0.005, 0.015, 0.05, 0.15)
-"""Standard deviations of a smooth force, in units of the drive, as real machines have."""
-LARGE = (*SIZES, 0.5, 1.5)
-"""Those of an unknown force, which is larger than the usual discrepancy. One over the phase of the drive has the usual
-sizes: a larger one beside a strong damping prescribes the motion, and seems to predict what the drive does not tell."""
-LENGTHS = (0.15, 0.3, 0.6, 1.2)
-"""Correlation lengths of a smooth force, in half widths of the range."""
-MOST_WAVES = 20
-"""The largest number of waves of a smooth force: shorter waves have no weight at these correlation lengths."""
 USUAL = 3.0
 """Known values and channels are wrong by at most this many of their standard deviations: a larger error has a name."""
 NUDGE, EXACT = 3e-4, 1e-6
 """Finite-difference steps: of a coefficient in units of the drive; of logarithms and shares of what scales a model."""
 SWEEPS = 4
 """The largest number of passes in which each smooth force in turn gets its best size and length."""
-
-
-@dataclass(frozen=True)
-class SmoothForce:
-    """The coefficients of one smooth force: its key, its coordinates, and the prior widths (options, count).
-
-    `straight` (options,) is the number of constants and straight lines that the force may have.
-    """
-
-    key: str
-    columns: slice
-    options: Array
-    straight: Array
 
 
 Choice = tuple[int, ...]
@@ -307,13 +284,9 @@ def make_frame(
     frees = [replace(f, start=float(c)) for f, c in zip(posterior.space.free, theta, strict=True)] + known
     forces = []
     for key, term in curves:
-        size, count = compute_coefficient_size(term, posterior), min(term.count, MOST_WAVES + term.plain)
-        shares = SIZES if isinstance(term, OverPhase) else sizes
-        whole = np.array([s * size * compute_spread(term, length)[:count] for s in shares for length in LENGTHS])
-        larger, bent = whole[len(SIZES) * len(LENGTHS) :], whole.copy()
-        bent[:, : term.plain] = 0.0
-        straight = np.repeat([0.0, float(term.plain)], [len(bent), len(larger)])
-        forces.append(SmoothForce(key, slice(len(frees), len(frees) + count), np.concatenate([bent, larger]), straight))
+        size = compute_coefficient_size(term, posterior)
+        forces.append(make_smooth_force(term, len(frees), size, sizes))
+        count = forces[-1].options.shape[1]
         frees += [FreeParameter(f"{key}.v{i}", "", 0.0, -1e3 * size, 1e3 * size, linear=True) for i in range(count)]
     wide = posterior.over(frees).acting(posterior.active | {key for key, _ in curves})
     return JointFrame(wide, own, slice(own, own + len(known)), tuple(forces), errors, odds)

@@ -12,11 +12,12 @@ import numpy as np
 
 from lostmotion.evidence.bare import MOST_TERMS, BareFits, Budget, Say, Terms, make_weighed, name_terms
 from lostmotion.evidence.channel_errors import ChannelError, list_channel_errors
-from lostmotion.evidence.discrepancy import LARGE, LENGTHS, SIZES, Choice, make_frame
+from lostmotion.evidence.discrepancy import Choice, make_frame
 from lostmotion.evidence.effects import Promise
 from lostmotion.evidence.heldout import score_heldout
 from lostmotion.evidence.hypothesis import Hypothesis, fit_hypothesis
 from lostmotion.evidence.sensor_hum import renew_hums
+from lostmotion.evidence.smooth_forces import LARGE, LENGTHS, SIZES
 from lostmotion.inference.candidates import ScoreTest, add_term
 from lostmotion.inference.curves import add_all_curves
 from lostmotion.inference.fit import ROUGHLY, Fit, maximise, restart

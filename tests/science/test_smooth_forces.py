@@ -1,0 +1,70 @@
+"""Smooth forces of the discrepancy: a constant and a straight line are not among them, because they have names."""
+
+import numpy as np
+import pytest
+from explained import made_of
+
+from lostmotion.contracts import place_of
+from lostmotion.evidence.discrepancy import make_frame
+from lostmotion.evidence.smooth_forces import LARGE, LENGTHS, SIZES
+from lostmotion.inference.curves import add_all_curves, smooth_motions
+from lostmotion.inference.learned import OverPosition, OverTime, OverVelocity
+from lostmotion.inference.natural import find_term
+from lostmotion.inference.setup import make_posterior, search_maximum, split_heldout
+
+ODDS = 4.5
+
+
+@pytest.fixture(scope="module")
+def wide(tmp_path_factory):
+    """The nominal fit of an oscillator, in a system with every curve."""
+    prepared, system = made_of(tmp_path_factory.mktemp("plain"), lambda x, v, t: 0.0)
+    train, _ = split_heldout(prepared.observations)
+    return add_all_curves(
+        search_maximum(make_posterior(system, prepared.case, train, jobs=1), np.random.default_rng(0))
+    )
+
+
+@pytest.mark.parametrize("kind", [OverPosition, OverVelocity])
+def test_sines_have_no_constant_and_no_line_along_the_motion(wide, kind):
+    posterior = wide.posterior
+    curve, _ = find_term(posterior, kind.name)
+    place = place_of(posterior.system.model, curve)
+    seen = smooth_motions(wide, [place])[place.name][0][int(kind is OverVelocity)]
+    index, full = posterior.system.index, posterior.known
+    z = np.clip((seen - full[index[f"{kind.name}.middle"]]) / full[index[f"{kind.name}.half"]], -1.0, 1.0)
+    functions = curve.basis(z)
+    assert functions[:, :2] == pytest.approx(np.column_stack([np.ones_like(z), z]))
+    assert functions[:, 2:].T @ functions[:, :2] / len(z) == pytest.approx(0.0, abs=1e-9)
+    raised, fell = (curve.basis(z + step) for step in (1e-6, -1e-6))
+    inside = np.abs(z) < 0.99
+    assert ((raised - fell) / 2e-6)[inside] == pytest.approx(curve.slopes(z)[inside], abs=1e-6)
+
+
+def test_a_force_over_the_time_has_no_mean():
+    z = np.linspace(-1.0, 1.0, 401)
+    assert OverTime().basis(z)[:, 1:].mean(axis=0) == pytest.approx(0.0, abs=1e-3)
+
+
+def test_the_table_of_the_kernel_is_the_sum_of_the_functions(wide):
+    curve, _ = find_term(wide.posterior, OverPosition.name)
+    rng = np.random.default_rng(1)
+    weights = rng.standard_normal(curve.count) * curve.spread(0.6)
+    table = curve.prepared(np.concatenate([weights, [0.01, 0.05]])[None])[0]
+    for z in (-0.8, 0.1, 0.6):
+        force = curve.force(0.0, 0.01 + 0.05 * z, 0.0, np.zeros(1), tuple(table), ())
+        assert force == pytest.approx(float(curve.basis(np.array([z]))[0] @ weights), rel=1e-3, abs=1e-4)
+
+
+def test_only_a_larger_force_may_have_a_line_at_the_odds_of_a_term(wide):
+    posterior = wide.posterior
+    frame = make_frame(posterior, posterior.space.start, (), LARGE, ODDS)
+    over = next(force for force in frame.forces if force.key == OverPosition.name)
+    usual, larger = len(SIZES) * len(LENGTHS), (len(LARGE) - len(SIZES)) * len(LENGTHS)
+    assert len(over.options) == usual + 2 * larger
+    assert not over.options[: usual + larger, :2].any()
+    assert over.options[usual + larger :, :2].all()
+    at, none = frame.forces.index(over), list(frame.none)
+    without, having = ((*none[:at], option, *none[at + 1 :]) for option in (usual, usual + larger))
+    assert frame.price(having) - frame.price(without) == pytest.approx(2.0 * ODDS)
+    assert frame.price(without) == pytest.approx(np.log(len(over.options)))
