@@ -10,6 +10,7 @@ from typing import Protocol
 
 import numpy as np
 
+from lostmotion.defaults import LINEAR_FORCES
 from lostmotion.evidence.bare import MOST_TERMS, BareFits, Budget, Say, Terms, make_weighed, name_terms
 from lostmotion.evidence.channel_errors import ChannelError, list_channel_errors
 from lostmotion.evidence.discrepancy import Choice, make_frame
@@ -22,7 +23,7 @@ from lostmotion.inference.candidates import ScoreTest, add_term
 from lostmotion.inference.curves import add_all_curves
 from lostmotion.inference.fit import ROUGHLY, Fit, maximise, restart
 from lostmotion.inference.late import find_onset
-from lostmotion.inference.natural import sort_slots
+from lostmotion.inference.natural import find_term, sort_slots
 from lostmotion.inference.penalties import compute_price, compute_unknown_price
 from lostmotion.inference.settling import settle_steps
 from lostmotion.likelihood.observation import Observation
@@ -146,13 +147,15 @@ class ExplanationSearch:
     def leave_out_sharers(self) -> None:
         """Leave out laws that add less to the best set than its discrepancy does, but the one that adds most.
 
-        They only share with the discrepancy what it explains: several such names are one force without a name.
+        They only share with the discrepancy what it explains: several such names are one force without a name. A
+        constant or linear force does not, because no smooth force has its form.
         """
         self._drop_each()
         while len((best := self.best).terms) > 1 and all(best.terms - {key} in self.found for key in best.terms):
             gains = {key: best.score() - self.found[best.terms - {key}].score() for key in sorted(best.terms)}
-            least = min(gains, key=lambda key: gains[key])
-            if gains[least] >= self._measure_leftover(best):
+            sharing = [key for key in gains if find_term(best.frame.posterior, key)[0].name not in LINEAR_FORCES]
+            least = min(sharing, key=lambda key: gains[key], default="")
+            if not least or gains[least] >= min(self._measure_leftover(best), max(gains.values())):
                 return
             for terms in [one for one in self.found if one > {least}]:
                 del self.found[terms]
