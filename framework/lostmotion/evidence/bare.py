@@ -20,7 +20,7 @@ from lostmotion.inference.fit import ROUGHLY, Fit, maximise, use_cores, use_one_
 from lostmotion.inference.late import list_onsets, price_onset
 from lostmotion.inference.natural import find_term, find_wave
 from lostmotion.inference.other_shapes import has_other_shapes, refit_complete, refit_shapes
-from lostmotion.inference.penalties import compute_price, is_simpler
+from lostmotion.inference.penalties import compute_price, compute_unknown_price, is_simpler
 from lostmotion.inference.shape_scan import scan_shapes
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.observation import Observation
@@ -34,7 +34,9 @@ Terms = frozenset[str]
 MOST_SINGLE, MOST_FITTED = 10, 5
 """The largest numbers of terms that are fitted alone, and beside a set. Where the nominal fit is far from the truth,
 slopes say little of a large effect, and a wrong first law is rarely left again."""
-MOST_TERMS = 4
+MOST_TERMS, MOST_BARE = 4, 2
+"""The largest number of terms of a set, and of those that a climb without a discrepancy finds: beyond the first ones it
+describes with laws what a smooth force explains."""
 HALF = 0.5
 """Work that may wait is not begun once this share of the budget is used: other shapes of a set, and AR(1) noise."""
 
@@ -102,6 +104,11 @@ class BareFits:
         self.fits.setdefault(frozenset(), self.nominal)
 
     @property
+    def odds(self) -> float:
+        """The log odds against any one more law."""
+        return compute_unknown_price(len(self.keys))
+
+    @property
     def lead(self) -> Terms:
         """The set with the largest weight."""
         return max(self.fits, key=lambda terms: self.weigh(self.fits[terms]))
@@ -119,7 +126,7 @@ class BareFits:
     def climb(self, budget: Budget) -> None:
         """Extend the leading set until neither a further term nor another form makes it better."""
         while (lead := self.lead) not in self.refitted and not budget.spent:
-            if lead in self.extended or len(lead) >= MOST_TERMS:
+            if lead in self.extended or len(lead) >= MOST_BARE:
                 self.refit(lead)
             else:
                 self.extend(lead)
@@ -135,7 +142,7 @@ class BareFits:
             for key, shapes in found.items():
                 self.shapes[key] = (*self.shapes.get(key, ()), *shapes)
         self.say(f"score tests beside {name_terms(terms)}")
-        frame = make_frame(bare.posterior, bare.theta, self.errors)
+        frame = make_frame(bare.posterior, bare.theta, self.errors, self.odds)
         alone = Hypothesis(frame, frame.expand(frame.start, bare.local.steps, frame.none), frame.none, 0.0, 0.0, 0.0)
         promises = self.list_promises(alone, set(self.fits))[: MOST_FITTED if terms else MOST_SINGLE]
         self.say(f"fits beside {name_terms(terms)}: {', '.join(p.key for p in promises) or 'none'}")

@@ -60,7 +60,7 @@ class JointFrame:
     known: slice
     forces: tuple[SmoothForce, ...]
     errors: tuple[ChannelError, ...]
-    odds: float = 0.0
+    odds: float
 
     @cached_property
     def count(self) -> int:
@@ -271,13 +271,13 @@ def make_frame(
     posterior: Posterior,
     theta: Array,
     errors: tuple[ChannelError, ...],
+    odds: float,
     sizes: Sequence[float] = SIZES,
-    odds: float = 0.0,
 ) -> JointFrame:
     """Return the coordinates of the hypothesis with the terms of a posterior, begun at its own coordinates `theta`.
 
-    The system of the posterior has every curve (`add_all_curves`), none of which is active. Forces larger than the
-    usual `SIZES` may have a constant and a straight line, against each of which there are these log `odds`.
+    The system of the posterior has every curve (`add_all_curves`), none of which is active. `odds` are
+    the log odds against a constant or a straight line in a smooth force.
     """
     curves = [(key_of(t), t) for t in posterior.system.terms if isinstance(t, SMOOTH)]
     own, known = len(theta), list_known_values(posterior)

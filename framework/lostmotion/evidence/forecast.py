@@ -34,7 +34,7 @@ from lostmotion.evidence.explanations import TIED
 from lostmotion.evidence.hypothesis import Hypothesis
 from lostmotion.inference.fit import Fit, choose_first_steps
 from lostmotion.inference.natural import compute_size, find_term, sort_slots
-from lostmotion.inference.penalties import compute_penalty, is_simpler
+from lostmotion.inference.penalties import compute_penalty, compute_unknown_price, is_simpler
 from lostmotion.inference.scaled_equations import solve_scaled
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.observation import Observation
@@ -343,7 +343,7 @@ def make_forecast(
     for i, f in enumerate(posterior.space.free):
         if f.parameter == RANDOM:
             theta[i] = min(theta[i], f.mean) + raised
-    frame = make_frame(posterior, theta, list_channel_errors(nominal, recordings))
+    frame = make_frame(posterior, theta, list_channel_errors(nominal, recordings), compute_unknown_price(len(keys)))
     steps = nominal.local.steps if len(nominal.local.steps) == frame.own else choose_first_steps(posterior)
     found = Hypothesis(frame, frame.expand(frame.start, steps, frame.none), frame.none, 0.0, 0.0, 0.0)
     bare = frame.bare(frame.start, frame.none)

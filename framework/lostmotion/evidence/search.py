@@ -18,13 +18,13 @@ from lostmotion.evidence.effects import Promise
 from lostmotion.evidence.heldout import score_heldout
 from lostmotion.evidence.hypothesis import Hypothesis, fit_hypothesis
 from lostmotion.evidence.sensor_hum import renew_hums
-from lostmotion.evidence.smooth_forces import LARGE, LENGTHS, SIZES
+from lostmotion.evidence.smooth_forces import LARGE, USUAL_OPTIONS
 from lostmotion.inference.candidates import ScoreTest, add_term
 from lostmotion.inference.curves import add_all_curves
 from lostmotion.inference.fit import ROUGHLY, Fit, maximise, restart
 from lostmotion.inference.late import find_onset
 from lostmotion.inference.natural import find_term, sort_slots
-from lostmotion.inference.penalties import compute_price, compute_unknown_price
+from lostmotion.inference.penalties import compute_price
 from lostmotion.inference.settling import settle_steps
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.posterior import Posterior
@@ -99,11 +99,12 @@ class ExplanationSearch:
         lead = self.bare.lead
         plain = self.bare.fits[self.bare.leave_out_waves(lead)]
         self.use_errors(renew_hums(self.errors, plain, self.recordings or plain.posterior.observations))
+        if len(lead) > 1:
+            self.weigh(self.bare.fits[frozenset()])
+            self._climb_beside()
         self.weigh(self.bare.fits[lead])
-        if frozenset() not in self.found:
+        if self.best.terms:
             self._drop_all(self.best)
-        if len(self.best.terms) > 1:
-            self._weigh_promised(self.found[frozenset()])
         self._reduce(lead)
         self._weigh_close()
         self._replace_each()
@@ -114,6 +115,28 @@ class ExplanationSearch:
             self.extended.add(target.terms)
             self._extend(target)
             self._replace_each()
+
+    def _climb_beside(self) -> None:
+        """Add to no law, one after another, what explains most beside smooth forces, while the score rises."""
+        better: Hypothesis | None = self.found[frozenset()]
+        while better is not None:
+            target = better
+            self._weigh_promised(target)
+            self._weigh_wider(target)
+            wider = [one for one in self.found.values() if self._is_wider(one.terms, target) and not one.unknown]
+            better = max((one for one in wider if self.score(one) > self.score(target)), key=self.score, default=None)
+
+    def _weigh_wider(self, target: Hypothesis) -> None:
+        """Weigh the best fit without a discrepancy that has one law more than a set."""
+        wider = [fit for terms, fit in self.bare.fits.items() if self._is_wider(terms, target)]
+        best = max(wider, key=self.bare.weigh, default=None)
+        if best is not None and best.posterior.active not in self.found and not self.budget.spent:
+            self.weigh(best)
+
+    @staticmethod
+    def _is_wider(terms: Terms, target: Hypothesis) -> bool:
+        """Return whether terms are those of a set and one more."""
+        return terms > target.terms and len(terms) == len(target.terms) + 1
 
     def use_errors(self, errors: tuple[ChannelError, ...]) -> None:
         """Use these errors of channels from now on."""
@@ -251,7 +274,7 @@ class ExplanationSearch:
         self.say(f"weighing {name_terms(bare.posterior.active)}")
         bare = settle_steps(bare)
         self.bare.fits.setdefault(bare.posterior.active, bare)
-        frame = make_frame(bare.posterior, bare.theta, self.errors)
+        frame = make_frame(bare.posterior, bare.theta, self.errors, self.bare.odds)
         at, price = frame.start, compute_price(bare.posterior, len(self.keys))
         if begin is not None:
             at = max(frame.transfer(begin), at, key=lambda one: frame.log_likelihood(one, choice or frame.none))
@@ -291,10 +314,10 @@ class ExplanationSearch:
     def _weigh_unknown(self, target: Hypothesis) -> None:
         """Fit a set with a smooth force that is larger than the usual discrepancy; its price is that of a term."""
         self.say(f"weighing an unknown force beside {name_terms(target.terms)}")
-        bare, odds = self.bare.fits[target.terms], compute_unknown_price(len(self.keys))
-        frame = make_frame(bare.posterior, bare.theta, self.errors, LARGE, odds)
-        made = fit_hypothesis(frame, frame.transfer(target.values), target.price + odds, target.choice)
-        if max(made.choice, default=-1) >= len(SIZES) * len(LENGTHS):
+        bare, price = self.bare.fits[target.terms], target.price + self.bare.odds
+        frame = make_frame(bare.posterior, bare.theta, self.errors, self.bare.odds, LARGE)
+        made = fit_hypothesis(frame, frame.transfer(target.values), price, target.choice)
+        if max(made.choice, default=-1) >= USUAL_OPTIONS:
             self._keep(replace(made, unknown=True), bare)
 
     def _keep(self, made: Hypothesis, bare: Fit) -> None:
@@ -353,8 +376,6 @@ class ExplanationSearch:
         """Weigh the model without any term, starting from a set."""
         self.dropped.add((target.terms, frozenset()))
         self.weigh(self.bare.fits[frozenset()], _leave_out(target, target.terms))
-        if frozenset() not in self.found:
-            self.weigh(self.bare.fits[frozenset()])
 
     def _get_own_values(self, target: Hypothesis) -> dict[str, float]:
         """Return the own parameters of a hypothesis by key, in their units."""

@@ -1,7 +1,7 @@
 """The smooth forces of a model discrepancy: Gaussian processes of reduced rank, of one of several sizes and lengths.
 
-Forces of the usual size have no constant and no straight line (`LearnedTerm.plain`): a constant force, a stiffness and
-a damping have names, and a smooth force that contains them would share them.
+A constant force, a stiffness and a damping have names. So a smooth force has no constant and no straight line
+(`LearnedTerm.plain`), or it has both at the log odds against the terms of these forms.
 """
 
 from __future__ import annotations
@@ -21,6 +21,8 @@ SIZES = (0.005, 0.015, 0.05, 0.15)
 LARGE = (*SIZES, 0.5, 1.5)
 """Those of an unknown force, which is larger than the usual discrepancy. One over the phase of the drive has the usual
 sizes: a larger one beside a strong damping prescribes the motion, and seems to predict what the drive does not tell."""
+LINED = 0.15
+"""The smallest size of a force that may have a constant and a line: small ones tell no law, and share one."""
 LENGTHS = (0.15, 0.3, 0.6, 1.2)
 """Correlation lengths of a smooth force, in half widths of the range."""
 MOST_WAVES = 20
@@ -43,12 +45,22 @@ class SmoothForce:
 def make_smooth_force(term: LearnedTerm, first: int, size: float, sizes: Sequence[float]) -> SmoothForce:
     """Return the force of a curve whose coefficients begin at coordinate `first`; `size` is a coefficient of the drive.
 
-    It has an option for each of the `sizes` and `LENGTHS` without a line, then for the larger ones with one.
+    It has `USUAL_OPTIONS`, and then those of larger ones among the `sizes`.
     """
     count = min(term.count, MOST_WAVES + term.plain)
-    shares = SIZES if isinstance(term, OverPhase) else sizes
-    whole = np.array([s * size * compute_spread(term, length)[:count] for s in shares for length in LENGTHS])
-    larger, bent = whole[len(SIZES) * len(LENGTHS) :], whole.copy()
-    bent[:, : term.plain] = 0.0
-    straight = np.repeat([0.0, float(term.plain)], [len(bent), len(larger)])
-    return SmoothForce(key_of(term), slice(first, first + count), np.concatenate([bent, larger]), straight)
+    larger = [] if isinstance(term, OverPhase) else sizes[len(SIZES) :]
+    made = [option for part in (SIZES, larger) for option in _list_options(part)]
+    options = np.array([share * size * compute_spread(term, length)[:count] for share, length, _ in made])
+    straight = np.array([term.plain * lined for _, _, lined in made], dtype=float)
+    options[straight == 0.0, : term.plain] = 0.0
+    return SmoothForce(key_of(term), slice(first, first + count), options, straight)
+
+
+def _list_options(sizes: Sequence[float]) -> list[tuple[float, float, bool]]:
+    """Return the size and the length of each option, and whether it has a constant and a line."""
+    bent = [(share, length, False) for share in sizes for length in LENGTHS]
+    return bent + [(share, length, True) for share in sizes if share >= LINED for length in LENGTHS]
+
+
+USUAL_OPTIONS = len(_list_options(SIZES))
+"""The number of options of a force of the usual sizes; those of larger forces come after them."""
