@@ -14,6 +14,8 @@ from lostmotion.registry import Registry
 
 VALUES = {"m": 1.2, "c": 0.8, "k": 300.0}
 T = np.arange(0.0, 12.0, 0.02)
+ODDS = 4.5
+"""The log odds against a constant or a line in a smooth force, about those against one law of 30."""
 SECONDS = 600.0
 """The processor time of a search, in s."""
 

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from explained import VALUES, T, made_of
+from explained import ODDS, VALUES, T, made_of
 from sensed import multisine
 
 from lostmotion.diagnosis.stages import find_quantised
@@ -54,7 +54,7 @@ def suppose_nothing(nominal):
     """Return the hypothesis that nothing is missing."""
     wide = add_all_curves(nominal)
     errors = list_channel_errors(nominal, list(nominal.posterior.observations))
-    frame = make_frame(wide.posterior, wide.theta, errors)
+    frame = make_frame(wide.posterior, wide.theta, errors, ODDS)
     return fit_hypothesis(frame, frame.start, 0.0)
 
 
@@ -86,7 +86,7 @@ def test_a_clean_machine_needs_no_correction(hypothesis, clean):
 def test_an_error_beyond_its_bound_is_proposed_as_a_law(tmp_path, late, found):
     """A drive is late by 0.3 samples at most, or has a name: a promise must not assume that more is usual."""
     fit = add_all_curves(nominal_of(tmp_path, nothing, late=late * (T[1] - T[0])))
-    frame = make_frame(fit.posterior, fit.theta, list_channel_errors(fit, list(fit.posterior.observations)))
+    frame = make_frame(fit.posterior, fit.theta, list_channel_errors(fit, list(fit.posterior.observations)), ODDS)
     empty = fit_hypothesis(frame, frame.start, 0.0)
     assert (frame.count - 1 in frame.list_pressed(empty.at)) is found
     promises = list_promises(empty, ["excitation_delay"], {}, {"excitation_delay": 0.0}, (), 0.0)

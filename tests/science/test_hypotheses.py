@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from explained import made_of
+from explained import ODDS, made_of
 from scipy.integrate import quad
 from scipy.interpolate import CubicSpline
 from scipy.special import logsumexp
@@ -143,7 +143,7 @@ def test_derivatives_of_the_linearised_filter_equal_differences(rubbing, monkeyp
     begun = begin_at(posterior, rubbing.bare.nominal.theta)
     if bent:
         begun = add_term(begun, ScoreTest(key, 0.0, {f"{key}.{name}": v for name, v in bent.items()}, 1.0), {})
-    frame = make_frame(begun, begun.space.start, rubbing.errors)
+    frame = make_frame(begun, begun.space.start, rubbing.errors, ODDS)
     steps = choose_first_steps(begun)
     fast = frame.expand(frame.start, steps, frame.none)
     monkeypatch.setattr(discrepancy, "linearise_filter", lambda *_: None)
@@ -158,7 +158,7 @@ def test_derivatives_of_the_linearised_filter_equal_differences(rubbing, monkeyp
 
 def test_a_recording_does_not_tell_the_scales_of_its_channels(rubbing):
     """A machine and its forces may be one per cent larger; its sensor, or the machine one per cent smaller."""
-    frame = make_frame(rubbing.nominal.posterior, rubbing.nominal.theta, rubbing.errors)
+    frame = make_frame(rubbing.nominal.posterior, rubbing.nominal.theta, rubbing.errors, ODDS)
     found = frame.expand(frame.start, choose_first_steps(rubbing.nominal.posterior), frame.none)
     rows = dict(zip(frame.names, found.errors, strict=True))
     sensor, drive = (f"channel error {i}" for i in (0, 3))

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from explained import explain, made_of
+from explained import ODDS, explain, made_of
 from sensed import case_of, model_of, moved, multisine, noisy
 
 from lostmotion.evidence.discrepancy import make_frame
@@ -285,7 +285,7 @@ def test_what_a_lag_promises_is_that_of_its_secants(tmp_path):
     """The slope at no lag is that of a sensor whose own state is shorter than a step: it promises nothing."""
     late = 0.03
     fit = nominal_of(tmp_path, [ActuatorLag(), SensorLag()], shown=lambda x: lagging(x, late))
-    frame = make_frame(fit.posterior, fit.theta, ())
+    frame = make_frame(fit.posterior, fit.theta, (), ODDS)
     keys = ("actuator_lag", "sensor_lag")
     told = list_promises(fit_hypothesis(frame, frame.start, 0.0), keys, {}, dict.fromkeys(keys, 0.0), (), 0.0)
     assert {one.key for one in told} == set(keys)

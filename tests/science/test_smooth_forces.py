@@ -2,17 +2,15 @@
 
 import numpy as np
 import pytest
-from explained import made_of
+from explained import ODDS, made_of
 
 from lostmotion.contracts import place_of
 from lostmotion.evidence.discrepancy import make_frame
-from lostmotion.evidence.smooth_forces import LARGE, LENGTHS, SIZES
+from lostmotion.evidence.smooth_forces import LARGE, LENGTHS, LINED, USUAL_OPTIONS
 from lostmotion.inference.curves import add_all_curves, smooth_motions
 from lostmotion.inference.learned import OverPosition, OverTime, OverVelocity
 from lostmotion.inference.natural import find_term
 from lostmotion.inference.setup import make_posterior, search_maximum, split_heldout
-
-ODDS = 4.5
 
 
 @pytest.fixture(scope="module")
@@ -56,15 +54,19 @@ def test_the_table_of_the_kernel_is_the_sum_of_the_functions(wide):
         assert force == pytest.approx(float(curve.basis(np.array([z]))[0] @ weights), rel=1e-3, abs=1e-4)
 
 
-def test_only_a_larger_force_may_have_a_line_at_the_odds_of_a_term(wide):
+def test_a_force_of_a_large_size_may_have_a_line_at_the_odds_of_a_term(wide):
     posterior = wide.posterior
-    frame = make_frame(posterior, posterior.space.start, (), LARGE, ODDS)
+    frame = make_frame(posterior, posterior.space.start, (), ODDS, LARGE)
     over = next(force for force in frame.forces if force.key == OverPosition.name)
-    usual, larger = len(SIZES) * len(LENGTHS), (len(LARGE) - len(SIZES)) * len(LENGTHS)
-    assert len(over.options) == usual + 2 * larger
-    assert not over.options[: usual + larger, :2].any()
-    assert over.options[usual + larger :, :2].all()
+    bent, lined = len(LARGE) * len(LENGTHS), sum(size >= LINED for size in LARGE) * len(LENGTHS)
+    having = over.options[:, :2].all(axis=1)
+    assert having.sum() == lined
+    assert len(over.options) == bent + lined
+    assert not over.options[~having, :2].any()
+    usual = make_frame(posterior, posterior.space.start, (), ODDS).forces[frame.forces.index(over)]
+    assert np.array_equal(over.options[:USUAL_OPTIONS], usual.options)
     at, none = frame.forces.index(over), list(frame.none)
-    without, having = ((*none[:at], option, *none[at + 1 :]) for option in (usual, usual + larger))
-    assert frame.price(having) - frame.price(without) == pytest.approx(2.0 * ODDS)
+    first = [int(np.flatnonzero(which)[0]) for which in (~having, having)]
+    without, line = ((*none[:at], option, *none[at + 1 :]) for option in first)
+    assert frame.price(line) - frame.price(without) == pytest.approx(2.0 * ODDS)
     assert frame.price(without) == pytest.approx(np.log(len(over.options)))

@@ -118,7 +118,7 @@ class ExplanationSearch:
 
     def _climb_beside(self) -> None:
         """Add to no law, one after another, what explains most beside smooth forces, while the score rises."""
-        better: Hypothesis | None = self.found[frozenset()]
+        better = self.found.get(frozenset())
         while better is not None:
             target = better
             self._weigh_promised(target)
@@ -376,6 +376,8 @@ class ExplanationSearch:
         """Weigh the model without any term, starting from a set."""
         self.dropped.add((target.terms, frozenset()))
         self.weigh(self.bare.fits[frozenset()], _leave_out(target, target.terms))
+        if frozenset() not in self.found:
+            self.weigh(self.bare.fits[frozenset()])
 
     def _get_own_values(self, target: Hypothesis) -> dict[str, float]:
         """Return the own parameters of a hypothesis by key, in their units."""
