@@ -65,8 +65,12 @@ def test_a_force_of_a_large_size_may_have_a_line_at_the_odds_of_a_term(wide):
     assert not over.options[~having, :2].any()
     usual = make_frame(posterior, posterior.space.start, (), ODDS).forces[frame.forces.index(over)]
     assert np.array_equal(over.options[:USUAL_OPTIONS], usual.options)
+    sizes = over.options[:, 2] / over.options[over.bent, 2]
+    assert sizes == pytest.approx(1.0)
+    assert not over.options[over.bent, :2].any()
     at, none = frame.forces.index(over), list(frame.none)
     first = [int(np.flatnonzero(which)[0]) for which in (~having, having)]
     without, line = ((*none[:at], option, *none[at + 1 :]) for option in first)
+    assert frame.bend(line) == (*none[:at], int(over.bent[first[1]]), *none[at + 1 :])
     assert frame.price(line) - frame.price(without) == pytest.approx(2.0 * ODDS)
     assert frame.price(without) == pytest.approx(np.log(len(over.options)))

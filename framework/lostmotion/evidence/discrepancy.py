@@ -145,6 +145,10 @@ class JointFrame:
                 found[force.columns] = force.options[option]
         return found[self.own :]
 
+    def bend(self, choice: Choice) -> Choice:
+        """Return a choice without the constants and lines of its smooth forces."""
+        return tuple(int(f.bent[option]) if option >= 0 else -1 for f, option in zip(self.forces, choice, strict=True))
+
     def price(self, choice: Choice) -> float:
         """Return the log penalty of a choice: each force that is present has one of its options, and its lines."""
         present = [(force, option) for force, option in zip(self.forces, choice, strict=True) if option >= 0]

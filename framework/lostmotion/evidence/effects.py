@@ -306,14 +306,18 @@ def _predict_each(found: Hypothesis, effects: Sequence[TermEffect], less: float)
 
 
 def _predict(found: Hypothesis, effect: TermEffect, joined: Curvature, less: float) -> Promise:
-    """Return what a term promises at one shape, beside the present smooth forces or in their place; `less` is paid."""
+    """Return what a term promises at one shape; `less` is paid.
+
+    It stands beside the present smooth forces, in their place, or in the place of their constants and lines.
+    """
     frame, n = found.frame, len(found.at)
     told = np.diag(joined.information)[n:] * effect.widths**2
     lost = Promise(effect.key, -math.inf, effect.shape, np.zeros(n), found.choice)
     if not np.any(told > MUTE):
         return lost
     quadratic = Quadratic.of(frame, joined, effect.widths)
-    choice = max(dict.fromkeys((frame.none, found.choice)), key=quadratic.evaluate)
+    choices = dict.fromkeys((frame.none, found.choice, frame.bend(found.choice)))
+    choice = max(choices, key=quadratic.evaluate)
     step = solve_posterior(frame, joined, choice, quadratic.held)
     sizes, low = step[n:], np.array([slot.param.low for slot in effect.amplitudes])
     if np.all(sizes < low):

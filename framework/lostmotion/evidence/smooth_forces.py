@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lostmotion.contracts import Array
 from lostmotion.inference.learned import LearnedTerm, OverPhase, OverPosition, OverTime, OverVelocity, compute_spread
@@ -33,13 +34,15 @@ MOST_WAVES = 20
 class SmoothForce:
     """The coefficients of one smooth force: its key, its coordinates, and the prior widths (options, count).
 
-    `straight` (options,) is the number of constants and straight lines that the force may have.
+    `straight` (options,) is the number of constants and straight lines that the force may have, `bent` (options,) the
+    option of the same size and length without any.
     """
 
     key: str
     columns: slice
     options: Array
     straight: Array
+    bent: NDArray[np.intp]
 
 
 def make_smooth_force(term: LearnedTerm, first: int, size: float, sizes: Sequence[float]) -> SmoothForce:
@@ -53,7 +56,8 @@ def make_smooth_force(term: LearnedTerm, first: int, size: float, sizes: Sequenc
     options = np.array([share * size * compute_spread(term, length)[:count] for share, length, _ in made])
     straight = np.array([term.plain * lined for _, _, lined in made], dtype=float)
     options[straight == 0.0, : term.plain] = 0.0
-    return SmoothForce(key_of(term), slice(first, first + count), options, straight)
+    bent = np.array([made.index((share, length, False)) for share, length, _ in made])
+    return SmoothForce(key_of(term), slice(first, first + count), options, straight, bent)
 
 
 def _list_options(sizes: Sequence[float]) -> list[tuple[float, float, bool]]:
