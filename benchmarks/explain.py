@@ -16,7 +16,9 @@ import numpy as np
 
 from lostmotion.diagnosis.compare import cut_heldout
 from lostmotion.diagnosis.stages import list_fitted_keys
-from lostmotion.evidence.search import Budget, ExplanationSearch, compute_probabilities
+from lostmotion.evidence.bare import Budget
+from lostmotion.evidence.probabilities import compute_probabilities
+from lostmotion.evidence.search import ExplanationSearch
 from lostmotion.inference.setup import make_posterior, search_maximum, split_heldout
 from lostmotion.kernels.threads import hold_linear_algebra
 from lostmotion.likelihood.system import System

@@ -6,7 +6,7 @@ from typing import ClassVar
 import numpy as np
 import pytest
 
-from lostmotion.evidence.search import compute_probabilities
+from lostmotion.evidence.probabilities import compute_probabilities
 from lostmotion.robots.arm_preparation import SearchOptions, make_arm, prepare_search
 from lostmotion.robots.arm_search import find_probabilities
 from lostmotion.robots.promises import _gain_in_one_step

@@ -14,13 +14,14 @@ from scipy.special import logsumexp
 from lostmotion.diagnosis.compare import cut_heldout
 from lostmotion.diagnosis.stages import list_fitted_keys
 from lostmotion.evidence import discrepancy
-from lostmotion.evidence.bare import BareFits
+from lostmotion.evidence.bare import BareFits, Budget
 from lostmotion.evidence.channel_errors import DriveError, ScaleError, SensorError, list_channel_errors
 from lostmotion.evidence.discrepancy import list_known_values, make_frame
 from lostmotion.evidence.effects import Promise
 from lostmotion.evidence.expansion import Expansion, compute_log_evidence
 from lostmotion.evidence.hypothesis import fit_hypothesis
-from lostmotion.evidence.search import Budget, ExplanationSearch, compute_probabilities
+from lostmotion.evidence.probabilities import compute_probabilities
+from lostmotion.evidence.search import ExplanationSearch
 from lostmotion.evidence.smooth_forces import LENGTHS
 from lostmotion.inference.candidates import ScoreTest, add_term, join_term
 from lostmotion.inference.curves import add_all_curves

@@ -19,7 +19,8 @@ from lostmotion.contracts import Array
 from lostmotion.evidence.bare import Terms
 from lostmotion.evidence.hypothesis import UNKNOWN, Hypothesis
 from lostmotion.evidence.posterior_draws import draw_own
-from lostmotion.evidence.search import ExplanationSearch, compute_probabilities, measure_temper
+from lostmotion.evidence.probabilities import compute_probabilities, measure_temper
+from lostmotion.evidence.search import ExplanationSearch
 from lostmotion.inference.curves import drop_all_curves
 from lostmotion.inference.fit import Fit
 

@@ -6,7 +6,6 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
-from typing import Protocol
 
 import numpy as np
 
@@ -17,6 +16,7 @@ from lostmotion.evidence.discrepancy import Choice, make_frame
 from lostmotion.evidence.effects import Promise
 from lostmotion.evidence.heldout import score_heldout
 from lostmotion.evidence.hypothesis import Hypothesis, fit_hypothesis
+from lostmotion.evidence.probabilities import measure_temper
 from lostmotion.evidence.sensor_hum import renew_hums
 from lostmotion.evidence.smooth_forces import LARGE, USUAL_OPTIONS
 from lostmotion.inference.candidates import ScoreTest, add_term
@@ -388,28 +388,3 @@ def _leave_out(target: Hypothesis, keys: Iterable[str]) -> dict[str, float]:
     """Return the coordinates of a hypothesis by name, without those of some terms."""
     owners = tuple(f"{key}." for key in keys)
     return {name: value for name, value in target.values.items() if not name.startswith(owners)}
-
-
-def measure_temper(found: Iterable[Hypothesis], share: float = 1.0) -> float:
-    """Return what log evidences are divided by: a share of the samples, times the scatter of the best hypothesis."""
-    return share * max(found, key=lambda one: one.score(share)).scatter
-
-
-class Scored(Protocol):
-    """A set of terms with a score."""
-
-    @property
-    def terms(self) -> Terms:
-        """The keys of the terms."""
-
-    def score(self, temper: float = 1.0) -> float:
-        """Return the log posterior weight."""
-
-
-def compute_probabilities(found: Iterable[Scored], temper: float) -> dict[Terms, float]:
-    """Return the posterior probability of each set: the softmax of the scores."""
-    scores = {h.terms: h.score(temper) for h in found}
-    top = max(scores.values())
-    weights = {terms: math.exp(score - top) for terms, score in scores.items()}
-    total = sum(weights.values())
-    return {terms: weight / total for terms, weight in weights.items()}

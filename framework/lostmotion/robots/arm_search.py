@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from lostmotion.evidence.bare import Budget, make_weighed
-from lostmotion.evidence.search import compute_probabilities
+from lostmotion.evidence.probabilities import compute_probabilities
 from lostmotion.inference.penalties import compute_unknown_price
 from lostmotion.kernels.threads import each
 from lostmotion.parts import Array

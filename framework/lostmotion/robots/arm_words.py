@@ -10,7 +10,7 @@ import numpy as np
 
 from lostmotion.contracts import Term
 from lostmotion.evidence.hypothesis import UNKNOWN
-from lostmotion.evidence.search import compute_probabilities
+from lostmotion.evidence.probabilities import compute_probabilities
 from lostmotion.parts import Array
 from lostmotion.quantities import name_force, unit_of
 from lostmotion.results import Interval, attach_unit, percent
