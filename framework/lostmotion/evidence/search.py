@@ -12,7 +12,7 @@ import numpy as np
 from lostmotion.defaults import LINEAR_FORCES
 from lostmotion.evidence.bare import MOST_TERMS, BareFits, Budget, Say, Terms, make_weighed, name_terms
 from lostmotion.evidence.channel_errors import ChannelError, list_channel_errors
-from lostmotion.evidence.discrepancy import Choice, make_frame
+from lostmotion.evidence.discrepancy import Choice, Quadratic, make_frame
 from lostmotion.evidence.effects import Promise
 from lostmotion.evidence.heldout import score_heldout
 from lostmotion.evidence.hypothesis import Hypothesis, fit_hypothesis
@@ -240,11 +240,26 @@ class ExplanationSearch:
         self.proposed.add(target.terms)
         self.say(f"score tests beside {name_terms(target.terms)} and a smooth force")
         known = set(self.found) - {target.terms | {instead}}
-        promises = self.bare.list_promises(self._expand_whole(target), known)
+        whole = self._expand_whole(target)
+        if self._choose_by_all(target, whole):
+            target = self.found[target.terms]
+            whole = self._expand_whole(target)
+        promises = self.bare.list_promises(whole, known)
         least = max((p.gain - REACH for p in promises if p.key == instead), default=0.0)
         for promise in [p for p in promises if p.gain > least and p.key != instead][:MOST_BESIDE]:
             if not self.budget.spent:
                 self._weigh_beside(target, promise)
+
+    def _choose_by_all(self, target: Hypothesis, whole: Hypothesis) -> bool:
+        """Fit a set with the smooth forces that fitted and held-out data need together; return whether this is better.
+
+        Held-out data may need one that the fitted data do not.
+        """
+        choice, _ = Quadratic.of(whole.frame, whole.expansion.curvature).choose(target.choice)
+        if choice != target.choice:
+            made = fit_hypothesis(target.frame, target.at, target.price, choice, free=False)
+            self._keep(made, self.bare.fits[target.terms])
+        return self.found[target.terms] is not target
 
     def _expand_whole(self, target: Hypothesis) -> Hypothesis:
         """Return a hypothesis with its expansion over the fitted and the held-out data together."""
