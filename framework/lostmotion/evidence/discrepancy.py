@@ -145,9 +145,12 @@ class JointFrame:
                 found[force.columns] = force.options[option]
         return found[self.own :]
 
-    def bend(self, choice: Choice) -> Choice:
-        """Return a choice without the constants and lines of its smooth forces."""
-        return tuple(int(f.bent[option]) if option >= 0 else -1 for f, option in zip(self.forces, choice, strict=True))
+    def bend(self, choice: Choice) -> list[Choice]:
+        """Return a choice without the constants and lines of its smooth forces, which have each of the usual sizes."""
+        bent = [
+            f.bent[option] if option >= 0 else [-1] * len(SIZES) for f, option in zip(self.forces, choice, strict=True)
+        ]
+        return [tuple(map(int, one)) for one in zip(*bent, strict=True)]
 
     def price(self, choice: Choice) -> float:
         """Return the log penalty of a choice: each force that is present has one of its options, and its lines."""

@@ -316,7 +316,7 @@ def _predict(found: Hypothesis, effect: TermEffect, joined: Curvature, less: flo
     if not np.any(told > MUTE):
         return lost
     quadratic = Quadratic.of(frame, joined, effect.widths)
-    choices = dict.fromkeys((frame.none, found.choice, frame.bend(found.choice)))
+    choices = dict.fromkeys((frame.none, found.choice, *frame.bend(found.choice)))
     choice = max(choices, key=quadratic.evaluate)
     step = solve_posterior(frame, joined, choice, quadratic.held)
     sizes, low = step[n:], np.array([slot.param.low for slot in effect.amplitudes])

@@ -1,7 +1,8 @@
 """The smooth forces of a model discrepancy: Gaussian processes of reduced rank, of one of several sizes and lengths.
 
 A constant force, a stiffness and a damping have names. So a smooth force has no constant and no straight line
-(`LearnedTerm.plain`), or it has both at the log odds against the terms of these forms.
+(`LearnedTerm.plain`), or it has both at the log odds against the terms of these forms. Its size is its standard
+deviation along the recorded motion.
 """
 
 from __future__ import annotations
@@ -34,8 +35,8 @@ MOST_WAVES = 20
 class SmoothForce:
     """The coefficients of one smooth force: its key, its coordinates, and the prior widths (options, count).
 
-    `straight` (options,) is the number of constants and straight lines that the force may have, `bent` (options,) the
-    option of the same size and length without any.
+    `straight` (options,) is the number of constants and straight lines that the force may have, `bent` (options,
+    sizes) the options of the same length and each of `SIZES` without any, or itself where it has none.
     """
 
     key: str
@@ -53,10 +54,17 @@ def make_smooth_force(term: LearnedTerm, first: int, size: float, sizes: Sequenc
     count = min(term.count, MOST_WAVES + term.plain)
     larger = [] if isinstance(term, OverPhase) else sizes[len(SIZES) :]
     made = [option for part in (SIZES, larger) for option in _list_options(part)]
-    options = np.array([share * size * compute_spread(term, length)[:count] for share, length, _ in made])
+    spreads = [
+        compute_spread(term, length)[:count] if lined else term.bent_spread(length, count) for _, length, lined in made
+    ]
+    options = size * np.array([share * spread for (share, _, _), spread in zip(made, spreads, strict=True)])
     straight = np.array([term.plain * lined for _, _, lined in made], dtype=float)
-    options[straight == 0.0, : term.plain] = 0.0
-    bent = np.array([made.index((share, length, False)) for share, length, _ in made])
+    bent = np.array(
+        [
+            [made.index((other, length, False) if lined else (share, length, False)) for other in SIZES]
+            for share, length, lined in made
+        ]
+    )
     return SmoothForce(key_of(term), slice(first, first + count), options, straight, bent)
 
 

@@ -34,6 +34,8 @@ ROUNDS = 6
 EDGE, BEYOND = 0.02, 0.15
 """The margin of a curve beyond the visited range, as a share of it: larger for one over two variables or a hidden
 state, because a motion leaves a plane, or the range of a hidden state, sooner."""
+QUANTILES = (np.arange(200) + 0.5) / 200
+"""The quantiles that describe where the recorded motion was."""
 GRID = (41, 31)
 """Points along both axes of the grid on which a surface is evaluated."""
 TIMES = (0.3, 1.0, 3.0, 10.0)
@@ -74,7 +76,7 @@ def add_all_curves(fit: Fit, until: float = 0.0) -> Fit:
     plain = list_all_curves(old.model, driven=driven)
     moved = smooth_motions(fit, [place_of(old.model, curve) for curve in plain])
     ranges = [_find_ranges(fit, curve, moved, until) for curve in plain]
-    curves = [_fit_lines(fit, curve, moved, found) for curve, found in zip(plain, ranges, strict=True)]
+    curves = [_follow_motion(fit, curve, moved, found) for curve, found in zip(plain, ranges, strict=True)]
     system = replace(old, terms=(*old.terms, *curves))
     known = system.vector({key: posterior.known[old.index[key]] for key in system.index if key in old.index})
     for curve, found in zip(curves, ranges, strict=True):
@@ -115,14 +117,14 @@ def _find_ranges(fit: Fit, curve: LearnedTerm, moved: Motions, until: float) -> 
     return found | ({"time": time} if isinstance(curve, OverHistory) else {})
 
 
-def _fit_lines(fit: Fit, curve: LearnedTerm, moved: Motions, found: Mapping[str, float]) -> LearnedTerm:
-    """Return a curve over the motion whose sines have no constant and no straight line along the recorded motion."""
+def _follow_motion(fit: Fit, curve: LearnedTerm, moved: Motions, found: Mapping[str, float]) -> LearnedTerm:
+    """Return a curve whose functions have no constant and no straight line along the recorded motion."""
     if curve.over not in ("position", "velocity") or not curve.plain:
         return curve
     seen = moved[place_of(fit.posterior.system.model, curve).name]
     values = np.concatenate([motion[int(curve.over == "velocity")] for motion in seen])
-    lines = curve.fit_lines(np.clip((values - found["middle"]) / found["half"], -1.0, 1.0))
-    return replace(curve, straight=tuple(map(tuple, lines.tolist())))
+    places = np.clip((values - found["middle"]) / found["half"], -1.0, 1.0)
+    return replace(curve, places=tuple(np.quantile(places, QUANTILES).tolist()))
 
 
 def _centre_range(low: float, high: float) -> dict[str, float]:

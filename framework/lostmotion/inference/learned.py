@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import ClassVar
 
 import numpy as np
@@ -52,6 +53,17 @@ def compute_spectrum(waves: Array, length: float) -> Array:
 
 
 EVENLY = np.linspace(-1.0, 1.0, 401)
+LEFT = 0.1
+"""The constant and the line that is left in a smooth force, as a share of its size: no motion repeats exactly."""
+
+
+@lru_cache(maxsize=64)
+def _fit_lines(curve: type[LearnedTerm], places: tuple[float, ...]) -> Array:
+    """Return the constants and the slopes of the sines of a curve (plain, sines), by least squares at some places."""
+    if not curve.plain:
+        return np.zeros((0, len(curve.waves())))
+    z = np.array(places) if places else EVENLY
+    return np.asarray(np.linalg.lstsq(np.vander(z, curve.plain, increasing=True), curve.sines(z), rcond=None)[0])
 
 
 @dataclass(frozen=True)
@@ -60,15 +72,15 @@ class LearnedTerm(Term):
 
     `depends` names the covariates of the force, `times` the factor of the curve. The kernel reads the curve from a
     table of so many `cells`, over the variable `source`, and multiplies it by the `factor`. The first `plain` functions
-    are the constant and the straight line: a force of these forms has a name. The sines are without them: `straight`
-    are the constants and the slopes of each, (plain, sines), by least squares.
+    are the constant and the straight line: a force of these forms has a name. The sines are without them along the
+    recorded motion, of which `places` are the quantiles, in half widths from the middle of the range.
     """
 
     at: str = "ground"
     source: int = POSITION
     factor: int = ONE
     cells: int = CELLS
-    straight: tuple[tuple[float, ...], ...] = ()
+    places: tuple[float, ...] = ()
     count: ClassVar[int] = COARSE
     plain: ClassVar[int] = 0
     over: ClassVar[str]
@@ -97,15 +109,19 @@ class LearnedTerm(Term):
 
     @property
     def _lines(self) -> Array:
-        return np.array(self.straight) if self.straight else self.fit_lines(EVENLY)
+        return _fit_lines(type(self), self.places)
 
-    @classmethod
-    def fit_lines(cls, z: Array) -> Array:
-        """Return the constants and the slopes of the sines (plain, sines), as they are at places `z` (points,)."""
-        if not cls.plain:
-            return np.zeros((0, len(cls.waves())))
-        plain = np.vander(z, cls.plain, increasing=True)
-        return np.asarray(np.linalg.lstsq(plain, cls.sines(z), rcond=None)[0])
+    def bent_spread(self, length: float, count: int) -> Array:
+        """Return the spread of `count` coefficients for a unit deviation of the sines along the motion.
+
+        Plain functions have a share `LEFT` of it.
+        """
+        spread = self.spread(length)[:count]
+        spread[: self.plain] = 0.0
+        functions = self.basis(np.array(self.places) if self.places else EVENLY)[:, :count]
+        spread /= math.sqrt(float(np.mean(functions**2 @ spread**2)))
+        spread[: self.plain] = LEFT
+        return spread
 
     def basis(self, z: Array) -> Array:
         """Return the functions (points, count) at places `z` (points,), in half widths from the middle of the range."""
