@@ -154,21 +154,21 @@ def test_the_probability_of_a_set_is_the_softmax_of_scores_over_the_scatter_of_t
 
 
 def test_draws_are_averaged_over_hypotheses_by_probability(rubbing):
-    """A third of the draws is from a machine with twice the damping; 4,000 draws know that to 0.03. Seeded."""
+    """A third of the draws is from a machine with half the damping; 4,000 draws know that to 0.03. Seeded."""
     made = with_scores(rubbing, {NOTHING: math.log(2.0), FRICTION: 0.0})
     free = [f.key for f in made.found[NOTHING].frame.posterior.space.free]
     other = made.found[FRICTION]
     at = other.expansion.at.copy()
-    at[free.index("c")] += math.log(2.0)
+    at[free.index("c")] -= math.log(2.0)
     found = {NOTHING: made.found[NOTHING], FRICTION: replace(other, expansion=replace(other.expansion, at=at))}
     for one in found.values():
         one.__dict__["scatter"] = 1.0
     mixed = Explanations(made.fits, found)
     middle = next(f for f in other.frame.posterior.space.free if f.key == "c").value(
-        at[free.index("c")] - 0.5 * math.log(2.0)
+        at[free.index("c")] + 0.5 * math.log(2.0)
     )
     drawn = mixed.draw(["c", "coulomb_friction.force"], 4000, np.random.default_rng(0))
-    assert np.mean(drawn[:, 0] > middle) == pytest.approx(1.0 / 3.0, abs=0.03)
+    assert np.mean(drawn[:, 0] < middle) == pytest.approx(1.0 / 3.0, abs=0.03)
     assert np.isnan(drawn[:, 1]).all()
 
 

@@ -21,7 +21,7 @@ DRAWS = 4000
 
 def push(x, v, t):
     """Return a smooth force that no term describes (N)."""
-    return 0.05 * np.sin(2.0 * v / 0.1) + 0.03 * np.cos(3.0 * x / 2e-3)
+    return 0.1 * np.sin(2.0 * v / 0.1) + 0.06 * np.cos(3.0 * x / 2e-3)
 
 
 @pytest.fixture(scope="module")
