@@ -91,8 +91,10 @@ class WeighedSets:
                 self.weigh(always, begin, choice)
 
     def weigh_unknown(self) -> None:
-        """Fit the best sets, and the model without any term, with an unknown force."""
-        ranked = sorted((one for one in self.found.values() if one.terms), key=self.score, reverse=True)
+        """Fit the best sets that are close, and the model without any term, with an unknown force."""
+        least = self.score(self.best) - REACH
+        close = (one for one in self.found.values() if one.terms and self.score(one) > least)
+        ranked = sorted(close, key=self.score, reverse=True)
         for target in (self.found[frozenset()], *ranked[:MOST_UNKNOWN]):
             self._weigh_unknown(target)
 
