@@ -37,7 +37,7 @@ RARE: Mapping[str, Rarity] = {
 AT_GROUND = ("offset_force", "hidden_mode", "inertia_change")
 """Terms whose effect is the same at every place of a machine: they are tried at the ground only."""
 LINEAR_FORCES = ("offset_force", "linear_stiffness", "viscous_damping")
-"""Forces that are constant, or linear in position or velocity: no smooth force of a discrepancy has their form."""
+"""Forces that are constant, or linear in position or velocity: smooth forces have little of their forms."""
 DRY_FRICTION = "coulomb_friction"
 """The law that friction with a soft onset in a joint contains."""
 SLIDING = (DRY_FRICTION, "stribeck_friction")

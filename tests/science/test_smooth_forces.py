@@ -23,14 +23,19 @@ def wide(tmp_path_factory):
     )
 
 
-@pytest.mark.parametrize("kind", [OverPosition, OverVelocity])
-def test_sines_have_no_constant_and_no_line_along_the_motion(wide, kind):
-    posterior = wide.posterior
+def follow(fit, kind):
+    """Return a curve of a fit, and where the recorded motion was (samples,), in half widths from its middle."""
+    posterior = fit.posterior
     curve, _ = find_term(posterior, kind.name)
     place = place_of(posterior.system.model, curve)
-    seen = smooth_motions(wide, [place])[place.name][0][int(kind is OverVelocity)]
+    seen = smooth_motions(fit, [place])[place.name][0][int(kind is OverVelocity)]
     index, full = posterior.system.index, posterior.known
-    z = np.clip((seen - full[index[f"{kind.name}.middle"]]) / full[index[f"{kind.name}.half"]], -1.0, 1.0)
+    return curve, np.clip((seen - full[index[f"{kind.name}.middle"]]) / full[index[f"{kind.name}.half"]], -1.0, 1.0)
+
+
+@pytest.mark.parametrize("kind", [OverPosition, OverVelocity])
+def test_sines_have_no_constant_and_no_line_along_the_motion(wide, kind):
+    curve, z = follow(wide, kind)
     functions = curve.basis(z)
     assert functions[:, :2] == pytest.approx(np.column_stack([np.ones_like(z), z]))
     assert functions[:, 2:].T @ functions[:, :2] / len(z) == pytest.approx(0.0, abs=1e-2)
@@ -42,11 +47,7 @@ def test_sines_have_no_constant_and_no_line_along_the_motion(wide, kind):
 @pytest.mark.parametrize("kind", [OverPosition, OverVelocity])
 def test_the_size_of_a_force_without_lines_is_its_deviation_along_the_motion(wide, kind):
     """With lines it is that of the whole force; what bends has a third of it where the force is long."""
-    posterior = wide.posterior
-    curve, _ = find_term(posterior, kind.name)
-    seen = smooth_motions(wide, [place_of(posterior.system.model, curve)])["ground"][0][int(kind is OverVelocity)]
-    index, full = posterior.system.index, posterior.known
-    z = np.clip((seen - full[index[f"{kind.name}.middle"]]) / full[index[f"{kind.name}.half"]], -1.0, 1.0)
+    curve, z = follow(wide, kind)
     for length in LENGTHS:
         spread = curve.bent_spread(length, curve.count)
         assert spread[:2] == pytest.approx(LEFT)

@@ -14,7 +14,7 @@ from lostmotion.evidence.bare import MOST_TERMS, Terms, name_terms
 from lostmotion.evidence.effects import Promise
 from lostmotion.evidence.hypothesis import Hypothesis
 from lostmotion.evidence.sensor_hum import renew_hums
-from lostmotion.evidence.weighing import REACH, WeighedSets
+from lostmotion.evidence.weighing import REACH, WeighedSets, is_wider
 from lostmotion.inference.candidates import ScoreTest, add_term
 from lostmotion.inference.fit import ROUGHLY, maximise, restart
 from lostmotion.inference.natural import find_term
@@ -87,20 +87,15 @@ class ExplanationSearch(WeighedSets):
             target = better
             self._weigh_promised(target)
             self._weigh_wider(target)
-            wider = [one for one in self.found.values() if self._is_wider(one.terms, target) and not one.unknown]
+            wider = [one for one in self.found.values() if is_wider(one.terms, target.terms) and not one.unknown]
             better = max((one for one in wider if self.score(one) > self.score(target)), key=self.score, default=None)
 
     def _weigh_wider(self, target: Hypothesis) -> None:
         """Weigh the best fit without a discrepancy that has one law more than a set."""
-        wider = [fit for terms, fit in self.bare.fits.items() if self._is_wider(terms, target)]
+        wider = [fit for terms, fit in self.bare.fits.items() if is_wider(terms, target.terms)]
         best = max(wider, key=self.bare.weigh, default=None)
         if best is not None and best.posterior.active not in self.found and not self.budget.spent:
             self.weigh(best)
-
-    @staticmethod
-    def _is_wider(terms: Terms, target: Hypothesis) -> bool:
-        """Return whether terms are those of a set and one more."""
-        return terms > target.terms and len(terms) == len(target.terms) + 1
 
     def _drop_each(self) -> None:
         """Weigh the best set without each of its terms, and with simpler ones, until the best set stays the same."""
@@ -131,7 +126,7 @@ class ExplanationSearch(WeighedSets):
         """Leave out laws that add less to the best set than its discrepancy does, but the one that adds most.
 
         They only share with the discrepancy what it explains: several such names are one force without a name. A
-        constant or linear force does not, because no smooth force has its form.
+        constant or linear force does not, because smooth forces have little of its form.
         """
         self._drop_each()
         while len((best := self.best).terms) > 1 and all(best.terms - {key} in self.found for key in best.terms):

@@ -23,7 +23,7 @@ SIZES = (0.005, 0.015, 0.05, 0.15)
 LARGE = (*SIZES, 0.5, 1.5)
 """Those of an unknown force, which is larger than the usual discrepancy. One over the phase of the drive has the usual
 sizes: a larger one beside a strong damping prescribes the motion, and seems to predict what the drive does not tell."""
-LINED = 0.15
+LINED = SIZES[-1]
 """The smallest size of a force that may have a constant and a line: small ones tell no law, and share one."""
 LENGTHS = (0.15, 0.3, 0.6, 1.2)
 """Correlation lengths of a smooth force, in half widths of the range."""
@@ -60,10 +60,7 @@ def make_smooth_force(term: LearnedTerm, first: int, size: float, sizes: Sequenc
     options = size * np.array([share * spread for (share, _, _), spread in zip(made, spreads, strict=True)])
     straight = np.array([term.plain * lined for _, _, lined in made], dtype=float)
     bent = np.array(
-        [
-            [made.index((other, length, False) if lined else (share, length, False)) for other in SIZES]
-            for share, length, lined in made
-        ]
+        [[made.index((other if lined else share, length, False)) for other in SIZES] for share, length, lined in made]
     )
     return SmoothForce(key_of(term), slice(first, first + count), options, straight, bent)
 

@@ -163,7 +163,7 @@ class WeighedSets:
 
         It has the smooth forces of the subset then. Held-out data may need one that the fitted data do not.
         """
-        inside = [one for terms, one in self.found.items() if terms < low.terms and len(terms) == len(low.terms) - 1]
+        inside = [one for terms, one in self.found.items() if is_wider(low.terms, terms)]
         below = max(inside, key=lambda one: one.log_profile, default=low)
         if below.log_profile < low.log_profile + REACH or self.budget.spent:
             return
@@ -175,3 +175,8 @@ class WeighedSets:
         }
         begin = low.frame.transfer(low.values | below.values | absent)
         self._keep(fit_hypothesis(low.frame, begin, low.price, below.choice, free=False), self.bare.fits[low.terms])
+
+
+def is_wider(terms: Terms, target: Terms) -> bool:
+    """Return whether terms are those of a target set and one more."""
+    return terms > target and len(terms) == len(target) + 1

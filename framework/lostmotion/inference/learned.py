@@ -52,7 +52,8 @@ def compute_spectrum(waves: Array, length: float) -> Array:
     return np.asarray(np.sqrt(2.0 * power / power.sum()))
 
 
-EVENLY = np.linspace(-1.0, 1.0, 401)
+EVENLY = tuple(np.linspace(-1.0, 1.0, 401).tolist())
+"""Places all over the range, where no motion is known."""
 LEFT = 0.1
 """The constant and the line that is left in a smooth force, as a share of its size: no motion repeats exactly."""
 
@@ -62,7 +63,7 @@ def _fit_lines(curve: type[LearnedTerm], places: tuple[float, ...]) -> Array:
     """Return the constants and the slopes of the sines of a curve (plain, sines), by least squares at some places."""
     if not curve.plain:
         return np.zeros((0, len(curve.waves())))
-    z = np.array(places) if places else EVENLY
+    z = np.array(places)
     return np.asarray(np.linalg.lstsq(np.vander(z, curve.plain, increasing=True), curve.sines(z), rcond=None)[0])
 
 
@@ -80,7 +81,7 @@ class LearnedTerm(Term):
     source: int = POSITION
     factor: int = ONE
     cells: int = CELLS
-    places: tuple[float, ...] = ()
+    places: tuple[float, ...] = EVENLY
     count: ClassVar[int] = COARSE
     plain: ClassVar[int] = 0
     over: ClassVar[str]
@@ -118,7 +119,7 @@ class LearnedTerm(Term):
         """
         spread = self.spread(length)[:count]
         spread[: self.plain] = 0.0
-        functions = self.basis(np.array(self.places) if self.places else EVENLY)[:, :count]
+        functions = self.basis(np.array(self.places))[:, :count]
         spread /= math.sqrt(float(np.mean(functions**2 @ spread**2)))
         spread[: self.plain] = LEFT
         return spread
