@@ -34,7 +34,7 @@ Terms = frozenset[str]
 MOST_SINGLE, MOST_FITTED = 10, 5
 """The largest numbers of terms that are fitted alone, and beside a set. Where the nominal fit is far from the truth,
 slopes say little of a large effect, and a wrong first law is rarely left again."""
-MOST_TERMS, MOST_BARE = 4, 2
+MOST_TERMS, MOST_BARE = 4, 3
 """The largest number of terms of a set, and of those that a climb without a discrepancy finds: beyond the first ones it
 describes with laws what a smooth force explains."""
 HALF = 0.5
