@@ -156,9 +156,11 @@ class ExplanationSearch(WeighedSets):
         for key in sorted(target.terms):
             if not self.budget.spent:
                 self._drop(target, key, target.terms - {key})
-        self.bare.extend(target.terms)
-        self._weigh_close()
-        self._weigh_promised(target)
+        if target.smooth > 0.0:
+            self._weigh_promised(target)
+        else:
+            self.bare.extend(target.terms)
+            self._weigh_close()
 
     def _replace_each(self) -> None:
         """Weigh what promises more than each law of the best set, in its place, until the best set stays the same."""
