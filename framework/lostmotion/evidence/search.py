@@ -129,16 +129,20 @@ class ExplanationSearch(WeighedSets):
         constant or linear force does not, because smooth forces have little of its form.
         """
         self._drop_each()
-        while len((best := self.best).terms) > 1 and all(best.terms - {key} in self.found for key in best.terms):
-            gains = {key: best.score() - self.found[best.terms - {key}].score() for key in sorted(best.terms)}
-            sharing = [key for key in gains if find_term(best.frame.posterior, key)[0].name not in LINEAR_FORCES]
-            least = min(sharing, key=lambda key: gains[key], default="")
-            if not least or gains[least] >= min(self._measure_leftover(best), max(gains.values())):
-                return
+        while least := self._find_sharer(self.best):
             for terms in [one for one in self.found if one > {least}]:
                 del self.found[terms]
             self.say(f"{least} only shares what a smooth force explains")
             self._drop_each()
+
+    def _find_sharer(self, found: Hypothesis) -> str:
+        """Return the law that adds less to a set than its discrepancy does, if another one adds more; empty if none."""
+        if len(found.terms) < 2 or not all(found.terms - {key} in self.found for key in found.terms):
+            return ""
+        gains = {key: found.score() - self.found[found.terms - {key}].score() for key in sorted(found.terms)}
+        sharing = [key for key in gains if find_term(found.frame.posterior, key)[0].name not in LINEAR_FORCES]
+        least = min(sharing, key=lambda key: gains[key], default="")
+        return least if least and gains[least] < min(self._measure_leftover(found), max(gains.values())) else ""
 
     def _measure_leftover(self, found: Hypothesis) -> float:
         """Return the log evidence that the discrepancy adds to the laws of a hypothesis."""
@@ -152,10 +156,15 @@ class ExplanationSearch(WeighedSets):
         return max(near, key=self.score, default=None)
 
     def _extend(self, target: Hypothesis) -> None:
-        """Weigh the subsets of a set, and the sets with one more term that promise to be better."""
+        """Weigh the subsets of a set, and the sets with one more term that promise to be better.
+
+        A set with a law that only shares what a smooth force explains is not extended.
+        """
         for key in sorted(target.terms):
             if not self.budget.spent:
                 self._drop(target, key, target.terms - {key})
+        if self._find_sharer(target):
+            return
         if target.smooth > 0.0:
             self._weigh_promised(target)
         else:

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from lostmotion.inference.fit import MANY, Fit, maximise
+from lostmotion.inference.fit import MANY, ROUGHLY, Fit, maximise
 from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.space import RANDOM
 
@@ -43,5 +43,5 @@ def compute_random_force_gain(fit: Fit) -> float:
             theta[i], frees[i] = cap, replace(free, high=cap, start=cap)
     if np.array_equal(theta, fit.theta):
         return 0.0
-    capped = maximise(posterior.over(frees), theta, rounds=6 if len(theta) > MANY else 40)
+    capped = maximise(posterior.over(frees), theta, rounds=6 if len(theta) > MANY else 40, tolerance=ROUGHLY)
     return float(np.maximum(fit.log_likelihood - capped.log_likelihood, 0.0))
