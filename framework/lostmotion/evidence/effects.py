@@ -308,7 +308,7 @@ def _predict_each(found: Hypothesis, effects: Sequence[TermEffect], less: float)
 def _predict(found: Hypothesis, effect: TermEffect, joined: Curvature, less: float) -> Promise:
     """Return what a term promises at one shape; `less` is paid.
 
-    It stands beside the present smooth forces, in their place, or in the place of their constants and lines.
+    It stands beside the present smooth forces, in the place of one or of all, or in that of their constants and lines.
     """
     frame, n = found.frame, len(found.at)
     told = np.diag(joined.information)[n:] * effect.widths**2
@@ -316,7 +316,8 @@ def _predict(found: Hypothesis, effect: TermEffect, joined: Curvature, less: flo
     if not np.any(told > MUTE):
         return lost
     quadratic = Quadratic.of(frame, joined, effect.widths)
-    choices = dict.fromkeys((frame.none, found.choice, *frame.bend(found.choice)))
+    fewer = [(*found.choice[:k], -1, *found.choice[k + 1 :]) for k in range(len(found.choice))]
+    choices = dict.fromkeys((frame.none, *fewer, found.choice, *frame.bend(found.choice)))
     choice = max(choices, key=quadratic.evaluate)
     step = solve_posterior(frame, joined, choice, quadratic.held)
     sizes, low = step[n:], np.array([slot.param.low for slot in effect.amplitudes])

@@ -21,8 +21,8 @@ from lostmotion.inference.natural import find_term
 
 MOST_BESIDE, MOST_CLOSE = 3, 4
 """The largest numbers of terms that are fitted from what a hypothesis promises, and of bare fits that are weighed."""
-CLOSE = 25.0
-"""A bare fit within this distance of the best one is weighed with a discrepancy."""
+CLOSE, MOST_PAIR = 25.0, 2
+"""A bare fit within this distance of the best one, of so many laws at most, is weighed with a discrepancy."""
 
 
 @dataclass
@@ -70,7 +70,7 @@ class ExplanationSearch(WeighedSets):
         if self.best.terms:
             self._drop_all(self.best)
         self._reduce(lead)
-        self._weigh_close()
+        self._weigh_close(MOST_PAIR)
         self._replace_each()
         while (target := self._choose_next()) is not None:
             if self.budget.spent:
@@ -169,7 +169,7 @@ class ExplanationSearch(WeighedSets):
             self._weigh_promised(target)
         else:
             self.bare.extend(target.terms)
-            self._weigh_close()
+            self._weigh_close(len(target.terms) + 1)
 
     def _replace_each(self) -> None:
         """Weigh what promises more than each law of the best set, in its place, until the best set stays the same."""
@@ -197,9 +197,12 @@ class ExplanationSearch(WeighedSets):
             if not self.budget.spent:
                 self._weigh_beside(self.found[target.terms], promise)
 
-    def _weigh_close(self) -> None:
-        """Weigh the bare fits that are close to the best one: a small discrepancy may make them better."""
-        ranked = sorted(self.bare.fits.values(), key=self.bare.weigh, reverse=True)
+    def _weigh_close(self, most: int) -> None:
+        """Weigh the bare fits of at most so many laws that are close to the best of these: a small discrepancy may make
+        them better.
+        """
+        few = [fit for terms, fit in self.bare.fits.items() if len(terms) <= most]
+        ranked = sorted(few, key=self.bare.weigh, reverse=True)
         least = self.bare.weigh(ranked[0]) - CLOSE
         for fit in ranked[:MOST_CLOSE]:
             if fit.posterior.active not in self.found and self.bare.weigh(fit) > least and not self.budget.spent:
