@@ -83,8 +83,8 @@ def test_a_force_of_a_large_size_may_have_a_line_at_the_odds_of_a_term(wide):
     first = [int(np.flatnonzero(which)[0]) for which in (~having, having)]
     without, line = ((*none[:at], option, *none[at + 1 :]) for option in first)
     bent = [(*none[:at], int(option), *none[at + 1 :]) for option in over.bent[first[1]]]
-    assert frame.bend(line) == bent
-    assert set(frame.bend(bent[0])) == {bent[0]}
+    assert frame.make_room(line) == list(dict.fromkeys([line, frame.none, *bent]))
+    assert frame.make_room(bent[0]) == [bent[0], frame.none]
     twin = over.options[over.bent[first[1], SIZES.index(LINED)]]
     assert twin[:2] == pytest.approx(
         LEFT * LINED * compute_coefficient_size(find_term(posterior, over.key)[0], posterior)
@@ -94,3 +94,10 @@ def test_a_force_of_a_large_size_may_have_a_line_at_the_odds_of_a_term(wide):
     assert sizes / sizes[0] == pytest.approx(np.array(SIZES) / SIZES[0])
     assert frame.price(line) - frame.price(without) == pytest.approx(2.0 * ODDS)
     assert frame.price(without) == pytest.approx(np.log(len(over.options)))
+
+
+def test_a_law_may_take_the_place_of_any_one_smooth_force(wide):
+    frame = make_frame(wide.posterior, wide.posterior.space.start, (), ODDS)
+    choice = (3, 2, *frame.none[2:])
+    room = frame.make_room(choice)
+    assert room[:4] == [choice, frame.none, (-1, 2, *frame.none[2:]), (3, -1, *frame.none[2:])]

@@ -145,12 +145,18 @@ class JointFrame:
                 found[force.columns] = force.options[option]
         return found[self.own :]
 
-    def bend(self, choice: Choice) -> list[Choice]:
-        """Return a choice without the constants and lines of its smooth forces, which have each of the usual sizes."""
+    def make_room(self, choice: Choice) -> list[Choice]:
+        """Return choices that leave to a law what smooth forces explain, the given one first.
+
+        They are without one or all of the forces, or without the constants and lines of all, which have each of the
+        usual sizes then.
+        """
+        fewer = [(*choice[:k], -1, *choice[k + 1 :]) for k in range(len(choice))]
         bent = [
             f.bent[option] if option >= 0 else [-1] * len(SIZES) for f, option in zip(self.forces, choice, strict=True)
         ]
-        return [tuple(map(int, one)) for one in zip(*bent, strict=True)]
+        straight = [tuple(map(int, one)) for one in zip(*bent, strict=True)]
+        return list(dict.fromkeys((choice, self.none, *fewer, *straight)))
 
     def price(self, choice: Choice) -> float:
         """Return the log penalty of a choice: each force that is present has one of its options, and its lines."""

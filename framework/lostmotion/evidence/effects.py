@@ -316,9 +316,7 @@ def _predict(found: Hypothesis, effect: TermEffect, joined: Curvature, less: flo
     if not np.any(told > MUTE):
         return lost
     quadratic = Quadratic.of(frame, joined, effect.widths)
-    fewer = [(*found.choice[:k], -1, *found.choice[k + 1 :]) for k in range(len(found.choice))]
-    choices = dict.fromkeys((frame.none, *fewer, found.choice, *frame.bend(found.choice)))
-    choice = max(choices, key=quadratic.evaluate)
+    choice = max(frame.make_room(found.choice), key=quadratic.evaluate)
     step = solve_posterior(frame, joined, choice, quadratic.held)
     sizes, low = step[n:], np.array([slot.param.low for slot in effect.amplitudes])
     if np.all(sizes < low):

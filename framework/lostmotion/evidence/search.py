@@ -19,10 +19,11 @@ from lostmotion.inference.candidates import ScoreTest, add_term
 from lostmotion.inference.fit import ROUGHLY, maximise, restart
 from lostmotion.inference.natural import find_term
 
-MOST_BESIDE, MOST_CLOSE = 3, 4
-"""The largest numbers of terms that are fitted from what a hypothesis promises, and of bare fits that are weighed."""
-CLOSE, MOST_PAIR = 25.0, 2
-"""A bare fit within this distance of the best one, of so many laws at most, is weighed with a discrepancy."""
+MOST_BESIDE, MOST_CLOSE, FEW = 3, 4, 2
+"""The largest numbers of terms that are fitted from what a hypothesis promises, of bare fits that are weighed because
+they are close to the best one, and of the laws of these: a third law often describes what a smooth force explains."""
+CLOSE = 25.0
+"""A bare fit within this distance of the best one is weighed with a discrepancy."""
 
 
 @dataclass
@@ -70,7 +71,7 @@ class ExplanationSearch(WeighedSets):
         if self.best.terms:
             self._drop_all(self.best)
         self._reduce(lead)
-        self._weigh_close(MOST_PAIR)
+        self._weigh_close(FEW)
         self._replace_each()
         while (target := self._choose_next()) is not None:
             if self.budget.spent:
@@ -198,8 +199,9 @@ class ExplanationSearch(WeighedSets):
                 self._weigh_beside(self.found[target.terms], promise)
 
     def _weigh_close(self, most: int) -> None:
-        """Weigh the bare fits of at most so many laws that are close to the best of these: a small discrepancy may make
-        them better.
+        """Weigh the bare fits of so many laws at most that are close to the best of these.
+
+        A small discrepancy may make them better.
         """
         few = [fit for terms, fit in self.bare.fits.items() if len(terms) <= most]
         ranked = sorted(few, key=self.bare.weigh, reverse=True)
