@@ -16,7 +16,7 @@ from lostmotion.diagnosis.stages import list_fitted_keys
 from lostmotion.evidence import discrepancy
 from lostmotion.evidence.bare import BareFits, Budget
 from lostmotion.evidence.channel_errors import DriveError, ScaleError, SensorError, list_channel_errors
-from lostmotion.evidence.discrepancy import Quadratic, list_known_values, make_frame
+from lostmotion.evidence.discrepancy import list_known_values, make_frame
 from lostmotion.evidence.effects import Promise
 from lostmotion.evidence.expansion import Expansion, compute_log_evidence
 from lostmotion.evidence.hypothesis import fit_hypothesis
@@ -335,18 +335,6 @@ def test_promises_are_of_fitted_and_heldout_data(rubbing):
     assert whole.frame.bare(whole.at, whole.choice).log_likelihood(
         whole.at[: len(whole.frame.posterior.space.free)]
     ) == (pytest.approx(float(whole.expansion.here.log_likelihood)))
-
-
-def test_laws_are_proposed_beside_the_forces_of_the_fitted_data(rubbing, monkeypatch):
-    """Fitted and held-out data together need another smooth force: the set has it, and the expansion is without it."""
-    nothing = rubbing.found[frozenset()]
-    other = (8, *nothing.choice[1:])
-    search = copy.copy(rubbing)
-    search.found = {frozenset(): replace(nothing, heldout=-1e6)}
-    monkeypatch.setattr(Quadratic, "choose", lambda self, begin: (other, 0.0))
-    whole = search.choose_by_all(search.found[frozenset()])
-    assert whole.choice == nothing.choice
-    assert search.found[frozenset()].choice == other
 
 
 def test_a_set_is_not_worse_than_its_subset(rubbing):

@@ -108,17 +108,18 @@ class WeighedSets:
             self._keep(replace(made, unknown=True), bare)
 
     def choose_by_all(self, target: Hypothesis) -> Hypothesis:
-        """Return a set with its expansion over fitted and held-out data, and fit it with the forces that both need.
+        """Return a set with its expansion over fitted and held-out data, and the smooth forces that both together need.
 
-        Held-out data may need a smooth force that the fitted data do not. The expansion is that without it: beside a
-        force that describes all data, a law in its place is too far away for slopes.
+        Held-out data may need a smooth force that the fitted data do not.
         """
         whole = self._expand_whole(target)
         choice, _ = Quadratic.of(whole.frame, whole.expansion.curvature).choose(target.choice)
-        if choice != target.choice:
-            made = fit_hypothesis(target.frame, target.at, target.price, choice, free=False)
-            self._keep(made, self.bare.fits[target.terms])
-        return whole
+        if choice == target.choice:
+            return whole
+        made = fit_hypothesis(target.frame, target.at, target.price, choice, free=False)
+        self._keep(made, self.bare.fits[target.terms])
+        better = self.found[target.terms]
+        return whole if better is target else self._expand_whole(better)
 
     def _expand_whole(self, target: Hypothesis) -> Hypothesis:
         """Return a hypothesis with its expansion over the fitted and the held-out data together."""
