@@ -209,7 +209,7 @@ def plugin(seeds, rng, folder, write_only):
 
     def one():
         given = {"name": "size", "meaning": "a size", "dimension": FORCE, "null": 0.0}
-        for key in ("name", "meaning", "null", "low", "high", "scale", "typical", "aliases"):
+        for key in ("name", "meaning", "null", "low", "high", "scale", "prior"):
             if rng.random() < 0.1:
                 given[key] = odd()
         return Param(**given)

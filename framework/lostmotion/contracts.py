@@ -16,7 +16,19 @@ from typing import Any, ClassVar, Literal, Self
 from lostmotion.errors import ContractError, nearest
 from lostmotion.methods import Denoiser, Embedder, Quantifier, Surrogate
 from lostmotion.noises import Noise, NoiseBlock, NoiseParameter, SensorScales
-from lostmotion.parts import PSEUDO_NEEDS, Array, Drive, Group, Input, Interface, Motion, Param, Place, Values
+from lostmotion.parts import (
+    PSEUDO_NEEDS,
+    Array,
+    Drive,
+    Group,
+    Input,
+    Interface,
+    Motion,
+    Param,
+    Place,
+    TermPrior,
+    Values,
+)
 from lostmotion.quantities import Dimension, quantity_of
 from lostmotion.simulators import Simulator
 from lostmotion.subjects import Attractors, Data, Flow, Motions, Orbit, Series
@@ -24,8 +36,8 @@ from lostmotion.subjects import Attractors, Data, Flow, Motions, Orbit, Series
 __all__ = [
     "KINDS", "PSEUDO_NEEDS", "Array", "Assembly", "Attractors", "Data", "Denoiser", "Drive", "DriveTerm", "Dynamics",
     "Embedder", "Flow", "Group", "Input", "Interface", "Machine", "Model", "Motion", "Motions", "Noise", "NoiseBlock",
-    "NoiseParameter", "Orbit", "Param", "Place", "Quantifier", "SensorScales", "SensorTerm", "Series", "Simulator",
-    "Surrogate", "Term", "Values", "place_of"]  # fmt: skip
+    "NoiseParameter", "Orbit", "Param", "Place", "Quantifier", "SensorScales", "SensorTerm", "Series",
+    "Simulator", "Surrogate", "Term", "TermPrior", "Values", "place_of"]  # fmt: skip
 
 _NOWHERE = Place("", lambda y, u: (0.0, 0.0))
 UNKNOWN_TO_STEPS = frozenset({"acceleration", "force_input", "shake_input"})
@@ -38,8 +50,9 @@ class Machine(ABC):
     `states` names the entries of the state, `inputs` those of `u`: "force", "second_force" and so on, "base_position"
     followed by "base_velocity", or "base_acceleration". An input that nothing drives is zero. `channels` names what
     sensors can show; the last part of a name is its quantity ("second_position"). `params` names the entries of `p`,
-    `groups` dimensionless numbers. `motion` is "translation" (N, m) or "rotation" (N m, rad). Where the machine may be
-    of both, it is a field, and `motions` lists both. `paper` cites the source.
+    `aliases` maps further names to these, `groups` are dimensionless numbers. `motion` is "translation" (N, m) or
+    "rotation" (N m, rad). Where the machine may be of both, it is a field, and `motions` lists both. `paper` cites the
+    source.
     """
 
     name: ClassVar[str]
@@ -50,6 +63,7 @@ class Machine(ABC):
     inputs: ClassVar[tuple[str, ...]]
     channels: ClassVar[tuple[str, ...]]
     params: ClassVar[tuple[Param, ...]]
+    aliases: ClassVar[Mapping[str, str]] = {}
     groups: ClassVar[tuple[Group, ...]] = ()
 
     @property
@@ -188,7 +202,6 @@ class Term(ABC):
     params: ClassVar[tuple[Param, ...]]
     states: ClassVar[Mapping[str, Dimension | str | None] | tuple[str, ...]] = ()
     needs: ClassVar[tuple[str, ...]] = ()
-    motions: ClassVar[tuple[str, ...]] = ("translation", "rotation")
     equals: ClassVar[tuple[str, ...]] = ()
     extends: ClassVar[tuple[str, ...]] = ()
 
@@ -370,10 +383,11 @@ def place_of(model: Machine, term: Term) -> Place:
     place = places[term.at]
     known = {*place.holds, *PSEUDO_NEEDS} - (set() if place.stiffness else {"stiffness", "play"})
     known -= UNKNOWN_TO_STEPS if isinstance(model, Dynamics) else set()
+    known -= set() if model.motion == "rotation" else {"angle"}
     if lacking := [n for n in term.needs if n not in known]:
-        raise ContractError(f"{term.name} needs {', '.join(lacking)}, which {model.name} does not have at {term.at}")
-    if model.motion not in term.motions:
-        raise ContractError(f"{term.name} is a law of {' or '.join(term.motions)}; {model.name} is {model.motion}")
+        raise ContractError(
+            f"{term.name} needs {', '.join(lacking)}, which {model.name} ({model.motion}) does not have at {term.at}"
+        )
     return place
 
 

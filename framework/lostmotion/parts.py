@@ -22,7 +22,7 @@ Drive = tuple[float, float, float]
 Motion = Literal["translation", "rotation"]
 PSEUDO_NEEDS = (
     "step", "finest", "mobility", "inertia", "omega", "amplitude", "stiffness", "play", "contact", "acceleration",
-    "force_input", "shake_input",
+    "force_input", "shake_input", "angle",
 )  # fmt: skip
 """Names that `Term.needs` may list although they are no parameters of the model.
 
@@ -34,21 +34,36 @@ PSEUDO_NEEDS = (
 - `stiffness`, `play`: those of the spring at the place; `contact`: the stiffness of a contact with play there, else 0.
 - `acceleration`: the acceleration that all other forces give the body at the place.
 - `force_input`, `shake_input`: the index in `u` of the force on that body and of the base acceleration, -1 if none.
+- `angle`: the number of radians in the unit of the position, which is 1. Only a rotation has it: the law takes the
+  position as an angle.
 """
+
+
+@dataclass(frozen=True)
+class TermPrior:
+    """What is known of a parameter of a term before any recording, and the values at which a search tries it.
+
+    `typical` is the width of the prior in natural scales (drive force, rms position and velocity; time of the whole
+    recording if `lasting`). `scan` is the smallest and largest multiple of `typical` between which a recording is
+    searched for the number, for an amplitude too if the response is far from linear in it. `choices` are values that
+    are tried in turn and not fitted, `words` what a sentence says in place of each of them; with `scale="log"` a
+    spectrum may find another value, which is then fitted. Example: `TermPrior(0.3, scan=(0.1, 10.0))`.
+    """
+
+    typical: float = 1.0
+    lasting: bool = False
+    scan: tuple[float, float] | None = None
+    choices: tuple[float, ...] = ()
+    words: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
 class Param:
     """A number that may be known or estimated. `low` and `high` are physical bounds (SI), not a prior.
 
-    With `scale="log"` the number is positive and known by its order of magnitude. `aliases` are further names for it.
-    Of a term: `null` marks an amplitude, and is the value at which the whole term has no effect. With a finite `high`
-    the law is complete there, as a drive that saturates, and half of its prior is at that value. `typical` is the width
-    of the prior in natural scales (drive force, rms position and velocity; time of the whole recording if `lasting`).
-    `choices` are values that are tried in turn and not fitted, `words` what a sentence says in place of each of them.
-    With `scale="log"` a spectrum may find another value, which is then fitted. `scan` is the smallest and largest
-    multiple of `typical` between which a recording is searched for the number, for an amplitude too if the response is
-    far from linear in it. Example:
+    With `scale="log"` the number is positive and known by its order of magnitude. Of a term: `null` marks an amplitude,
+    and is the value at which the whole term has no effect. With a finite `high` the law is complete there, as a drive
+    that saturates, and half of its prior is at that value. Example:
     `Param("coefficient", "viscous damping", DAMPING, low=0.0, null=0.0)`.
     """
 
@@ -59,12 +74,7 @@ class Param:
     high: float = math.inf
     scale: Literal["linear", "log"] = "linear"
     null: float | None = None
-    typical: float = 1.0
-    aliases: tuple[str, ...] = ()
-    choices: tuple[float, ...] = ()
-    words: tuple[str, ...] = ()
-    lasting: bool = False
-    scan: tuple[float, float] | None = None
+    prior: TermPrior = TermPrior()
 
     def unit(self, motion: str) -> str:
         """Return the SI unit in translation or in rotation."""

@@ -173,7 +173,9 @@ def test_a_lasting_time_has_the_scale_of_the_whole_log(empty):
     scales = measure_scales(empty)[1]
     lasting = next(q for q in FrictionDrift.params if q.name == "time")
     assert scales.size(lasting) == pytest.approx(0.3 * empty.log.samples * empty.log.dt)
-    assert scales.size(replace(lasting, lasting=False)) == pytest.approx(0.3 * scales.length / scales.speed)
+    assert scales.size(replace(lasting, prior=replace(lasting.prior, lasting=False))) == pytest.approx(
+        0.3 * scales.length / scales.speed
+    )
 
 
 def test_a_stiff_gear_is_no_gear(empty):

@@ -7,7 +7,7 @@ from dataclasses import MISSING, dataclass, fields, is_dataclass
 from typing import Any
 
 from lostmotion.codec import described
-from lostmotion.contracts import Dynamics, Param
+from lostmotion.contracts import Dynamics, Param, Term
 from lostmotion.registry import Entry
 
 TEXT_FIELDS = ("physics", "formula", "null", "paper", "motion", "reads", "unit")
@@ -70,7 +70,8 @@ class PluginSheet:
 
 def make_sheet(entry: Entry, cls: type[Any]) -> PluginSheet:
     """Return the description of a plugin class."""
-    motions = getattr(cls, "motions", None) or (getattr(cls, "motion", ""),)
+    motions = _list_motions(cls)
+    aliases = getattr(cls, "aliases", None) or {}
     options = [f for f in fields(cls) if f.init and f.name != "at"] if is_dataclass(cls) else []
     found = getattr(cls, "places", ()) if issubclass(cls, Dynamics) else getattr(cls, "interfaces", None) or ()
     places = [PlaceSheet(i.name, getattr(i, "row", None), getattr(i, "inertia", None), tuple(i.holds)) for i in found]
@@ -91,9 +92,12 @@ def make_sheet(entry: Entry, cls: type[Any]) -> PluginSheet:
         inputs=_get_names(cls, "inputs"),
         channels=_get_names(cls, "channels"),
         needs=_get_names(cls, "needs"),
-        motions=_get_names(cls, "motions"),
+        motions=motions or None,
         interfaces=tuple(places) or None,
-        parameters=tuple(_make_parameter_sheet(q, motions, entry.kind) for q in getattr(cls, "params", None) or ())
+        parameters=tuple(
+            _make_parameter_sheet(q, motions or (getattr(cls, "motion", ""),), entry.kind, aliases)
+            for q in getattr(cls, "params", None) or ()
+        )
         or None,
         options={f.name: None if f.default is MISSING else f.default for f in options} or None,
         known_failures=dict(getattr(cls, "known_failures", None) or {}) or None,
@@ -109,7 +113,14 @@ def _get_names(cls: type[Any], key: str) -> tuple[str, ...] | None:
     return tuple(getattr(cls, key, None) or ()) or None
 
 
-def _make_parameter_sheet(q: Param, motions: tuple[str, ...], kind: str) -> ParameterSheet:
+def _list_motions(cls: type[Any]) -> tuple[str, ...]:
+    """Return the kinds of motion between which a model can be switched, or in which a term can be used."""
+    if issubclass(cls, Term):
+        return ("rotation",) if "angle" in (_get_names(cls, "needs") or ()) else ("translation", "rotation")
+    return _get_names(cls, "motions") or ()
+
+
+def _make_parameter_sheet(q: Param, motions: tuple[str, ...], kind: str, aliases: Mapping[str, str]) -> ParameterSheet:
     """Return the description of a parameter, with its unit in each kind of motion."""
     return ParameterSheet(
         name=q.name,
@@ -119,20 +130,20 @@ def _make_parameter_sheet(q: Param, motions: tuple[str, ...], kind: str) -> Para
         high=q.high,
         scale=q.scale,
         null=q.null,
-        typical=q.typical,
-        aliases=q.aliases,
+        typical=q.prior.typical,
+        aliases=tuple(alias for alias, name in aliases.items() if name == q.name),
         prior=_describe_prior(q) if kind == "term" else None,
     )
 
 
 def _describe_prior(q: Param) -> str:
     """Return the prior of a term's parameter in a diagnosis, in natural scales of the recording."""
-    if q.choices:
-        return f"one of {', '.join(f'{c:g}' for c in q.choices)}"
-    sizes = ("drive force", "rms position", "length of the recording" if q.lasting else "time of the motion")
+    if q.prior.choices:
+        return f"one of {', '.join(f'{c:g}' for c in q.prior.choices)}"
+    sizes = ("drive force", "rms position", "length of the recording" if q.prior.lasting else "time of the motion")
     powers = zip(sizes, (q.dimension.force, q.dimension.length, q.dimension.time), strict=True)
     natural = "".join(
         f" {'*' if n > 0 else '/'} {size}" + (f"^{abs(n)}" if abs(n) > 1 else "") for size, n in powers if n
     )
     form = "log-normal about" if q.scale == "log" else "half-normal of width" if q.low == 0.0 else "normal about 0, sd"
-    return f"{form} {q.typical:g}{natural}"
+    return f"{form} {q.prior.typical:g}{natural}"

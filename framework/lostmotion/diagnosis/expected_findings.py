@@ -169,7 +169,7 @@ def describe_share(share: float | None, yardstick: str) -> str:
 
 def list_shape(slots: Sequence[Slot], values: Mapping[str, float]) -> list[Slot]:
     """Return the slots of a term whose values are numbers that a reader needs."""
-    return [slot for slot in slots if slot.key in values and not slot.param.words]
+    return [slot for slot in slots if slot.key in values and not slot.param.prior.words]
 
 
 def describe_shape(shape: Sequence[Slot], values: Mapping[str, float]) -> str:

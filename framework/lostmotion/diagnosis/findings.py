@@ -56,7 +56,9 @@ def _describe_law(facts: Facts, found: FoundTerm, *, bare: bool) -> str:
     term, parameters = found.term, found.parameters
     shown = {name: i.with_angles_in(facts.angle) for name, i in parameters.items()}
     numbers = {name: attach_unit(rounded(i.median, 3), i.unit) if bare else str(i) for name, i in shown.items()}
-    words = {q.name: q.words[q.choices.index(parameters[q.name].median)] for q in term.params if q.words}
+    words = {
+        q.name: q.prior.words[q.prior.choices.index(parameters[q.name].median)] for q in term.params if q.prior.words
+    }
     turned, phase = dict.fromkeys(found.unlocated or (), "an unknown part"), ""
     if found.unlocated is not None:
         derived = term.derived(tuple(parameters[q.name].median for q in term.params))

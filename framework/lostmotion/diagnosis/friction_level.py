@@ -35,7 +35,7 @@ def list_levels(outcome: Outcome, unit: str) -> tuple[dict[str, StoredArray], di
 
 def is_changing_friction(term: Term, slots: list[Slot]) -> bool:
     """Return whether a term is dry friction whose level changes during a recording."""
-    changes = any(slot.param.lasting for slot in slots) or "travelled" in term.states
+    changes = any(slot.param.prior.lasting for slot in slots) or "travelled" in term.states
     return term.acts == "motion" and term.needs == ("mobility",) and changes
 
 

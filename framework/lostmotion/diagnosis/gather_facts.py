@@ -290,7 +290,7 @@ def _list_complete(d: SearchResult, key: str) -> Iterator[float]:
     """Yield the share of the recording after which each change is complete."""
     posterior = d.after.posterior
     for slot in find_term(posterior, key)[1]:
-        if slot.param.lasting and slot.param.dimension == TIME and slot.key in d.after.values:
+        if slot.param.prior.lasting and slot.param.dimension == TIME and slot.key in d.after.values:
             first = posterior.observations[0]
             yield (d.after.values[slot.key] - float(first.time[0])) / (first.samples * first.dt)
 

@@ -324,7 +324,11 @@ def _list_shape_starts(posterior: Posterior, slots: Sequence[Slot]) -> Iterator[
     A shape with a scan is not changed: the scan has covered its range already.
     """
     for slot in slots:
-        if slot.param.null is None and slot.param.scale == "log" and not (slot.param.choices or slot.param.scan):
+        if (
+            slot.param.null is None
+            and slot.param.scale == "log"
+            and not (slot.param.prior.choices or slot.param.prior.scan)
+        ):
             at = posterior.space.keys.index(slot.key)
             for factor in SPREAD:
                 theta = posterior.space.start.copy()

@@ -60,7 +60,7 @@ def try_far_values(fit: Fit, slot: Slot, key: str) -> FarValue | None:
     least = fit.posterior.settings.select.far
     far = () if find_term(fit.posterior, key)[0].acts == "motion" else _list_far(slot.param)
     values = [factor * compute_size(slot.param, fit.posterior.scales) for factor in far]
-    scanned = bool(slot.param.scan) and compute_random_force_gain(fit) > least
+    scanned = bool(slot.param.prior.scan) and compute_random_force_gain(fit) > least
     if scanned:
         values += list_tried_values(slot.param, fit.posterior.scales)
     if not values:
@@ -88,7 +88,7 @@ def try_far_values(fit: Fit, slot: Slot, key: str) -> FarValue | None:
 
 def _list_far(param: Param) -> tuple[float, ...]:
     """Return the far values of an amplitude of a channel in its typical size; none for a gain or a range to scan."""
-    if param.scan or param.dimension == NUMBER:
+    if param.prior.scan or param.dimension == NUMBER:
         return ()
     return DELAYS if param.dimension == TIME else OFFSETS
 

@@ -32,7 +32,7 @@ def can_have_onset(posterior: Posterior, key: str) -> bool:
     if len({o.name for o in posterior.observations}) > 1 or onset_key(key) not in posterior.system.index:
         return False
     term, _ = find_term(posterior, key)
-    return not any(param.lasting and param.dimension == TIME for param in term.params)
+    return not any(param.prior.lasting and param.dimension == TIME for param in term.params)
 
 
 def find_onset(posterior: Posterior, key: str) -> float:
@@ -82,7 +82,7 @@ def find_change_time(posterior: Posterior, key: str) -> int | None:
     It is a time in the recording with a scan, such as that of a change of inertia.
     """
     _, slots = find_term(posterior, key)
-    times = [s.key for s in slots if s.param.lasting and s.param.dimension == TIME and s.param.scan]
+    times = [s.key for s in slots if s.param.prior.lasting and s.param.dimension == TIME and s.param.prior.scan]
     return next((i for i, name in enumerate(posterior.space.keys) if name in times), None)
 
 

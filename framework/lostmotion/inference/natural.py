@@ -35,13 +35,13 @@ def find_wave(posterior: Posterior, key: str) -> Slot | None:
 
 def _is_wave(param: Param) -> bool:
     """Return whether a parameter with choices may have any other value, too: the frequency of a wave over the phase."""
-    return bool(param.choices) and param.scale == "log"
+    return bool(param.prior.choices) and param.scale == "log"
 
 
 def compute_size(param: Param, scales: Scales) -> float:
     """Return the typical size of a term's parameter in the natural scales of the recording."""
-    time = scales.span if param.lasting else scales.time
-    return param.typical * param.dimension.scale(scales.force, scales.length, time)
+    time = scales.span if param.prior.lasting else scales.time
+    return param.prior.typical * param.dimension.scale(scales.force, scales.length, time)
 
 
 def make_free_parameters(slots: list[Slot], scales: Scales, start: Mapping[str, float]) -> tuple[FreeParameter, ...]:
@@ -51,8 +51,8 @@ def make_free_parameters(slots: list[Slot], scales: Scales, start: Mapping[str, 
 
 def is_choice(slot: Slot, start: Mapping[str, float]) -> bool:
     """Return whether a parameter is held at one of its choices, and not fitted from where it starts."""
-    chosen = start.get(slot.key, min(slot.param.choices, default=0.0))
-    return bool(slot.param.choices) and not (_is_wave(slot.param) and chosen not in slot.param.choices)
+    chosen = start.get(slot.key, min(slot.param.prior.choices, default=0.0))
+    return bool(slot.param.prior.choices) and not (_is_wave(slot.param) and chosen not in slot.param.prior.choices)
 
 
 def compute_range(param: Param, scales: Scales) -> tuple[float, float]:
@@ -60,7 +60,7 @@ def compute_range(param: Param, scales: Scales) -> tuple[float, float]:
 
     A mode above it would appear as one below it (aliasing), and the filter of an acquisition system removes it.
     """
-    low, high = (compute_size(param, scales) * end for end in param.scan or (math.exp(-REACH), math.exp(REACH)))
+    low, high = (compute_size(param, scales) * end for end in param.prior.scan or (math.exp(-REACH), math.exp(REACH)))
     return low, max(min(high, scales.nyquist), low) if param.dimension == FREQUENCY else high
 
 
@@ -69,7 +69,7 @@ def _make_free(slot: Slot, scales: Scales, start: float | None) -> FreeParameter
     if slot.param.scale == "log":
         middle, (low, high) = math.log(size), map(math.log, compute_range(slot.param, scales))
         begin = min(max(middle if start is None else math.log(start), low), high)
-        if slot.param.scan and slot.param.dimension == LENGTH:
+        if slot.param.prior.scan and slot.param.dimension == LENGTH:
             low, high = low - BEYOND, high + BEYOND
         return FreeParameter(slot.key, slot.unit, begin, low, high, log=True, mean=middle, sd=1.5)
     low = max(slot.param.low, -30.0 * size)
@@ -129,11 +129,11 @@ def list_star_points(grids: Sequence[Sequence[float]]) -> list[tuple[float, ...]
 
 def is_scanned(amplitudes: Sequence[Slot]) -> bool:
     """Return whether the only amplitude of a term has a range to be scanned: its effect is not proportional to it."""
-    return len(amplitudes) == 1 and amplitudes[0].param.scan is not None
+    return len(amplitudes) == 1 and amplitudes[0].param.prior.scan is not None
 
 
 def list_tried_values(param: Param, scales: Scales) -> tuple[float, ...]:
     """Return the values at which a shape parameter is tried."""
-    if param.scan:
+    if param.prior.scan:
         return tuple(np.geomspace(*compute_range(param, scales), SCANNED).tolist())
-    return param.choices or tuple(f * compute_size(param, scales) for f in SHAPES)
+    return param.prior.choices or tuple(f * compute_size(param, scales) for f in SHAPES)

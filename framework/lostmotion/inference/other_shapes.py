@@ -32,13 +32,13 @@ NEAR = 0.03
 
 def has_other_shapes(posterior: Posterior) -> bool:
     """Return whether an active term has a shape with a range to be scanned, or with choices."""
-    return any(s.param.choices or s.param.scan for s in collect_shapes(posterior, posterior.active))
+    return any(s.param.prior.choices or s.param.prior.scan for s in collect_shapes(posterior, posterior.active))
 
 
 def list_scanned_shapes(posterior: Posterior) -> list[int]:
     """Return the indices among the free parameters of the shapes of active terms that have a range to be scanned."""
     slots = collect_shapes(posterior, posterior.active)
-    keys = {s.key for s in slots if s.param.scan and s.param.scale == "log" and not s.param.choices}
+    keys = {s.key for s in slots if s.param.prior.scan and s.param.scale == "log" and not s.param.prior.choices}
     return [i for i, key in enumerate(posterior.space.keys) if key in keys]
 
 
@@ -84,7 +84,7 @@ def refit_choices(fit: Fit, keys: Iterable[str]) -> Fit:
         if s.key in posterior.space.keys:
             continue
         now = float(posterior.recordings[0].full(fit.theta)[posterior.system.index[s.key]])
-        posteriors += [single.posterior.hold_values({s.key: v}) for v in s.param.choices or () if v != now]
+        posteriors += [single.posterior.hold_values({s.key: v}) for v in s.param.prior.choices or () if v != now]
     starts = [raise_random_force(one, fit.theta, max(RAISES)) for one in posteriors]
     hopeless = fit.local.log_posterior - HOPELESS
     return max([fit, *_maximise_each(posteriors, starts, fit, hopeless)], key=lambda found: found.log_evidence)

@@ -37,7 +37,7 @@ def compute_penalty(term: Term, many: int, settings: Settings = DEFAULT) -> floa
 
 def compute_own_penalty(term: Term, further: float) -> float:
     """Return the log prior penalty of a term beyond that of any law; `further` is that of each further parameter."""
-    choices = [len(q.choices) for q in term.params if q.choices]
+    choices = [len(q.prior.choices) for q in term.params if q.prior.choices]
     return (
         weigh_rarity(term) + further * (len(term.params) - len(choices) - 1) + sum(math.log(count) for count in choices)
     )

@@ -44,7 +44,7 @@ def scan_resonances(fit: Fit) -> dict[str, list[dict[str, float]]]:
 
 def _list_resonances(posterior: Posterior, key: str) -> list[Slot]:
     """Return the shapes of a law that are frequencies with a scan."""
-    return [s for s in sort_slots(posterior, key)[1] if s.param.dimension == FREQUENCY and s.param.scan]
+    return [s for s in sort_slots(posterior, key)[1] if s.param.dimension == FREQUENCY and s.param.prior.scan]
 
 
 def _list_shapes(posterior: Posterior, key: str) -> list[Mapping[str, float]]:

@@ -205,7 +205,7 @@ def list_scannable(posterior: Posterior) -> list[str]:
 
 
 def _list_free_shapes(posterior: Posterior, key: str) -> list[Slot]:
-    return [s for s in sort_slots(posterior, key)[1] if s.param.scale == "log" and not s.param.choices]
+    return [s for s in sort_slots(posterior, key)[1] if s.param.scale == "log" and not s.param.prior.choices]
 
 
 def _select_best_shape(motion: SmoothedMotion | SensorErrors, key: str) -> dict[str, float] | None:
@@ -243,15 +243,15 @@ def _list_star_shapes(
     middle = {name: grid[len(grid) // 2] for name, grid in usual.items()}
     tried = [{**middle, name: float(value)} for name, grid in grids.items() for value in grid]
     for s in shapes:
-        if s.param.choices:
-            tried += [{**shape, s.key: value} for shape in tried for value in s.param.choices]
+        if s.param.prior.choices:
+            tried += [{**shape, s.key: value} for shape in tried for value in s.param.prior.choices]
     return tried
 
 
 def _make_grid(slot: Slot, posterior: Posterior, travel: float) -> Array:
     """Return the values of a shape that are scanned, over its range."""
     size = compute_size(slot.param, posterior.scales)
-    low, high = (size * end for end in slot.param.scan or (math.exp(-REACH), math.exp(REACH)))
+    low, high = (size * end for end in slot.param.prior.scan or (math.exp(-REACH), math.exp(REACH)))
     count = max(round(math.log(high / low) / APART), FEWEST)
     grid = np.geomspace(low, high, count)
     if slot.param.dimension != LENGTH or not travel > 0.0:

@@ -111,8 +111,9 @@ class Layout:
 
     def slot(self, name: str) -> Slot:
         """Return the parameter called `name` or one of its aliases, or raise `ContractError` naming the nearest."""
+        wanted = self.model.aliases.get(name, name)
         for slot in (*self.slots, *self.onsets):
-            if name == slot.key or (slot.term is None and name in slot.param.aliases):
+            if slot.key == wanted:
                 return slot
         known = [slot.key for slot in self.slots if slot.term is None]
         raise ContractError(
@@ -286,6 +287,8 @@ class Layout:
                 yield need, self.model.places.index(place)
             elif need in ("acceleration", "force_input", "shake_input"):
                 yield "number", self._input_of(need, place)
+            elif need == "angle":
+                yield "number", 1
             else:
                 name = contact.get(need, need)
                 yield ("own", self.index[name]) if name else ("number", 0)
@@ -300,6 +303,6 @@ class Layout:
 def _find_default(slot: Slot) -> float:
     if slot.param.null is not None:
         return slot.param.null
-    if slot.param.choices:
-        return slot.param.choices[0]
+    if slot.param.prior.choices:
+        return slot.param.prior.choices[0]
     return 1.0 if slot.param.scale == "log" else 0.0

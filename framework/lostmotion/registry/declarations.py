@@ -25,7 +25,7 @@ def _find_misfits(cls: type[Any]) -> Iterator[str]:
     yield from _check_attributes(cls, TEXTS, _is_text, "text")
     yield from _check_attributes(cls, LISTS, _is_texts, "a tuple of texts")
     yield from _check_attributes(cls, ("states",), lambda value: _is_texts(tuple(value)), "names of states")
-    if hasattr(cls, "params") and not (getattr(cls, "motions", ()) or hasattr(cls, "motion")):
+    if issubclass(cls, contracts.Machine) and not (cls.motions or hasattr(cls, "motion")):
         yield "neither motion nor motions: write 'translation' or 'rotation', or both"
     lists = {"params": contracts.Param, "interfaces": contracts.Interface}
     for key, kind in (lists | ({"places": contracts.Place} if issubclass(cls, contracts.Dynamics) else {})).items():
@@ -40,16 +40,24 @@ def _find_misfits(cls: type[Any]) -> Iterator[str]:
 
 
 def _check_param(param: Any) -> Iterator[str]:
+    from lostmotion.parts import TermPrior
     from lostmotion.quantities import Dimension
 
     yield from _check_attributes(param, ("name", "meaning", "scale"), _is_text, "text")
-    yield from _check_attributes(param, ("low", "high", "typical"), _is_real, "a number")
+    yield from _check_attributes(param, ("low", "high"), _is_real, "a number")
     yield from _check_attributes(param, ("null",), lambda value: value is None or _is_real(value), "a number or None")
-    yield from _check_attributes(param, ("aliases", "words"), _is_texts, "a tuple of texts")
-    if getattr(param, "words", ()) and len(param.words) != len(getattr(param, "choices", ())):
-        yield f"{len(param.words)} words for {len(param.choices)} choices: write one for each"
-    yield from _check_attributes(param, ("choices",), lambda value: _are_all(value, _is_real), "a tuple of numbers")
+    yield from _check_attributes(param, ("prior",), lambda value: isinstance(value, TermPrior), "a TermPrior")
+    if isinstance(param.prior, TermPrior):
+        yield from _check_prior(param.prior)
     yield from _check_attributes(param, ("dimension",), lambda value: isinstance(value, Dimension), "a Dimension")
+
+
+def _check_prior(prior: Any) -> Iterator[str]:
+    yield from _check_attributes(prior, ("typical",), _is_real, "a number")
+    yield from _check_attributes(prior, ("words",), _is_texts, "a tuple of texts")
+    yield from _check_attributes(prior, ("choices",), lambda value: _are_all(value, _is_real), "a tuple of numbers")
+    if prior.words and len(prior.words) != len(prior.choices):
+        yield f"{len(prior.words)} words for {len(prior.choices)} choices: write one for each"
 
 
 def _check_place(place: Any) -> Iterator[str]:

@@ -28,8 +28,10 @@ from lostmotion.robots.log import RobotLog, average_neighbours
 from lostmotion.robots.tape import Part, Tape
 
 Whole = NDArray[np.int64]
-NEEDS = {"mobility": 1, "step": 2, "finest": 2, "inertia": 3}
-"""What the filter knows at a joint, with the number under which its kernel knows it."""
+NEEDS = {"angle": 0, "mobility": 1, "step": 2, "finest": 2, "inertia": 3}
+"""What the filter knows at a joint, with the number under which its kernel knows it; 0 for what is known before."""
+KNOWN_NEEDS = {"angle": 1.0}
+"""The values of those that are known before."""
 LAW_STEPS = 4
 """Steps of the filter within a sample where a law acts: dry friction needs them (study: 1 step costs 10 to 25 nats)."""
 FASTEST, MOST_STEPS = 0.5, 64
@@ -46,7 +48,7 @@ def can_act(term: Term) -> bool:
         return not term.needs
     plain = isinstance(inspect.getattr_static(type(term), "force", None), staticmethod)
     known = set(term.needs) <= set(NEEDS)
-    if not (term.acts == "motion" and plain and known) or term.states or "rotation" not in term.motions:
+    if not (term.acts == "motion" and plain and known) or term.states:
         return False
     return not make_law(term).reads_inputs
 
@@ -234,7 +236,7 @@ class TapedArm:
                 rows.append((BASE_FRICTION, j, [force]))
         made = [make_law(term) for term, *_ in rows]
         widths = [law.width for law in made]
-        numbers = [x for term, _, given in rows for x in (*given, *[0.0] * len(term.needs))]
+        numbers = [x for term, _, given in rows for x in (*given, *(KNOWN_NEEDS.get(name, 0.0) for name in term.needs))]
         needs = [k for term, _, given in rows for k in (*[0] * len(given), *(NEEDS[name] for name in term.needs))]
         firsts = np.cumsum([0, *widths])[:-1]
         return _LawTable(

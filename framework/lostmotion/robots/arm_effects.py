@@ -20,7 +20,7 @@ from lostmotion.kernels.joint_laws import evaluate_law
 from lostmotion.likelihood.compose import compile_law
 from lostmotion.parts import Array, Param
 from lostmotion.quantities import INERTIA, LENGTH, NUMBER, STIFFNESS, TIME, Dimension
-from lostmotion.robots.arm import Column, TapedArm, make_law
+from lostmotion.robots.arm import KNOWN_NEEDS, Column, TapedArm, make_law
 from lostmotion.robots.gears import AT, BACKLASH, ELASTICITY, USUAL_DAMPING, Gear, GearLaw
 from lostmotion.robots.tape import Path
 
@@ -54,8 +54,8 @@ class JointScales:
 
     def size(self, param: Param) -> float:
         """Return the typical size of a parameter; one that is `lasting` has the time scale of the whole log."""
-        time = self.span if param.lasting else self.length / self.speed
-        return param.typical * param.dimension.scale(self.force, self.length, time)
+        time = self.span if param.prior.lasting else self.length / self.speed
+        return param.prior.typical * param.dimension.scale(self.force, self.length, time)
 
 
 def measure_scales(arm: TapedArm) -> tuple[JointScales, ...]:
@@ -143,8 +143,8 @@ class LawEffect:
     @property
     def fixed(self) -> dict[str, float]:
         """The values of the parameters that are tried in turn and not fitted, by key."""
-        tried = [q for q in self.term.params if q.choices]
-        values = self.chosen or tuple(q.choices[0] for q in tried)
+        tried = [q for q in self.term.params if q.prior.choices]
+        values = self.chosen or tuple(q.prior.choices[0] for q in tried)
         return {f"{self.key}.{q.name}": value for q, value in zip(tried, values, strict=True)}
 
     def choose(self, values: Mapping[str, float]) -> LawEffect:
@@ -169,7 +169,7 @@ class LawEffect:
     @property
     def coordinates(self) -> tuple[ArmCoordinate, ...]:
         """The parameters that are fitted."""
-        return tuple(self._make_coordinate(q) for q in self.term.params if not q.choices)
+        return tuple(self._make_coordinate(q) for q in self.term.params if not q.prior.choices)
 
     def _make_coordinate(self, q: Param) -> ArmCoordinate:
         unit = self.scales.size(q)
@@ -185,13 +185,13 @@ class LawEffect:
 
     def _list_grid(self, q: Param) -> tuple[float, ...]:
         unit = self.scales.size(q)
-        if q.choices:
-            return q.choices
+        if q.prior.choices:
+            return q.prior.choices
         if q.name == PITCH:
             return self.pitches
-        if q.scan is None:
+        if q.prior.scan is None:
             return (0.3 * unit, unit, 3.0 * unit)
-        return tuple((unit * np.geomspace(*q.scan, GRID)).tolist())
+        return tuple((unit * np.geomspace(*q.prior.scan, GRID)).tolist())
 
     def list_shapes(self, path: Path, accelerations: Array) -> Sequence[Shape]:
         """Return its forms along a path."""
@@ -223,7 +223,7 @@ class LawEffect:
 
     def _evaluate(self, values: Mapping[str, float], path: Path) -> Array:
         numbers = [values[f"{self.key}.{q.name}"] for q in self.term.params]
-        known = {"mobility": 1e-9, "step": self.arm.log.dt, "finest": self.arm.log.dt, "inertia": 1.0}
+        known = {"mobility": 1e-9, "step": self.arm.log.dt, "finest": self.arm.log.dt, "inertia": 1.0, **KNOWN_NEEDS}
         numbers += [known[name] for name in self.term.needs]
         found = np.zeros(len(path.q))
         time = self.arm.log.dt * np.arange(len(found))

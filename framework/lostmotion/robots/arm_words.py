@@ -88,9 +88,9 @@ def _word_choices(term: Term, fixed: Mapping[str, float]) -> dict[str, str]:
     """Return the words of the parameters that are not fitted."""
     found = {}
     for q in term.params:
-        if q.choices:
+        if q.prior.choices:
             value = next(v for key, v in fixed.items() if key.endswith(f".{q.name}"))
-            found[q.name] = q.words[q.choices.index(value)] if q.words else f"{value:g}"
+            found[q.name] = q.prior.words[q.prior.choices.index(value)] if q.prior.words else f"{value:g}"
     return found
 
 

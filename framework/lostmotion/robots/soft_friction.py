@@ -8,7 +8,7 @@ from typing import ClassVar
 
 from lostmotion.contracts import Term
 from lostmotion.defaults import DRY_FRICTION
-from lostmotion.parts import Array, Param, Values
+from lostmotion.parts import Array, Param, TermPrior, Values
 from lostmotion.quantities import FORCE, SPEED
 
 
@@ -32,7 +32,7 @@ class SoftFriction(Term):
     )
     params = (
         Param("force", "friction at high speed", FORCE, low=0.0, null=0.0),
-        Param("velocity", "speed at which it has 76 % of this size", SPEED, low=0.0, scale="log", typical=0.1),
+        Param("velocity", "speed at which it has 76 % of this size", SPEED, low=0.0, scale="log", prior=TermPrior(0.1)),
     )
     needs = ("mobility",)
 

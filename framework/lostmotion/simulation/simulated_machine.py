@@ -144,11 +144,10 @@ def assembly_of(
 
 
 def _own_parameter(term: Term, key: str) -> str:
-    """Return the name of a parameter of a term, given its name or an alias."""
-    for q in term.params:
-        if key in (q.name, *q.aliases):
-            return q.name
+    """Return the name of a parameter of a term."""
     known = [q.name for q in term.params]
+    if key in known:
+        return key
     raise CaseError(f"{term.name} has no parameter {key!r}{nearest(key, known)}: it has {', '.join(known)}")
 
 

@@ -22,8 +22,8 @@ def find_repeated(words: Any) -> list[str]:
 
 @rule("model", "dynamics", "term", declaration=True)
 def params_are_unique(component: Any) -> str:
-    """Give each parameter a unique name and unique aliases: a case file uses either of them."""
-    again = find_repeated(word for q in component.params for word in {q.name, *q.aliases})
+    """Give each parameter a unique name, and aliases that are no names: a case file uses either of them."""
+    again = find_repeated((*(q.name for q in component.params), *getattr(component, "aliases", ())))
     bad = [q.name for q in component.params if not q.name.isidentifier()]
     return f"{join_words(again)} occurs twice" if again else (f"{bad[0]!r} is not an identifier" if bad else "")
 
@@ -36,8 +36,8 @@ def bounds_are_ordered(component: Any) -> str:
             return f"{q.name} goes from {q.low:g} to {q.high:g}"
         if q.scale not in ("linear", "log") or (q.scale == "log" and q.low < 0.0):
             return f"{q.name} has scale {q.scale!r} and low {q.low:g}"
-        if not q.typical > 0.0:
-            return f"{q.name} has the typical size {q.typical:g}, and a prior needs a positive value"
+        if not q.prior.typical > 0.0:
+            return f"{q.name} has the typical size {q.prior.typical:g}, and a prior needs a positive value"
     return ""
 
 

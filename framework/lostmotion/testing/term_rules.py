@@ -91,13 +91,6 @@ def needs_are_names_of_others(term: Term) -> str:
 
 
 @rule("term", declaration=True)
-def motions_are_known(term: Term) -> str:
-    """List in `motions` one or both of "translation" and "rotation"."""
-    good = term.motions and set(term.motions) <= {"translation", "rotation"}
-    return "" if good else f"the motions are {term.motions!r}"
-
-
-@rule("term", declaration=True)
 def states_begin_with_sizes(term: Term) -> str:
     """Give each of `states` no size, a dimension or the name of an own parameter."""
     own = {None, *(q.name for q in term.params)}

@@ -81,8 +81,9 @@ class SweptMachine:
         return self._find_parameter(name)
 
     def _find_parameter(self, name: str) -> Knob:
+        wanted = self.assembly.model.aliases.get(name, name)
         for slot in self.system.slots:
-            if name == slot.key or (slot.term is None and name in slot.param.aliases):
+            if slot.key == wanted:
                 return Knob(name, "parameter", slot.key, slot.unit, slot.param.meaning)
         states = [f"start.{state}" for state in self.assembly.model.states]
         known = [*self.groups, *(s.key for s in self.system.slots), *(f"drive.{key}" for key in DRIVE), *states]

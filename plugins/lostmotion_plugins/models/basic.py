@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -10,8 +11,8 @@ from lostmotion.quantities import DAMPING, INERTIA, STIFFNESS
 from lostmotion_plugins.models.lin import LinBacklash, ground
 
 _GROUND = Interface("ground", row=1, inertia="m", motion=ground)
-_MASS = Param("m", "moving mass", INERTIA, low=0.0, scale="log", aliases=("M", "mass"))
-_DAMPING = Param("c", "viscous friction", DAMPING, low=0.0, scale="log", aliases=("Fv", "damping"))
+_MASS = Param("m", "moving mass", INERTIA, low=0.0, scale="log")
+_DAMPING = Param("c", "viscous friction", DAMPING, low=0.0, scale="log")
 
 
 @dataclass(frozen=True)
@@ -29,6 +30,7 @@ class RigidDrive(Model):
     inputs = ("force", "base_acceleration")
     channels = ("position", "velocity", "acceleration")
     params = (_MASS, _DAMPING)
+    aliases: ClassVar[Mapping[str, str]] = {"M": "m", "mass": "m", "Fv": "c", "damping": "c"}
     interfaces = (_GROUND,)
 
     @staticmethod
@@ -53,7 +55,15 @@ class LinearOscillator(Model):
     states = ("position", "velocity")
     inputs = ("force", "base_acceleration")
     channels = ("position", "velocity", "acceleration")
-    params = (_MASS, _DAMPING, Param("k", "stiffness", STIFFNESS, low=0.0, scale="log", aliases=("k1", "stiffness")))
+    params = (_MASS, _DAMPING, Param("k", "stiffness", STIFFNESS, low=0.0, scale="log"))
+    aliases: ClassVar[Mapping[str, str]] = {
+        "M": "m",
+        "mass": "m",
+        "Fv": "c",
+        "damping": "c",
+        "k1": "k",
+        "stiffness": "k",
+    }
     interfaces = (Interface("ground", row=1, inertia="m", motion=ground, holds=("k",), stiffness="k"),)
 
     @staticmethod

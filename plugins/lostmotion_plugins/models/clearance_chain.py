@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -41,16 +42,17 @@ class ClearanceChain(Model):
         "position", "velocity", "acceleration", "second_position", "second_velocity", "second_acceleration",
     )  # fmt: skip
     params = (
-        Param("m1", "mass of the first body", INERTIA, low=0.0, scale="log", aliases=("m",)),
+        Param("m1", "mass of the first body", INERTIA, low=0.0, scale="log"),
         Param("c1", "viscous damping of the first body", DAMPING, low=0.0),
         Param("k1", "stiffness from the first body to the ground", STIFFNESS, low=0.0),
         Param("m2", "mass of the second body", INERTIA, low=0.0, scale="log"),
         Param("c2", "viscous damping of the second body", DAMPING, low=0.0),
         Param("k2", "stiffness from the second body to the ground", STIFFNESS, low=0.0),
-        Param("k0", "stiffness of the joint in contact", STIFFNESS, low=0.0, scale="log", aliases=("stiffness",)),
+        Param("k0", "stiffness of the joint in contact", STIFFNESS, low=0.0, scale="log"),
         Param("c0", "viscous damping across the joint", DAMPING, low=0.0),
-        Param("x0", "half gap of the joint", LENGTH, low=0.0, scale="log", aliases=("gap", "backlash")),
+        Param("x0", "half gap of the joint", LENGTH, low=0.0, scale="log"),
     )
+    aliases: ClassVar[Mapping[str, str]] = {"m": "m1", "stiffness": "k0", "gap": "x0", "backlash": "x0"}
     interfaces = (
         Interface("ground", row=1, inertia="m1", motion=ground, holds=("k1",), stiffness="k1"),
         Interface(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -10,10 +11,10 @@ from lostmotion.quantities import DAMPING, FORCE_PER_CURRENT, INDUCTANCE, INERTI
 from lostmotion_plugins.models.lin import ground
 
 _PAPER = "Krishnan, Electric Motor Drives: Modeling, Analysis, and Control (2001), section 2.3"
-_INERTIA = Param("J", "moment of inertia of rotor and load", INERTIA, low=0.0, scale="log", aliases=("m", "inertia"))
-_DAMPING = Param("c", "viscous friction", DAMPING, low=0.0, scale="log", aliases=("b", "damping"))
-_CONSTANT = Param("K", "torque over current, and voltage over speed", FORCE_PER_CURRENT, low=0.0, aliases=("kt", "ke"))
-_RESISTANCE = Param("R", "resistance of the winding", RESISTANCE, low=0.0, scale="log", aliases=("resistance",))
+_INERTIA = Param("J", "moment of inertia of rotor and load", INERTIA, low=0.0, scale="log")
+_DAMPING = Param("c", "viscous friction", DAMPING, low=0.0, scale="log")
+_CONSTANT = Param("K", "torque over current, and voltage over speed", FORCE_PER_CURRENT, low=0.0)
+_RESISTANCE = Param("R", "resistance of the winding", RESISTANCE, low=0.0, scale="log")
 _GROUND = Interface("ground", row=1, inertia="J", motion=ground)
 
 
@@ -34,8 +35,18 @@ class DcMotor(Model):
     channels = ("position", "velocity", "acceleration", "current")
     params = (
         _INERTIA, _DAMPING, _CONSTANT, _RESISTANCE,
-        Param("L", "inductance of the winding", INDUCTANCE, low=0.0, scale="log", aliases=("inductance",)),
+        Param("L", "inductance of the winding", INDUCTANCE, low=0.0, scale="log"),
     )  # fmt: skip
+    aliases: ClassVar[Mapping[str, str]] = {
+        "m": "J",
+        "inertia": "J",
+        "b": "c",
+        "damping": "c",
+        "kt": "K",
+        "ke": "K",
+        "resistance": "R",
+        "inductance": "L",
+    }
     interfaces = (_GROUND,)
 
     @staticmethod
@@ -66,6 +77,7 @@ class CurrentMotor(Model):
     inputs = ("current", "force")
     channels = ("position", "velocity", "acceleration")
     params = (_INERTIA, _DAMPING, _CONSTANT)
+    aliases: ClassVar[Mapping[str, str]] = {"m": "J", "inertia": "J", "b": "c", "damping": "c", "kt": "K", "ke": "K"}
     interfaces = (_GROUND,)
 
     @staticmethod

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -26,11 +27,12 @@ class Duffing(Model):
     inputs = ("force", "base_acceleration")
     channels = ("position", "velocity", "acceleration")
     params = (
-        Param("m", "mass", INERTIA, low=0.0, scale="log", aliases=("mass",)),
-        Param("c", "viscous damping", DAMPING, low=0.0, scale="log", aliases=("damping",)),
-        Param("k", "stiffness at zero, below 0 where there are two wells", STIFFNESS, aliases=("k1", "stiffness")),
-        Param("k3", "cubic stiffness", Dimension(1, -3, 0), aliases=("cubic",)),
+        Param("m", "mass", INERTIA, low=0.0, scale="log"),
+        Param("c", "viscous damping", DAMPING, low=0.0, scale="log"),
+        Param("k", "stiffness at zero, below 0 where there are two wells", STIFFNESS),
+        Param("k3", "cubic stiffness", Dimension(1, -3, 0)),
     )
+    aliases: ClassVar[Mapping[str, str]] = {"mass": "m", "damping": "c", "k1": "k", "stiffness": "k", "cubic": "k3"}
     interfaces = (Interface("ground", row=1, inertia="m", motion=ground, holds=("k", "k3")),)
 
     @staticmethod

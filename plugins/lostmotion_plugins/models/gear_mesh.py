@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -41,15 +42,23 @@ class GearMesh(Model):
     inputs = ("force", "base_acceleration")
     channels = ("position", "velocity", "acceleration")
     params = (
-        Param("m", "equivalent mass", INERTIA, low=0.0, scale="log", aliases=("mass",)),
-        Param("c", "viscous damping of the mesh", DAMPING, low=0.0, scale="log", aliases=("damping",)),
-        Param("k0", "mean stiffness of the mesh", STIFFNESS, low=0.0, scale="log", aliases=("stiffness",)),
-        Param("x0", "half of the backlash", LENGTH, low=0.0, scale="log", aliases=("gap", "backlash")),
-        Param("preload", "mean load, as a force along the line of action", FORCE, aliases=("load",)),
+        Param("m", "equivalent mass", INERTIA, low=0.0, scale="log"),
+        Param("c", "viscous damping of the mesh", DAMPING, low=0.0, scale="log"),
+        Param("k0", "mean stiffness of the mesh", STIFFNESS, low=0.0, scale="log"),
+        Param("x0", "half of the backlash", LENGTH, low=0.0, scale="log"),
+        Param("preload", "mean load, as a force along the line of action", FORCE),
         Param("kappa", "share of the stiffness that pulsates", NUMBER, low=0.0, high=1.0),
         Param("omega_mesh", "angular frequency at which teeth mesh (rad/s)", Dimension(0, 0, -1), low=0.0),
         Param("phase", "phase of the mesh at the start (rad)", NUMBER),
     )
+    aliases: ClassVar[Mapping[str, str]] = {
+        "mass": "m",
+        "damping": "c",
+        "stiffness": "k0",
+        "gap": "x0",
+        "backlash": "x0",
+        "load": "preload",
+    }
     interfaces = (Interface("ground", row=1, inertia="m", motion=ground, holds=("x0",), stiffness="k0", play="x0"),)
     groups = (
         Group("zeta", "damping ratio", "c / (2 sqrt(k0 m))", "c", lambda q, n: 2.0 * n * math.sqrt(q["k0"] * q["m"])),

@@ -52,19 +52,27 @@ class GearPair(Model):
     inputs = ClearanceChain.inputs
     channels = ClearanceChain.channels
     params = (
-        Param("m1", "inertia of the first wheel", INERTIA, low=0.0, scale="log", aliases=("m", "J1")),
+        Param("m1", "inertia of the first wheel", INERTIA, low=0.0, scale="log"),
         Param("c1", "viscous damping in the bearing of the first wheel", DAMPING, low=0.0),
-        Param("m2", "inertia of the second wheel", INERTIA, low=0.0, scale="log", aliases=("J2",)),
+        Param("m2", "inertia of the second wheel", INERTIA, low=0.0, scale="log"),
         Param("c2", "viscous damping in the bearing of the second wheel", DAMPING, low=0.0),
-        Param("c", "viscous damping of the mesh", DAMPING, low=0.0, scale="log", aliases=("damping",)),
-        Param("k0", "mean stiffness of the mesh", STIFFNESS, low=0.0, scale="log", aliases=("stiffness",)),
-        Param("x0", "half of the backlash at the first wheel", LENGTH, low=0.0, scale="log", aliases=("backlash",)),
+        Param("c", "viscous damping of the mesh", DAMPING, low=0.0, scale="log"),
+        Param("k0", "mean stiffness of the mesh", STIFFNESS, low=0.0, scale="log"),
+        Param("x0", "half of the backlash at the first wheel", LENGTH, low=0.0, scale="log"),
         Param("ratio", "turns of the first wheel for one of the second", NUMBER, low=0.0, scale="log"),
         Param("load", "constant load on the second wheel", FORCE),
         Param("kappa", "share of the stiffness that pulsates", NUMBER, low=0.0, high=1.0),
         Param("omega_mesh", "angular frequency at which teeth mesh (rad/s)", Dimension(0, 0, -1), low=0.0),
         Param("phase", "phase of the mesh at the start (rad)", NUMBER),
     )
+    aliases: ClassVar[Mapping[str, str]] = {
+        "m": "m1",
+        "J1": "m1",
+        "J2": "m2",
+        "damping": "c",
+        "stiffness": "k0",
+        "backlash": "x0",
+    }
     interfaces = (
         Interface("ground", row=1, inertia="m1", motion=ground),
         Interface(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -31,13 +32,14 @@ class ImpactOscillator(Model):
     inputs = ("force", "base_acceleration")
     channels = ("position", "velocity", "acceleration")
     params = (
-        Param("m", "mass", INERTIA, low=0.0, scale="log", aliases=("mass",)),
-        Param("c", "viscous damping", DAMPING, low=0.0, scale="log", aliases=("damping",)),
-        Param("k", "stiffness of the spring", STIFFNESS, low=0.0, scale="log", aliases=("k1", "stiffness")),
+        Param("m", "mass", INERTIA, low=0.0, scale="log"),
+        Param("c", "viscous damping", DAMPING, low=0.0, scale="log"),
+        Param("k", "stiffness of the spring", STIFFNESS, low=0.0, scale="log"),
         Param("k0", "stiffness of the stop", STIFFNESS, low=0.0, scale="log"),
-        Param("x0", "position of the stop", LENGTH, low=0.0, scale="log", aliases=("gap",)),
+        Param("x0", "position of the stop", LENGTH, low=0.0, scale="log"),
         Param("loss", "loss of the stop: its damping over stiffness times depth", Dimension(0, -1, 1), low=0.0),
     )
+    aliases: ClassVar[Mapping[str, str]] = {"mass": "m", "damping": "c", "k1": "k", "stiffness": "k", "gap": "x0"}
     interfaces = (Interface("ground", row=1, inertia="m", motion=ground, holds=("k",), stiffness="k"),)
     groups = (
         Group("zeta", "damping ratio", "c / (2 sqrt(k m))", "c", lambda q, n: 2.0 * n * math.sqrt(q["k"] * q["m"])),

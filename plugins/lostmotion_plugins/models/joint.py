@@ -40,12 +40,21 @@ class RobotJoint(Model):
     inputs = ("base_position", "base_velocity", "force")
     channels = ("position", "velocity", "acceleration", "force")
     params = (
-        Param("m", "moment of inertia of the link", INERTIA, low=0.0, scale="log", aliases=("J", "inertia")),
-        Param("c", "viscous damping in the joint", DAMPING, low=0.0, scale="log", aliases=("damping",)),
-        Param("k0", "stiffness of the joint in contact", STIFFNESS, low=0.0, scale="log", aliases=("stiffness",)),
-        Param("x0", "half of the backlash", LENGTH, low=0.0, scale="log", aliases=("gap", "backlash")),
-        Param("mgl", "gravity torque of the horizontal link", FORCE, aliases=("gravity",)),
+        Param("m", "moment of inertia of the link", INERTIA, low=0.0, scale="log"),
+        Param("c", "viscous damping in the joint", DAMPING, low=0.0, scale="log"),
+        Param("k0", "stiffness of the joint in contact", STIFFNESS, low=0.0, scale="log"),
+        Param("x0", "half of the backlash", LENGTH, low=0.0, scale="log"),
+        Param("mgl", "gravity torque of the horizontal link", FORCE),
     )
+    aliases: ClassVar[Mapping[str, str]] = {
+        "J": "m",
+        "inertia": "m",
+        "damping": "c",
+        "stiffness": "k0",
+        "gap": "x0",
+        "backlash": "x0",
+        "gravity": "mgl",
+    }
     interfaces = (
         Interface("base", row=1, inertia="m", motion=base, holds=("k0", "x0"), stiffness="k0", play="x0"),
         Interface("ground", row=1, inertia="m", motion=ground),

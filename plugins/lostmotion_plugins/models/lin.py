@@ -34,12 +34,19 @@ class LinBacklash(Model):
     inputs = ("force", "base_acceleration")
     channels = ("position", "velocity", "acceleration")
     params = (
-        Param("m", "mass", INERTIA, low=0.0, scale="log", aliases=("mass",)),
-        Param("c", "viscous damping", DAMPING, low=0.0, scale="log", aliases=("damping",)),
+        Param("m", "mass", INERTIA, low=0.0, scale="log"),
+        Param("c", "viscous damping", DAMPING, low=0.0, scale="log"),
         Param("k1", "stiffness of the free spring", STIFFNESS, low=0.0),
-        Param("k0", "stiffness of the contact", STIFFNESS, low=0.0, scale="log", aliases=("stiffness",)),
-        Param("x0", "half gap", LENGTH, low=0.0, scale="log", aliases=("gap", "backlash")),
+        Param("k0", "stiffness of the contact", STIFFNESS, low=0.0, scale="log"),
+        Param("x0", "half gap", LENGTH, low=0.0, scale="log"),
     )
+    aliases: ClassVar[Mapping[str, str]] = {
+        "mass": "m",
+        "damping": "c",
+        "stiffness": "k0",
+        "gap": "x0",
+        "backlash": "x0",
+    }
     interfaces = (
         Interface("ground", row=1, inertia="m", motion=ground, holds=("k0", "x0"), stiffness="k0", play="x0"),
     )

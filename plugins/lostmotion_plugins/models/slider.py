@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -31,11 +32,18 @@ class BacklashSlider(Model):
     inputs = ("base_position", "base_velocity", "force")
     channels = ("position", "velocity", "acceleration", "force")
     params = (
-        Param("m", "moving mass", INERTIA, low=0.0, scale="log", aliases=("mass",)),
-        Param("c", "viscous damping across the gap", DAMPING, low=0.0, scale="log", aliases=("damping",)),
-        Param("k0", "stiffness of the contact", STIFFNESS, low=0.0, scale="log", aliases=("stiffness",)),
-        Param("x0", "half gap", LENGTH, low=0.0, scale="log", aliases=("gap", "backlash")),
+        Param("m", "moving mass", INERTIA, low=0.0, scale="log"),
+        Param("c", "viscous damping across the gap", DAMPING, low=0.0, scale="log"),
+        Param("k0", "stiffness of the contact", STIFFNESS, low=0.0, scale="log"),
+        Param("x0", "half gap", LENGTH, low=0.0, scale="log"),
     )
+    aliases: ClassVar[Mapping[str, str]] = {
+        "mass": "m",
+        "damping": "c",
+        "stiffness": "k0",
+        "gap": "x0",
+        "backlash": "x0",
+    }
     interfaces = (
         Interface("base", row=1, inertia="m", motion=base, holds=("k0", "x0"), stiffness="k0", play="x0"),
         Interface("ground", row=1, inertia="m", motion=ground),

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
-from lostmotion.contracts import Array, Machine, Param, Term, Values
+from lostmotion.contracts import Array, Machine, Param, Term, TermPrior, Values
 from lostmotion.quantities import FREQUENCY, INERTIA, LENGTH, NUMBER, SPEED, TIME, Dimension
 
 
@@ -35,13 +35,17 @@ class HiddenMode(Term):
     )
     paper: ClassVar[str] = "Den Hartog, Mechanical Vibrations (1956), section 3.3"
     params = (
-        Param("mass_ratio", "hidden mass over that of the body", NUMBER, low=0.0, null=0.0, typical=0.1),
+        Param("mass_ratio", "hidden mass over that of the body", NUMBER, low=0.0, null=0.0, prior=TermPrior(0.1)),
         Param(
-            "frequency", "frequency of the hidden mass on the body held still", FREQUENCY, low=0.0, scale="log",
-            typical=0.5 / math.pi, scan=(0.1, 10.0),
+            "frequency",
+            "frequency of the hidden mass on the body held still",
+            FREQUENCY,
+            low=0.0,
+            scale="log",
+            prior=TermPrior(0.5 / math.pi, scan=(0.1, 10.0)),
         ),
-        Param("damping", "damping ratio of the hidden mass", NUMBER, low=0.0, scale="log", typical=0.03),
-    )  # fmt: skip
+        Param("damping", "damping ratio of the hidden mass", NUMBER, low=0.0, scale="log", prior=TermPrior(0.03)),
+    )
     states: ClassVar[Mapping[str, Dimension]] = {"hidden_place": LENGTH, "hidden_speed": SPEED}
     needs = ("inertia", "shake_input")
 
@@ -75,11 +79,11 @@ class InertiaChange(Term):
     formula: ClassVar[str] = "-change * m / (m + change) * a from `time` on, a the acceleration by all other forces"
     paper: ClassVar[str] = "Isermann, Fault-Diagnosis Systems (2006), section 5.1: additive and multiplicative faults"
     params = (
-        Param("change", "change of the moving mass", INERTIA, null=0.0, typical=0.2),
+        Param("change", "change of the moving mass", INERTIA, null=0.0, prior=TermPrior(0.2)),
         Param(
-            "time", "when it changes", TIME, low=0.0, scale="log", typical=0.35, lasting=True, scan=(0.05, 2.8),
+            "time", "when it changes", TIME, low=0.0, scale="log", prior=TermPrior(0.35, lasting=True, scan=(0.05, 2.8))
         ),
-    )  # fmt: skip
+    )
     needs = ("inertia", "acceleration", "shake_input")
 
     def fits(self, model: Machine) -> bool:

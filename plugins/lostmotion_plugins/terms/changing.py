@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
-from lostmotion.contracts import Array, Param, Term, Values
+from lostmotion.contracts import Array, Param, Term, TermPrior, Values
 from lostmotion.quantities import NUMBER, SPEED
 from lostmotion_plugins.laws import describe_wave, subtract_gap
 
@@ -32,9 +32,17 @@ class ParametricStiffness(Term):
     formula: ClassVar[str] = "-(cosine * cos(ratio omega t) + sine * sin(ratio omega t)) * F(x), F the contact force"
     paper: ClassVar[str] = "Theodossiades, Natsiavas, J. Sound and Vibration 229 (2000) 287-310, eq. (5)"
     params = (
-        Param("cosine", "share of the stiffness that pulsates as cos(ratio omega t)", NUMBER, null=0.0, typical=0.2),
-        Param("sine", "share of the stiffness that pulsates as sin(ratio omega t)", NUMBER, null=0.0, typical=0.2),
-        replace(RATIO, choices=(1.0, 2.0, 3.0, 0.5)),
+        Param(
+            "cosine",
+            "share of the stiffness that pulsates as cos(ratio omega t)",
+            NUMBER,
+            null=0.0,
+            prior=TermPrior(0.2),
+        ),
+        Param(
+            "sine", "share of the stiffness that pulsates as sin(ratio omega t)", NUMBER, null=0.0, prior=TermPrior(0.2)
+        ),
+        replace(RATIO, prior=TermPrior(choices=(1.0, 2.0, 3.0, 0.5))),
     )
     needs = ("stiffness", "play", "omega")
 
@@ -60,7 +68,7 @@ class GapDrift(Term):
     physics: ClassVar[str] = "The half gap changes by {rate} while the machine runs"
     formula: ClassVar[str] = "F(x; x0) - F(x; x0 + rate * t), F the contact force of the model"
     paper: ClassVar[str] = "Flodin, Andersson, Wear 207 (1997) 16-23: wear as travel times load"
-    params = (Param("rate", "growth of the half gap", SPEED, null=0.0, typical=0.1, lasting=True),)
+    params = (Param("rate", "growth of the half gap", SPEED, null=0.0, prior=TermPrior(0.1, lasting=True)),)
     needs = ("k0", "x0")
 
     @staticmethod

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar
 
-from lostmotion.contracts import Array, Param, Term, Values
+from lostmotion.contracts import Array, Param, Term, TermPrior, Values
 from lostmotion.quantities import DAMPING, LENGTH, Dimension
 from lostmotion_plugins.laws import subtract_gap
 
@@ -37,7 +37,7 @@ class AsymmetricGap(Term):
     physics: ClassVar[str] = "The gap is not centred: it is shifted by {shift}"
     formula: ClassVar[str] = "F(x) - F(x - shift), F the contact force of the model"
     paper: ClassVar[str] = "Theodossiades, Natsiavas, J. Sound and Vibration 229 (2000) 287-310, eq. (3)"
-    params = (Param("shift", "shift of the centre of the gap", LENGTH, null=0.0, typical=0.3),)
+    params = (Param("shift", "shift of the centre of the gap", LENGTH, null=0.0, prior=TermPrior(0.3)),)
     needs = ("k0", "x0")
 
     @staticmethod
@@ -55,7 +55,14 @@ class HuntCrossleyContact(Term):
     formula: ClassVar[str] = "-coefficient * d * v, d = |x| - x0 where that is positive, else 0"
     paper: ClassVar[str] = "Hunt, Crossley, J. Applied Mechanics 42 (1975) 440-445, eq. (9) with n = 1"
     params = (
-        Param("coefficient", "damping over depth of the contact", Dimension(1, -2, 1), low=0.0, null=0.0, typical=3.0),
+        Param(
+            "coefficient",
+            "damping over depth of the contact",
+            Dimension(1, -2, 1),
+            low=0.0,
+            null=0.0,
+            prior=TermPrior(3.0),
+        ),
     )
     needs = ("x0",)
 
@@ -73,7 +80,7 @@ class HertzContact(Term):
     physics: ClassVar[str] = "The contact has a further force of {coefficient} times its depth to the power of 3/2"
     formula: ClassVar[str] = "-coefficient * d^(3/2) * sign(x), d = |x| - x0 where that is positive, else 0"
     paper: ClassVar[str] = "Hertz, J. reine angewandte Mathematik 92 (1882) 156-171; Johnson, Contact Mechanics (1985)"
-    params = (Param("coefficient", "Hertzian stiffness", Dimension(1, -1.5, 0), null=0.0, typical=3.0),)
+    params = (Param("coefficient", "Hertzian stiffness", Dimension(1, -1.5, 0), null=0.0, prior=TermPrior(3.0)),)
     needs = ("x0",)
 
     @staticmethod

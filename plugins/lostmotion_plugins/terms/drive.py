@@ -9,7 +9,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from lostmotion.contracts import Array, DriveTerm, Input, Param, Values
+from lostmotion.contracts import Array, DriveTerm, Input, Param, TermPrior, Values
 from lostmotion.quantities import FORCE, NUMBER, TIME
 from lostmotion_plugins.laws import describe_wave
 from lostmotion_plugins.terms.changing import RATIO
@@ -33,9 +33,9 @@ class ExcitationHarmonic(DriveTerm):
     formula: ClassVar[str] = "u + amplitude * (cosine * cos(ratio omega t) + sine * sin(ratio omega t))"
     paper: ClassVar[str] = "Pintelon, Schoukens, System Identification: a Frequency Domain Approach (2012), section 3.2"
     params = (
-        Param("cosine", "share of the drive as cos(ratio omega t)", NUMBER, null=0.0, typical=0.1),
-        Param("sine", "share of the drive as sin(ratio omega t)", NUMBER, null=0.0, typical=0.1),
-        replace(RATIO, choices=(2.0, 3.0, 4.0, 5.0, 0.5, 1.5)),
+        Param("cosine", "share of the drive as cos(ratio omega t)", NUMBER, null=0.0, prior=TermPrior(0.1)),
+        Param("sine", "share of the drive as sin(ratio omega t)", NUMBER, null=0.0, prior=TermPrior(0.1)),
+        replace(RATIO, prior=TermPrior(choices=(2.0, 3.0, 4.0, 5.0, 0.5, 1.5))),
     )
     needs = ("omega", "amplitude")
 
@@ -60,7 +60,7 @@ class ExcitationGain(DriveTerm):
     physics: ClassVar[str] = "The drive that acts is larger than the recorded one by the fraction {error}"
     formula: ClassVar[str] = "(1 + error) * u"
     paper: ClassVar[str] = "Pintelon, Schoukens, System Identification: a Frequency Domain Approach (2012), section 1.6"
-    params = (Param("error", "relative error of the gain", NUMBER, low=-0.9, null=0.0, typical=0.1),)
+    params = (Param("error", "relative error of the gain", NUMBER, low=-0.9, null=0.0, prior=TermPrior(0.1)),)
 
     @staticmethod
     def true(u: Input, t: Array, p: Values, order: int) -> Array:
@@ -76,7 +76,7 @@ class ExcitationDelay(DriveTerm):
     physics: ClassVar[str] = "The drive acts {delay} after it was recorded"
     formula: ClassVar[str] = "u(t - delay)"
     paper: ClassVar[str] = "Ljung, System Identification: Theory for the User (1999), section 4.2"
-    params = (Param("delay", "delay of the drive", TIME, null=0.0, scan=(0.1, 6.0)),)
+    params = (Param("delay", "delay of the drive", TIME, null=0.0, prior=TermPrior(scan=(0.1, 6.0))),)
     equals = ("sensor_delay",)
 
     @staticmethod
@@ -100,7 +100,7 @@ class DriveSaturation(DriveTerm):
     )
     params = (
         Param("share", "share of the excess that is lost", NUMBER, low=0.0, high=1.0, null=0.0),
-        Param("limit", "largest drive", FORCE, low=0.0, scale="log", typical=0.7, scan=(0.15, 4.0)),
+        Param("limit", "largest drive", FORCE, low=0.0, scale="log", prior=TermPrior(0.7, scan=(0.15, 4.0))),
     )
 
     @staticmethod
@@ -127,7 +127,7 @@ class DriveDeadZone(DriveTerm):
     )
     params = (
         Param("share", "share of the drive in the zone that is lost", NUMBER, low=0.0, high=1.0, null=0.0),
-        Param("width", "half width of the zone", FORCE, low=0.0, scale="log", typical=0.2, scan=(0.1, 10.0)),
+        Param("width", "half width of the zone", FORCE, low=0.0, scale="log", prior=TermPrior(0.2, scan=(0.1, 10.0))),
     )
 
     @staticmethod

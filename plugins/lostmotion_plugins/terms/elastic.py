@@ -100,7 +100,7 @@ class GravityPendulum(Term):
     formula: ClassVar[str] = "-torque * sin(x)"
     paper: ClassVar[str] = "Spong, Hutchinson, Vidyasagar, Robot Modeling and Control (2006), section 7.3"
     params = (Param("torque", "gravity torque of the horizontal link", FORCE, null=0.0),)
-    motions = ("rotation",)
+    needs = ("angle",)
 
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:

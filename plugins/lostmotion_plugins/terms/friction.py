@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
-from lostmotion.contracts import Array, Param, Term, Values
+from lostmotion.contracts import Array, Param, Term, TermPrior, Values
 from lostmotion.quantities import FORCE, SPEED
 from lostmotion_plugins.laws import resist_sliding
 
@@ -50,7 +50,7 @@ class StribeckFriction(Term):
     params = (
         Param("force", "sliding friction force", FORCE, low=0.0, null=0.0),
         Param("excess", "breakaway friction above the sliding one", FORCE, low=0.0, null=0.0),
-        Param("velocity", "Stribeck velocity", SPEED, low=0.0, scale="log", typical=0.1),
+        Param("velocity", "Stribeck velocity", SPEED, low=0.0, scale="log", prior=TermPrior(0.1)),
     )
     needs = ("mobility",)
 

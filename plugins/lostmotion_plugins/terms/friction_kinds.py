@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
-from lostmotion.contracts import Array, Machine, Param, Term, Values
+from lostmotion.contracts import Array, Machine, Param, Term, TermPrior, Values
 from lostmotion.quantities import FORCE, LENGTH, NUMBER, TIME
 from lostmotion_plugins.laws import resist_sliding, subtract_gap
 from lostmotion_plugins.terms.friction import NEGLIGIBLE_SHARE
@@ -65,7 +65,7 @@ class LoadDependentFriction(Term):
     physics: ClassVar[str] = "Dry friction of {coefficient} times the load opposes the motion"
     formula: ClassVar[str] = "-coefficient * |load| * sign(v), the load that of a contact with play, else the drive"
     paper: ClassVar[str] = "Hamon, Gautier, Garrec, IEEE/RSJ Int. Conf. Intelligent Robots and Systems (2010) 1609-1614"
-    params = (Param("coefficient", "friction over the load", NUMBER, low=0.0, null=0.0, typical=0.1),)
+    params = (Param("coefficient", "friction over the load", NUMBER, low=0.0, null=0.0, prior=TermPrior(0.1)),)
     needs = ("contact", "play", "force_input", "mobility")
 
     def fits(self, model: Machine) -> bool:
@@ -96,12 +96,16 @@ class FrictionDrift(Term):
     paper: ClassVar[str] = "Simoni, Beschi, Legnani, Visioli, IEEE/RSJ Int. Conf. Intelligent Robots (2015) 3524-3529"
     params = (
         Param("force", "friction at the start", FORCE, low=0.0, null=0.0),
-        Param("change", "change of the friction in the long run", FORCE, null=0.0, typical=0.5),
+        Param("change", "change of the friction in the long run", FORCE, null=0.0, prior=TermPrior(0.5)),
         Param(
-            "time", "time in which it changes by 63 %", TIME, low=0.0, scale="log", typical=0.3, lasting=True,
-            scan=(0.1, 10.0),
+            "time",
+            "time in which it changes by 63 %",
+            TIME,
+            low=0.0,
+            scale="log",
+            prior=TermPrior(0.3, lasting=True, scan=(0.1, 10.0)),
         ),
-    )  # fmt: skip
+    )
     needs = ("mobility",)
 
     def commoner(self, values: Mapping[str, float]) -> Mapping[str, Mapping[str, float]]:
@@ -133,12 +137,16 @@ class FrictionDriftTravel(Term):
     paper: ClassVar[str] = "Blau, Tribology International 38 (2005) 1007-1012: running-in"
     params = (
         Param("force", "friction at the start", FORCE, low=0.0, null=0.0),
-        Param("change", "change of the friction after a long way", FORCE, null=0.0, typical=0.5),
+        Param("change", "change of the friction after a long way", FORCE, null=0.0, prior=TermPrior(0.5)),
         Param(
-            "distance", "way in which it changes by 63 %", LENGTH, low=0.0, scale="log", typical=100.0,
-            scan=(0.03, 10.0),
+            "distance",
+            "way in which it changes by 63 %",
+            LENGTH,
+            low=0.0,
+            scale="log",
+            prior=TermPrior(100.0, scan=(0.03, 10.0)),
         ),
-    )  # fmt: skip
+    )
     states = ("travelled",)
     needs = ("mobility",)
     commoner = FrictionDrift.commoner
@@ -170,11 +178,16 @@ class FrictionDriftTwice(Term):
     paper: ClassVar[str] = "Simoni, Beschi, Legnani, Visioli, IEEE/RSJ Int. Conf. Intelligent Robots (2015) 3524-3529"
     params = (
         Param("force", "friction at the start", FORCE, low=0.0, null=0.0),
-        Param("change", "change with the shorter time", FORCE, null=0.0, typical=0.5),
-        Param("later", "change with the longer time", FORCE, null=0.0, typical=0.5),
-        Param("time", "shorter time constant", TIME, low=0.0, scale="log", typical=0.06, lasting=True),
+        Param("change", "change with the shorter time", FORCE, null=0.0, prior=TermPrior(0.5)),
+        Param("later", "change with the longer time", FORCE, null=0.0, prior=TermPrior(0.5)),
+        Param("time", "shorter time constant", TIME, low=0.0, scale="log", prior=TermPrior(0.06, lasting=True)),
         Param(
-            "ratio", "the longer one over the shorter", NUMBER, low=1.0, scale="log", typical=10.0, scan=(0.11, 10.0)
+            "ratio",
+            "the longer one over the shorter",
+            NUMBER,
+            low=1.0,
+            scale="log",
+            prior=TermPrior(10.0, scan=(0.11, 10.0)),
         ),
     )
     needs = ("mobility",)

@@ -8,7 +8,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from lostmotion.contracts import Array, DriveTerm, Input, Param, SensorTerm, Values
+from lostmotion.contracts import Array, DriveTerm, Input, Param, SensorTerm, TermPrior, Values
 from lostmotion.quantities import TIME
 
 _MEMORY = 40.0
@@ -26,7 +26,9 @@ class ActuatorLag(DriveTerm):
     physics: ClassVar[str] = "The drive follows the recorded one with a time constant of {time}"
     formula: ClassVar[str] = "w,  time * w' = u - w"
     paper: ClassVar[str] = "Ogata, Modern Control Engineering (2010), section 5.2"
-    params = (Param("time", "time constant of the actuator", TIME, low=0.0, null=0.0, scan=(0.02, 6.0)),)
+    params = (
+        Param("time", "time constant of the actuator", TIME, low=0.0, null=0.0, prior=TermPrior(scan=(0.02, 6.0))),
+    )
 
     @staticmethod
     def true(u: Input, t: Array, p: Values, order: int) -> Array:
@@ -88,7 +90,7 @@ class SensorLag(SensorTerm):
     physics: ClassVar[str] = "The sensor follows the true value with a time constant of {time}"
     formula: ClassVar[str] = "w,  time * w' = z - w"
     paper: ClassVar[str] = "Ogata, Modern Control Engineering (2010), section 5.2"
-    params = (Param("time", "time constant of the sensor", TIME, low=0.0, null=0.0, scan=(0.02, 6.0)),)
+    params = (Param("time", "time constant of the sensor", TIME, low=0.0, null=0.0, prior=TermPrior(scan=(0.02, 6.0))),)
     states = ("shown",)
     needs = ("finest",)
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
-from lostmotion.contracts import Array, Param, Term, Values
+from lostmotion.contracts import Array, Param, Term, TermPrior, Values
 from lostmotion.quantities import FORCE, LENGTH, SPEED
 
 
@@ -28,7 +28,7 @@ class DahlFriction(Term):
     paper: ClassVar[str] = "Dahl, AIAA Journal 14 (1976) 1675-1682, eq. (4) with i = 1"
     params = (
         Param("force", "sliding friction force", FORCE, low=0.0, null=0.0),
-        Param("deflection", "elastic travel before sliding", LENGTH, low=0.0, scale="log", typical=0.05),
+        Param("deflection", "elastic travel before sliding", LENGTH, low=0.0, scale="log", prior=TermPrior(0.05)),
     )
     states: ClassVar[Mapping[str, str]] = {"bristle_force": "force"}
     needs = ("step",)
@@ -65,8 +65,8 @@ class LuGreFriction(Term):
     params = (
         Param("force", "sliding friction force", FORCE, low=0.0, null=0.0),
         Param("excess", "breakaway friction above the sliding one", FORCE, low=0.0, null=0.0),
-        Param("velocity", "Stribeck velocity", SPEED, low=0.0, scale="log", typical=0.1),
-        Param("deflection", "elastic travel before sliding", LENGTH, low=0.0, scale="log", typical=0.05),
+        Param("velocity", "Stribeck velocity", SPEED, low=0.0, scale="log", prior=TermPrior(0.1)),
+        Param("deflection", "elastic travel before sliding", LENGTH, low=0.0, scale="log", prior=TermPrior(0.05)),
     )
     states: ClassVar[Mapping[str, str]] = {"bristle_force": "force"}
     needs = ("step",)
@@ -96,7 +96,7 @@ class BoucWenHysteresis(Term):
     paper: ClassVar[str] = "Wen, J. Engineering Mechanics Division ASCE 102 (1976) 249-263; Bouc (1967)"
     params = (
         Param("force", "yield force", FORCE, low=0.0, null=0.0),
-        Param("travel", "yield force over the initial stiffness", LENGTH, low=0.0, scale="log", typical=0.3),
+        Param("travel", "yield force over the initial stiffness", LENGTH, low=0.0, scale="log", prior=TermPrior(0.3)),
     )
     states: ClassVar[Mapping[str, str]] = {"hysteretic_force": "force"}
     needs = ("step",)

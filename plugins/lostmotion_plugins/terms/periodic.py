@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
-from lostmotion.contracts import Array, Param, Term, Values
+from lostmotion.contracts import Array, Param, Term, TermPrior, Values
 from lostmotion.quantities import FORCE, LENGTH
 from lostmotion_plugins.laws import describe_wave, resist_sliding
 
@@ -18,9 +18,13 @@ The longest one has 1.6 periods within the travel of a harmonic motion, and thre
 rare peaks. A longer one could not be told from another smooth curve."""
 
 PITCH = Param(
-    "pitch", "travel or turn after which it repeats", LENGTH, low=0.0, scale="log", typical=TYPICAL_PITCH,
-    scan=PITCH_RANGE,
-)  # fmt: skip
+    "pitch",
+    "travel or turn after which it repeats",
+    LENGTH,
+    low=0.0,
+    scale="log",
+    prior=TermPrior(TYPICAL_PITCH, scan=PITCH_RANGE),
+)
 AMPLITUDE = Param("force", "amplitude of the force", FORCE)
 VARIATION = Param("wave", "amplitude of the variation", FORCE)
 
@@ -41,8 +45,8 @@ class Cogging(Term):
     formula: ClassVar[str] = "cosine * cos(2 pi x / pitch) + sine * sin(2 pi x / pitch)"
     paper: ClassVar[str] = "Zhu, Howe, IEEE Trans. Energy Conversion 15 (2000) 407-412"
     params = (
-        Param("cosine", "force as cos(2 pi x / pitch)", FORCE, null=0.0, typical=0.1),
-        Param("sine", "force as sin(2 pi x / pitch)", FORCE, null=0.0, typical=0.1),
+        Param("cosine", "force as cos(2 pi x / pitch)", FORCE, null=0.0, prior=TermPrior(0.1)),
+        Param("sine", "force as sin(2 pi x / pitch)", FORCE, null=0.0, prior=TermPrior(0.1)),
         PITCH,
     )
 
@@ -78,8 +82,8 @@ class PositionDependentFriction(Term):
     paper: ClassVar[str] = "Armstrong, IEEE Int. Conf. Robotics and Automation (1988) 1299-1305: position dependence"
     params = (
         Param("force", "mean friction force", FORCE, low=0.0, null=0.0),
-        Param("cosine", "friction as cos(2 pi x / pitch)", FORCE, null=0.0, typical=0.3),
-        Param("sine", "friction as sin(2 pi x / pitch)", FORCE, null=0.0, typical=0.3),
+        Param("cosine", "friction as cos(2 pi x / pitch)", FORCE, null=0.0, prior=TermPrior(0.3)),
+        Param("sine", "friction as sin(2 pi x / pitch)", FORCE, null=0.0, prior=TermPrior(0.3)),
         PITCH,
     )
     needs = ("mobility",)

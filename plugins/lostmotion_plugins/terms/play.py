@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from lostmotion.contracts import Array, Machine, Param, Term, Values
+from lostmotion.contracts import Array, Machine, Param, Term, TermPrior, Values
 from lostmotion.quantities import LENGTH, NUMBER, STIFFNESS
 
 _SIDES = ("at both ends", "on the positive side", "on the negative side")
@@ -23,7 +23,7 @@ class Backlash(Term):
     physics: ClassVar[str] = "The spring has play: it acts only beyond {gap} to either side"
     formula: ClassVar[str] = "k * clip(x, -gap, gap), which leaves -k * (x - clip(x, -gap, gap)) of the spring -k * x"
     paper: ClassVar[str] = "Nordin, Gutman, Automatica 38 (2002) 1633-1649, section 2.1"
-    params = (Param("gap", "half of the play", LENGTH, low=0.0, null=0.0, typical=0.5, scan=(0.02, 4.0)),)
+    params = (Param("gap", "half of the play", LENGTH, low=0.0, null=0.0, prior=TermPrior(0.5, scan=(0.02, 4.0))),)
     needs = ("stiffness",)
 
     def fits(self, model: Machine) -> bool:
@@ -46,9 +46,14 @@ class EndStop(Term):
     formula: ClassVar[str] = "-stiffness * (|x| - travel) * sign(x) where |x| > travel, on one side or both"
     paper: ClassVar[str] = "Shaw, Holmes, J. Sound and Vibration 90 (1983) 129-155, eq. (1)"
     params = (
-        Param("stiffness", "stiffness of the stop", STIFFNESS, low=0.0, null=0.0, typical=100.0),
-        Param("travel", "travel to the stop", LENGTH, low=0.0, scale="log", typical=1.0, scan=(0.3, 3.0)),
-        Param("side", "0 for both ends, 1 or -1 for one of them", NUMBER, choices=(0.0, 1.0, -1.0), words=_SIDES),
+        Param("stiffness", "stiffness of the stop", STIFFNESS, low=0.0, null=0.0, prior=TermPrior(100.0)),
+        Param("travel", "travel to the stop", LENGTH, low=0.0, scale="log", prior=TermPrior(1.0, scan=(0.3, 3.0))),
+        Param(
+            "side",
+            "0 for both ends, 1 or -1 for one of them",
+            NUMBER,
+            prior=TermPrior(choices=(0.0, 1.0, -1.0), words=_SIDES),
+        ),
     )
 
     @staticmethod

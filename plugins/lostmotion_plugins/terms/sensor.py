@@ -9,7 +9,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from lostmotion.contracts import Array, Param, SensorTerm, Values
+from lostmotion.contracts import Array, Param, SensorTerm, TermPrior, Values
 from lostmotion.quantities import LENGTH, NUMBER, TIME
 from lostmotion_plugins.laws import describe_wave
 from lostmotion_plugins.terms.periodic import PITCH_RANGE, TYPICAL_PITCH
@@ -32,7 +32,7 @@ class SensorGain(SensorTerm):
     physics: ClassVar[str] = "The sensor of the response reads too high by the fraction {error}"
     formula: ClassVar[str] = "(1 + error) * x"
     paper: ClassVar[str] = "Pintelon, Schoukens, System Identification: a Frequency Domain Approach (2012), section 1.6"
-    params = (Param("error", "relative error of the gain", NUMBER, low=-0.9, null=0.0, typical=0.1),)
+    params = (Param("error", "relative error of the gain", NUMBER, low=-0.9, null=0.0, prior=TermPrior(0.1)),)
 
     @staticmethod
     def gain(p: Values) -> float:
@@ -52,7 +52,7 @@ class SensorOffset(SensorTerm):
     physics: ClassVar[str] = "The sensor reads {offset} where the machine is at zero"
     formula: ClassVar[str] = "x + offset"
     paper: ClassVar[str] = "Pintelon, Schoukens, System Identification: a Frequency Domain Approach (2012), section 1.6"
-    params = (Param("offset", "reading of the sensor at zero", LENGTH, null=0.0, typical=0.3),)
+    params = (Param("offset", "reading of the sensor at zero", LENGTH, null=0.0, prior=TermPrior(0.3)),)
     relative: ClassVar[bool] = True
 
     @staticmethod
@@ -92,13 +92,17 @@ class PositionRipple(SensorTerm):
     formula: ClassVar[str] = "x + cosine * cos(2 pi x / pitch) + sine * sin(2 pi x / pitch)"
     paper: ClassVar[str] = "Heydemann, Applied Optics 20 (1981) 3382-3384: cyclic errors of encoders"
     params = (
-        Param("cosine", "error as cos(2 pi x / pitch)", LENGTH, null=0.0, typical=0.02),
-        Param("sine", "error as sin(2 pi x / pitch)", LENGTH, null=0.0, typical=0.02),
+        Param("cosine", "error as cos(2 pi x / pitch)", LENGTH, null=0.0, prior=TermPrior(0.02)),
+        Param("sine", "error as sin(2 pi x / pitch)", LENGTH, null=0.0, prior=TermPrior(0.02)),
         Param(
-            "pitch", "travel after which it repeats", LENGTH, low=0.0, scale="log", typical=TYPICAL_PITCH,
-            scan=PITCH_RANGE,
+            "pitch",
+            "travel after which it repeats",
+            LENGTH,
+            low=0.0,
+            scale="log",
+            prior=TermPrior(TYPICAL_PITCH, scan=PITCH_RANGE),
         ),
-    )  # fmt: skip
+    )
 
     @staticmethod
     def derived(p: Values) -> Mapping[Param, float]:
@@ -119,7 +123,7 @@ class SensorQuantisation(SensorTerm):
     physics: ClassVar[str] = "The sensor of the response shows whole steps of {step} only"
     formula: ClassVar[str] = "step * round(z / step)"
     paper: ClassVar[str] = "Widrow, Kollar, Quantization Noise (2008), section 4.1"
-    params = (Param("step", "step of the sensor", LENGTH, low=0.0, null=0.0, typical=0.01),)
+    params = (Param("step", "step of the sensor", LENGTH, low=0.0, null=0.0, prior=TermPrior(0.01)),)
 
     @staticmethod
     def rounded(z: Array, p: Values) -> Array:

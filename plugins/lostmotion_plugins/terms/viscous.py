@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from lostmotion.contracts import Array, Param, Term, Values
+from lostmotion.contracts import Array, Param, Term, TermPrior, Values
 from lostmotion.quantities import DAMPING, Dimension
 
 
@@ -66,7 +66,7 @@ class DampingDrift(Term):
     physics: ClassVar[str] = "The damping changes by {rate} while the machine runs"
     formula: ClassVar[str] = "-rate * t * v"
     paper: ClassVar[str] = "Isermann, Fault-Diagnosis Systems (2006), section 5.1: parameters that drift"
-    params = (Param("rate", "growth of the damping", Dimension(1, -1, 0), null=0.0, typical=0.3),)
+    params = (Param("rate", "growth of the damping", Dimension(1, -1, 0), null=0.0, prior=TermPrior(0.3)),)
 
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -26,10 +27,11 @@ class DrivenPendulum(Model):
     inputs = ("force",)
     channels = ("position", "velocity")
     params = (
-        Param("m", "moment of inertia", INERTIA, low=0.0, scale="log", aliases=("J", "inertia")),
-        Param("c", "viscous damping in the bearing", DAMPING, low=0.0, scale="log", aliases=("damping",)),
-        Param("mgl", "gravity torque of the horizontal pendulum", FORCE, low=0.0, aliases=("gravity",)),
+        Param("m", "moment of inertia", INERTIA, low=0.0, scale="log"),
+        Param("c", "viscous damping in the bearing", DAMPING, low=0.0, scale="log"),
+        Param("mgl", "gravity torque of the horizontal pendulum", FORCE, low=0.0),
     )
+    aliases: ClassVar[Mapping[str, str]] = {"J": "m", "inertia": "m", "damping": "c", "gravity": "mgl"}
     interfaces = (Interface("ground", row=1, inertia="m", motion=bearing),)
 
     @staticmethod
