@@ -13,7 +13,7 @@ from lostmotion.quantities import NUMBER
 
 
 def test_declaration_comes_before_behaviour():
-    findings = testing.check(spoiled(Drag, {"motions": ("sideways",)}))
+    findings = testing.check(spoiled(Drag, {"needs": ("a b",)}))
     behaviour = {rule.name for rule in testing.rules_for("term") if not rule.declaration}
     assert behaviour.isdisjoint(f.rule for f in findings)
 
