@@ -14,6 +14,7 @@ from lostmotion.contracts import Model, Term
 from lostmotion.errors import PluginError
 from lostmotion.offers import ALL_KINDS, COMMAND
 from lostmotion.registry import Entry, Registry
+from lostmotion_plugins.models.lin import LinBacklash
 
 HOOK = "from lostmotion.hookspecs import hookimpl\n"
 TERMS = HOOK + "@hookimpl\ndef lostmotion_terms():\n    return {}\n"
@@ -226,6 +227,12 @@ def test_an_instance_is_added_and_made_again():
     assert found.make("term", "own_drag") is mine
     assert found.make("term", "own_drag", at="ground").at == "ground"
     assert found.load("term", "own_drag") is type(mine)
+
+
+def test_further_names_that_are_no_texts_are_told():
+    wrong = type("Weighed", (LinBacklash,), {"aliases": {"weight": 1.0}})
+    with pytest.raises(PluginError, match=r"declares aliases = .*: write a mapping of texts to names of parameters"):
+        Registry().add(wrong).load("model", wrong.name)
 
 
 def load_drag(name):

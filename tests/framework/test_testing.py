@@ -292,6 +292,7 @@ BAD = [
     ("attributes_are_complete", Cart, {"channels": "abc"}, {"channels_are_named_by_quantity", "bodies_are_shown"}),
     ("methods_have_the_arguments_of_the_contract", Drag, {"force": staticmethod(forgets_an_argument)}, None),
     ("params_are_unique", Cart, {"params": (MASS, replace(MASS, name="mass")), "aliases": {"mass": "m"}}, set()),
+    ("params_are_unique", Cart, {"aliases": {"weight": "g"}}, set()),
     ("bounds_are_ordered", Drag, {"params": (replace(DRAG, high=0.0),)}, set()),
     ("dimensions_are_dimensions", Drag, {"params": (replace(DRAG, dimension="N s/m"),)}, set()),
     ("params_have_meanings", Drag, {"params": (replace(DRAG, meaning=" "),)}, set()),

@@ -4,7 +4,7 @@ from dataclasses import fields
 
 from lostmotion.contracts import Param, Term
 
-MOST_OF_A_TERM, MOST_OF_A_PARAMETER = 11, 13
+MOST_OF_A_TERM, MOST_OF_A_PARAMETER = 10, 8
 
 
 def test_a_term_declares_few_things():

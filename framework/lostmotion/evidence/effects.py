@@ -298,25 +298,25 @@ def _border(expansion: Expansion, effects: Sequence[TermEffect]) -> list[Curvatu
 
 
 def _predict_each(found: Hypothesis, effects: Sequence[TermEffect], less: float) -> list[Promise]:
-    """Return what a term promises at each of some shapes; `less` is paid."""
-    if not effects:
-        return []
-    curvatures = _border(found.expansion, effects)
-    return [_predict(found, *pair, less) for pair in zip(effects, curvatures, strict=True)]
-
-
-def _predict(found: Hypothesis, effect: TermEffect, joined: Curvature, less: float) -> Promise:
-    """Return what a term promises at one shape; `less` is paid.
+    """Return what a term promises at each of some shapes; `less` is paid.
 
     It stands beside the present smooth forces, in the place of one or of all, or in that of their constants and lines.
     """
+    if not effects:
+        return []
+    curvatures, room = _border(found.expansion, effects), found.frame.make_room(found.choice)
+    return [_predict(found, *pair, room, less) for pair in zip(effects, curvatures, strict=True)]
+
+
+def _predict(found: Hypothesis, effect: TermEffect, joined: Curvature, room: Sequence[Choice], less: float) -> Promise:
+    """Return what a term promises at one shape, beside the best choice in `room`; `less` is paid."""
     frame, n = found.frame, len(found.at)
     told = np.diag(joined.information)[n:] * effect.widths**2
     lost = Promise(effect.key, -math.inf, effect.shape, np.zeros(n), found.choice)
     if not np.any(told > MUTE):
         return lost
     quadratic = Quadratic.of(frame, joined, effect.widths)
-    choice = max(frame.make_room(found.choice), key=quadratic.evaluate)
+    choice = max(room, key=quadratic.evaluate)
     step = solve_posterior(frame, joined, choice, quadratic.held)
     sizes, low = step[n:], np.array([slot.param.low for slot in effect.amplitudes])
     if np.all(sizes < low):

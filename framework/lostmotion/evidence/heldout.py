@@ -17,8 +17,8 @@ from lostmotion.likelihood.observation import Observation
 
 ROUNDS, CLOSE = 6, 1.0
 """The largest number of Gauss-Newton steps, and the gain in log density below which the next one is left out."""
-SHARES = (0.4, 0.1)
-"""The shares of a step that are tried where the whole step does not gain, until one does."""
+SHARES = (1.0, 0.4, 0.1)
+"""The shares of a step that are tried until one gains."""
 
 
 def score_heldout(found: Hypothesis, pieces: Sequence[tuple[Observation, int]]) -> float:
@@ -98,18 +98,13 @@ def average_over_posterior(
             if not (math.isfinite(value) and np.all(np.isfinite(held.information))):
                 return -math.inf
             further, gain = posterior.find_step(held, step, levels=levels)
-            if gain < CLOSE:
-                break
-            trial = step + further
-            there = expand(trial)
-            if not (reached := float(there.here.log_likelihood) + posterior.weigh(trial)) > value:
-                for trial in (step + share * further for share in SHARES):
-                    if (reached := score(trial) + posterior.weigh(trial)) > value:
-                        there = expand(trial)
-                        break
-                else:
+            for trial in (step + share * further for share in SHARES if gain > CLOSE):
+                if (reached := score(trial) + posterior.weigh(trial)) > value:
                     break
-            left, step, value, held = gain - (reached - value), trial, reached, there
+            else:
+                break
+            left, step, value = gain - (reached - value), trial, reached
+            held = expand(step)
             if left < CLOSE:
                 break
     more = np.linalg.slogdet(posterior.add(held))[1] - np.linalg.slogdet(posterior.precision)[1]

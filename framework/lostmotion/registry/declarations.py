@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from numbers import Real
 from typing import Any
 
@@ -25,6 +25,7 @@ def _find_misfits(cls: type[Any]) -> Iterator[str]:
     yield from _check_attributes(cls, TEXTS, _is_text, "text")
     yield from _check_attributes(cls, LISTS, _is_texts, "a tuple of texts")
     yield from _check_attributes(cls, ("states",), lambda value: _is_texts(tuple(value)), "names of states")
+    yield from _check_attributes(cls, ("aliases",), _maps_texts, "a mapping of texts to names of parameters")
     if issubclass(cls, contracts.Machine) and not (cls.motions or hasattr(cls, "motion")):
         yield "neither motion nor motions: write 'translation' or 'rotation', or both"
     lists = {"params": contracts.Param, "interfaces": contracts.Interface}
@@ -89,6 +90,10 @@ def _is_real(value: Any) -> bool:
 
 def _is_texts(value: Any) -> bool:
     return _are_all(value, _is_text)
+
+
+def _maps_texts(value: Any) -> bool:
+    return isinstance(value, Mapping) and _is_texts((*value, *value.values()))
 
 
 def _are_all(values: Any, right: Check) -> bool:

@@ -139,16 +139,16 @@ def assembly_of(
         term = make_plugin(registry, "term", name, **({"at": place} if place else {}))
         assembly = assembly + term
         for key, value in parse_pairs(rest, f"term {text!r}").items():
-            values[f"{key_of(term)}.{_own_parameter(term, key)}"] = parse_number(value, f"{key} of {name}")
+            _require_parameter(term, key)
+            values[f"{key_of(term)}.{key}"] = parse_number(value, f"{key} of {name}")
     return assembly, values
 
 
-def _own_parameter(term: Term, key: str) -> str:
-    """Return the name of a parameter of a term."""
+def _require_parameter(term: Term, key: str) -> None:
+    """Raise `CaseError` if a term has no parameter of this name."""
     known = [q.name for q in term.params]
-    if key in known:
-        return key
-    raise CaseError(f"{term.name} has no parameter {key!r}{nearest(key, known)}: it has {', '.join(known)}")
+    if key not in known:
+        raise CaseError(f"{term.name} has no parameter {key!r}{nearest(key, known)}: it has {', '.join(known)}")
 
 
 def _count_samples(plan: Plan) -> int:

@@ -22,10 +22,14 @@ def find_repeated(words: Any) -> list[str]:
 
 @rule("model", "dynamics", "term", declaration=True)
 def params_are_unique(component: Any) -> str:
-    """Give each parameter a unique name, and aliases that are no names: a case file uses either of them."""
-    again = find_repeated((*(q.name for q in component.params), *getattr(component, "aliases", ())))
-    bad = [q.name for q in component.params if not q.name.isidentifier()]
-    return f"{join_words(again)} occurs twice" if again else (f"{bad[0]!r} is not an identifier" if bad else "")
+    """Give each parameter a unique name, and aliases of parameters that are no names: a case file uses either."""
+    names, aliases = [q.name for q in component.params], getattr(component, "aliases", {})
+    if again := find_repeated((*names, *aliases)):
+        return f"{join_words(again)} occurs twice"
+    if bad := [name for name in names if not name.isidentifier()]:
+        return f"{bad[0]!r} is not an identifier"
+    lost = [alias for alias, name in aliases.items() if name not in names]
+    return f"{lost[0]!r} is an alias of {aliases[lost[0]]!r}, which is no parameter" if lost else ""
 
 
 @rule("model", "dynamics", "term", declaration=True)

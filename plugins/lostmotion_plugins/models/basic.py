@@ -13,6 +13,7 @@ from lostmotion_plugins.models.lin import LinBacklash, ground
 _GROUND = Interface("ground", row=1, inertia="m", motion=ground)
 _MASS = Param("m", "moving mass", INERTIA, low=0.0, scale="log")
 _DAMPING = Param("c", "viscous friction", DAMPING, low=0.0, scale="log")
+_ALIASES = {"M": "m", "mass": "m", "Fv": "c", "damping": "c"}
 
 
 @dataclass(frozen=True)
@@ -30,7 +31,7 @@ class RigidDrive(Model):
     inputs = ("force", "base_acceleration")
     channels = ("position", "velocity", "acceleration")
     params = (_MASS, _DAMPING)
-    aliases: ClassVar[Mapping[str, str]] = {"M": "m", "mass": "m", "Fv": "c", "damping": "c"}
+    aliases: ClassVar[Mapping[str, str]] = _ALIASES
     interfaces = (_GROUND,)
 
     @staticmethod
@@ -56,14 +57,7 @@ class LinearOscillator(Model):
     inputs = ("force", "base_acceleration")
     channels = ("position", "velocity", "acceleration")
     params = (_MASS, _DAMPING, Param("k", "stiffness", STIFFNESS, low=0.0, scale="log"))
-    aliases: ClassVar[Mapping[str, str]] = {
-        "M": "m",
-        "mass": "m",
-        "Fv": "c",
-        "damping": "c",
-        "k1": "k",
-        "stiffness": "k",
-    }
+    aliases: ClassVar[Mapping[str, str]] = {**_ALIASES, "k1": "k", "stiffness": "k"}
     interfaces = (Interface("ground", row=1, inertia="m", motion=ground, holds=("k",), stiffness="k"),)
 
     @staticmethod

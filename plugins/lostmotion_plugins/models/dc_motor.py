@@ -15,6 +15,7 @@ _INERTIA = Param("J", "moment of inertia of rotor and load", INERTIA, low=0.0, s
 _DAMPING = Param("c", "viscous friction", DAMPING, low=0.0, scale="log")
 _CONSTANT = Param("K", "torque over current, and voltage over speed", FORCE_PER_CURRENT, low=0.0)
 _RESISTANCE = Param("R", "resistance of the winding", RESISTANCE, low=0.0, scale="log")
+_ALIASES = {"m": "J", "inertia": "J", "b": "c", "damping": "c", "kt": "K", "ke": "K"}
 _GROUND = Interface("ground", row=1, inertia="J", motion=ground)
 
 
@@ -37,16 +38,7 @@ class DcMotor(Model):
         _INERTIA, _DAMPING, _CONSTANT, _RESISTANCE,
         Param("L", "inductance of the winding", INDUCTANCE, low=0.0, scale="log"),
     )  # fmt: skip
-    aliases: ClassVar[Mapping[str, str]] = {
-        "m": "J",
-        "inertia": "J",
-        "b": "c",
-        "damping": "c",
-        "kt": "K",
-        "ke": "K",
-        "resistance": "R",
-        "inductance": "L",
-    }
+    aliases: ClassVar[Mapping[str, str]] = {**_ALIASES, "resistance": "R", "inductance": "L"}
     interfaces = (_GROUND,)
 
     @staticmethod
@@ -77,7 +69,7 @@ class CurrentMotor(Model):
     inputs = ("current", "force")
     channels = ("position", "velocity", "acceleration")
     params = (_INERTIA, _DAMPING, _CONSTANT)
-    aliases: ClassVar[Mapping[str, str]] = {"m": "J", "inertia": "J", "b": "c", "damping": "c", "kt": "K", "ke": "K"}
+    aliases: ClassVar[Mapping[str, str]] = _ALIASES
     interfaces = (_GROUND,)
 
     @staticmethod

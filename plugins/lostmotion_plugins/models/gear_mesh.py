@@ -10,7 +10,7 @@ from typing import ClassVar
 from lostmotion.contracts import Array, Group, Interface, Model, Motion, Param
 from lostmotion.quantities import DAMPING, FORCE, INERTIA, LENGTH, NUMBER, STIFFNESS, Dimension
 from lostmotion_plugins.laws import subtract_gap
-from lostmotion_plugins.models.lin import LinBacklash, ground
+from lostmotion_plugins.models.lin import CONTACT_ALIASES, LinBacklash, ground
 
 MESH_GROUPS = (
     Group("depth", "share of the stiffness that pulsates", "kappa", "kappa", lambda q, n: n),
@@ -51,14 +51,7 @@ class GearMesh(Model):
         Param("omega_mesh", "angular frequency at which teeth mesh (rad/s)", Dimension(0, 0, -1), low=0.0),
         Param("phase", "phase of the mesh at the start (rad)", NUMBER),
     )
-    aliases: ClassVar[Mapping[str, str]] = {
-        "mass": "m",
-        "damping": "c",
-        "stiffness": "k0",
-        "gap": "x0",
-        "backlash": "x0",
-        "load": "preload",
-    }
+    aliases: ClassVar[Mapping[str, str]] = {"mass": "m", **CONTACT_ALIASES, "load": "preload"}
     interfaces = (Interface("ground", row=1, inertia="m", motion=ground, holds=("x0",), stiffness="k0", play="x0"),)
     groups = (
         Group("zeta", "damping ratio", "c / (2 sqrt(k0 m))", "c", lambda q, n: 2.0 * n * math.sqrt(q["k0"] * q["m"])),

@@ -10,6 +10,7 @@ from typing import ClassVar
 from lostmotion.contracts import Array, Drive, Flow, Group, Interface, Model, Param
 from lostmotion.quantities import DAMPING, FORCE, INERTIA, LENGTH, STIFFNESS
 from lostmotion_plugins.laws import subtract_gap
+from lostmotion_plugins.models.lin import CONTACT_ALIASES
 
 
 def ground(y: Array, u: Array) -> tuple[float, float]:
@@ -46,15 +47,7 @@ class RobotJoint(Model):
         Param("x0", "half of the backlash", LENGTH, low=0.0, scale="log"),
         Param("mgl", "gravity torque of the horizontal link", FORCE),
     )
-    aliases: ClassVar[Mapping[str, str]] = {
-        "J": "m",
-        "inertia": "m",
-        "damping": "c",
-        "stiffness": "k0",
-        "gap": "x0",
-        "backlash": "x0",
-        "gravity": "mgl",
-    }
+    aliases: ClassVar[Mapping[str, str]] = {"J": "m", "inertia": "m", **CONTACT_ALIASES, "gravity": "mgl"}
     interfaces = (
         Interface("base", row=1, inertia="m", motion=base, holds=("k0", "x0"), stiffness="k0", play="x0"),
         Interface("ground", row=1, inertia="m", motion=ground),

@@ -11,6 +11,9 @@ from lostmotion.contracts import Array, Drive, Flow, Group, Interface, Model, Mo
 from lostmotion.quantities import DAMPING, INERTIA, LENGTH, STIFFNESS
 from lostmotion_plugins.laws import subtract_gap
 
+CONTACT_ALIASES = {"damping": "c", "stiffness": "k0", "gap": "x0", "backlash": "x0"}
+"""Further names of the parameters of a contact with play."""
+
 
 def ground(y: Array, u: Array) -> tuple[float, float]:
     """Return position and velocity relative to the ground."""
@@ -40,13 +43,7 @@ class LinBacklash(Model):
         Param("k0", "stiffness of the contact", STIFFNESS, low=0.0, scale="log"),
         Param("x0", "half gap", LENGTH, low=0.0, scale="log"),
     )
-    aliases: ClassVar[Mapping[str, str]] = {
-        "mass": "m",
-        "damping": "c",
-        "stiffness": "k0",
-        "gap": "x0",
-        "backlash": "x0",
-    }
+    aliases: ClassVar[Mapping[str, str]] = {"mass": "m", **CONTACT_ALIASES}
     interfaces = (
         Interface("ground", row=1, inertia="m", motion=ground, holds=("k0", "x0"), stiffness="k0", play="x0"),
     )

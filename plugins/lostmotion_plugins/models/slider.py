@@ -10,7 +10,7 @@ from lostmotion.contracts import Array, Interface, Model, Motion, Param
 from lostmotion.quantities import DAMPING, INERTIA, LENGTH, STIFFNESS
 from lostmotion_plugins.laws import subtract_gap
 from lostmotion_plugins.models.joint import RobotJoint, base
-from lostmotion_plugins.models.lin import ground
+from lostmotion_plugins.models.lin import CONTACT_ALIASES, ground
 
 
 @dataclass(frozen=True)
@@ -37,13 +37,7 @@ class BacklashSlider(Model):
         Param("k0", "stiffness of the contact", STIFFNESS, low=0.0, scale="log"),
         Param("x0", "half gap", LENGTH, low=0.0, scale="log"),
     )
-    aliases: ClassVar[Mapping[str, str]] = {
-        "mass": "m",
-        "damping": "c",
-        "stiffness": "k0",
-        "gap": "x0",
-        "backlash": "x0",
-    }
+    aliases: ClassVar[Mapping[str, str]] = {"mass": "m", **CONTACT_ALIASES}
     interfaces = (
         Interface("base", row=1, inertia="m", motion=base, holds=("k0", "x0"), stiffness="k0", play="x0"),
         Interface("ground", row=1, inertia="m", motion=ground),

@@ -11,20 +11,13 @@ from lostmotion.contracts import Array, Param, Term, TermPrior, Values
 from lostmotion.quantities import FORCE, LENGTH
 from lostmotion_plugins.laws import describe_wave, resist_sliding
 
-TYPICAL_PITCH, PITCH_RANGE = 0.3, (0.1, 4.2)
+PITCH_PRIOR = TermPrior(0.3, scan=(0.1, 4.2))
 """The usual pitch in amplitudes of the motion, and the range of pitches that are tried in units of that.
 
 The longest one has 1.6 periods within the travel of a harmonic motion, and three within that of a multisine, which has
 rare peaks. A longer one could not be told from another smooth curve."""
 
-PITCH = Param(
-    "pitch",
-    "travel or turn after which it repeats",
-    LENGTH,
-    low=0.0,
-    scale="log",
-    prior=TermPrior(TYPICAL_PITCH, scan=PITCH_RANGE),
-)
+PITCH = Param("pitch", "travel or turn after which it repeats", LENGTH, low=0.0, scale="log", prior=PITCH_PRIOR)
 AMPLITUDE = Param("force", "amplitude of the force", FORCE)
 VARIATION = Param("wave", "amplitude of the variation", FORCE)
 

@@ -12,7 +12,7 @@ import numpy as np
 from lostmotion.contracts import Array, Param, SensorTerm, TermPrior, Values
 from lostmotion.quantities import LENGTH, NUMBER, TIME
 from lostmotion_plugins.laws import describe_wave
-from lostmotion_plugins.terms.periodic import PITCH_RANGE, TYPICAL_PITCH
+from lostmotion_plugins.terms.periodic import PITCH_PRIOR
 
 _LEAST_DIFFERENCES = 30
 """At least so many differences of successive samples must be small multiples of the step. Chosen by experience; no
@@ -94,14 +94,7 @@ class PositionRipple(SensorTerm):
     params = (
         Param("cosine", "error as cos(2 pi x / pitch)", LENGTH, null=0.0, prior=TermPrior(0.02)),
         Param("sine", "error as sin(2 pi x / pitch)", LENGTH, null=0.0, prior=TermPrior(0.02)),
-        Param(
-            "pitch",
-            "travel after which it repeats",
-            LENGTH,
-            low=0.0,
-            scale="log",
-            prior=TermPrior(TYPICAL_PITCH, scan=PITCH_RANGE),
-        ),
+        Param("pitch", "travel after which it repeats", LENGTH, low=0.0, scale="log", prior=PITCH_PRIOR),
     )
 
     @staticmethod
