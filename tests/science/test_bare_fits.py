@@ -12,6 +12,7 @@ from lostmotion.evidence.bare import BareFits, Budget, name_terms
 from lostmotion.evidence.channel_errors import list_channel_errors
 from lostmotion.evidence.load_cell import fit_loads
 from lostmotion.inference.candidates import join_term
+from lostmotion.inference.commoner import rewrite_term
 from lostmotion.inference.curves import add_all_curves
 from lostmotion.inference.fit import maximise, restart
 from lostmotion.inference.penalties import compute_price, compute_unknown_price
@@ -90,6 +91,22 @@ def test_a_rich_law_is_rewritten_as_a_sum_of_simple_ones(nominal):
     assert both.log_likelihood == pytest.approx(fits.fits[LEVELS].log_likelihood, abs=1.0)
     assert both.values["coulomb_friction.force"] == pytest.approx(0.8, rel=0.05)
     assert both.values["offset_force.force"] == pytest.approx(-0.1, rel=0.2)
+
+
+def test_a_law_is_rewritten_beside_one_that_contains_a_part_of_it(nominal):
+    """Directional friction beside Stribeck friction is a constant force: Coulomb friction is in the set already."""
+    both = join_term(restart(nominal), "stribeck_friction", {"stribeck_friction.force": 0.3})
+    start = {"directional_friction.forward": 0.9, "directional_friction.backward": 0.7}
+    fit = maximise(join_term(both, "directional_friction", start), tolerance=1e6)
+    made = rewrite_term(fit, "directional_friction", (*KEYS, "stribeck_friction"))
+    assert made.active == {"stribeck_friction", "offset_force"}
+
+
+def test_two_laws_that_contain_the_same_simpler_one_are_not_in_one_set(climbed):
+    assert climbed._holds(LEVELS, "stribeck_friction")
+    assert not climbed._holds(LEVELS, "cubic_stiffness")
+    assert not climbed._holds(frozenset({"friction_drift"}), "friction_drift_twice")
+    assert climbed._holds(frozenset({"friction_drift_twice"}), "friction_drift")
 
 
 def raised(fit, by):

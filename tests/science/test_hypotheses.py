@@ -408,8 +408,8 @@ def test_a_law_with_an_onset_is_weighed_without_it_as_well(tmp_path, onset):
     assert find_onset(bare.posterior, "coulomb_friction") == onset
 
 
-def test_single_laws_are_weighed_before_the_leading_set_of_several_is_taken_apart(tmp_path, monkeypatch):
-    """Several laws may imitate one law and a smooth force."""
+def test_the_leading_set_of_several_laws_is_weighed_and_taken_apart_first(tmp_path, monkeypatch):
+    """Where smooth forces leave much that its laws explain, proposals from nothing would use up the budget."""
     search, weighed = start_search(tmp_path, lambda x, v, t: rub(x, v, t) + 0.5), []
 
     def end(self, terms):
@@ -420,4 +420,11 @@ def test_single_laws_are_weighed_before_the_leading_set_of_several_is_taken_apar
     search.run()
     ((lead, known),) = weighed
     assert len(lead) == 2
-    assert any(len(terms) == 1 for terms in known)
+    assert known == {frozenset(), lead}
+
+
+def test_a_gain_is_the_score_that_a_law_adds_to_the_best_set(rubbing):
+    best, nothing = rubbing.best, rubbing.found[frozenset()]
+    assert best.terms == frozenset({"coulomb_friction"})
+    assert rubbing.measure_gain("coulomb_friction") == pytest.approx(best.score() - nothing.score())
+    assert rubbing.measure_gain("cubic_stiffness") == 0.0

@@ -188,8 +188,11 @@ class BareFits:
         return next((mine for mine in sorted(terms) if self._contains(key, mine)), "")
 
     def _holds(self, terms: Terms, key: str) -> bool:
-        """Return whether a set has a law, by itself or within another one."""
-        return key in terms or any(self._contains(law, key) for law in terms)
+        """Return whether a set has a law, by itself or within another one, or a part of it beside another law.
+
+        Data do not tell how two laws that contain the same simpler one divide it.
+        """
+        return key in terms or any(self._contains(law, key) or self._overlaps(law, key) for law in terms)
 
     def _join(self, terms: Terms, key: str) -> Terms:
         """Return a set with one more law, in place of the simpler one that it contains."""
@@ -219,6 +222,11 @@ class BareFits:
         """Return whether a law contains another one at the same place."""
         one, other = (find_term(self.nominal.posterior, key)[0] for key in (richer, simpler))
         return is_simpler(other, one)
+
+    def _overlaps(self, law: str, key: str) -> bool:
+        """Return whether two laws share a simpler one, and the second law does not contain the first."""
+        one, other = (find_term(self.nominal.posterior, name)[0] for name in (law, key))
+        return one.at == other.at and not is_simpler(one, other) and not set(one.extends).isdisjoint(other.extends)
 
     def _price(self, fit: Fit, key: str) -> float:
         """Return the log prior odds against one more term."""

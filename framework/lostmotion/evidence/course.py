@@ -54,6 +54,8 @@ class Course:
         share = short.samples / nominal.posterior.samples
         part, recordings = self.budget.part(FIRST), nominal.posterior.observations
         first = ExplanationSearch(bare, self.keys, (), part, share, until, self.say, whole.errors, recordings).run()
+        with first.cancellable():
+            first.leave_out_sharers()
         whole.cancelled = first.cancelled
         whole.use_errors(first.errors)
         if whole.cancelled:
@@ -70,16 +72,19 @@ class Course:
             if fit.status != "diverged":
                 whole.weigh(fit, found.values, found.choice)
         whole.skipped += first.skipped
-        whole.dropped |= {(terms, less) for terms, less in first.dropped if less in whole.found}
-        whole.bare.promised |= first.bare.promised
-        self._complete(whole)
+        whole.bare.promised |= first.bare.promised | {key: first.measure_gain(key) for key in first.best.terms}
+        self._complete(whole, whole.best.terms == first.best.terms)
         return whole
 
-    def _complete(self, search: ExplanationSearch) -> None:
-        """Weigh what is left without each law of the best set, and unknown forces, unless the user has cancelled."""
+    def _complete(self, search: ExplanationSearch, reduced: bool = False) -> None:
+        """Weigh unknown forces and, unless it is known, what is left without each law of the best set.
+
+        Nothing more is weighed after the user has cancelled.
+        """
         if not search.cancelled:
             with search.cancellable():
-                search.leave_out_sharers()
+                if not reduced:
+                    search.leave_out_sharers()
                 search.weigh_unknown()
 
     def _find_memory(self, search: ExplanationSearch) -> Fit | None:

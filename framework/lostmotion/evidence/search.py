@@ -10,11 +10,11 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from lostmotion.defaults import LINEAR_FORCES
-from lostmotion.evidence.bare import MOST_TERMS, Terms, name_terms
+from lostmotion.evidence.bare import HALF, MOST_TERMS, Terms, name_terms
 from lostmotion.evidence.effects import Promise
 from lostmotion.evidence.hypothesis import Hypothesis
 from lostmotion.evidence.sensor_hum import renew_hums
-from lostmotion.evidence.weighing import REACH, WeighedSets, is_wider
+from lostmotion.evidence.weighing import REACH, WeighedSets
 from lostmotion.inference.candidates import ScoreTest, add_term
 from lostmotion.inference.fit import ROUGHLY, maximise, restart
 from lostmotion.inference.natural import find_term
@@ -60,13 +60,10 @@ class ExplanationSearch(WeighedSets):
 
     def _run(self) -> None:
         """Climb, weigh what is near the best set, and extend it."""
-        self.bare.climb(self.budget)
+        self.bare.climb(self.budget.part(HALF))
         lead = self.bare.lead
         plain = self.bare.fits[self.bare.leave_out_waves(lead)]
         self.use_errors(renew_hums(self.errors, plain, self.recordings or plain.posterior.observations))
-        if len(lead) > 1:
-            self.weigh(self.bare.fits[frozenset()])
-            self._climb_beside()
         self.weigh(self.bare.fits[lead])
         if self.best.terms:
             self._drop_all(self.best)
@@ -80,23 +77,6 @@ class ExplanationSearch(WeighedSets):
             self.extended.add(target.terms)
             self._extend(target)
             self._replace_each()
-
-    def _climb_beside(self) -> None:
-        """Add to no law, one after another, what explains most beside smooth forces, while the score rises."""
-        better = self.found.get(frozenset())
-        while better is not None:
-            target = better
-            self._weigh_promised(target)
-            self._weigh_wider(target)
-            wider = [one for one in self.found.values() if is_wider(one.terms, target.terms) and not one.unknown]
-            better = max((one for one in wider if self.score(one) > self.score(target)), key=self.score, default=None)
-
-    def _weigh_wider(self, target: Hypothesis) -> None:
-        """Weigh the best fit without a discrepancy that has one law more than a set."""
-        wider = [fit for terms, fit in self.bare.fits.items() if is_wider(terms, target.terms)]
-        best = max(wider, key=self.bare.weigh, default=None)
-        if best is not None and best.posterior.active not in self.found and not self.budget.spent:
-            self.weigh(best)
 
     def _drop_each(self) -> None:
         """Weigh the best set without each of its terms, and with simpler ones, until the best set stays the same."""
@@ -144,6 +124,11 @@ class ExplanationSearch(WeighedSets):
         sharing = [key for key in gains if find_term(found.frame.posterior, key)[0].name not in LINEAR_FORCES]
         least = min(sharing, key=lambda key: gains[key], default="")
         return least if least and gains[least] < min(self._measure_leftover(found), max(gains.values())) else ""
+
+    def measure_gain(self, key: str) -> float:
+        """Return the score that a law of the best set adds to its others; zero if it was not weighed without it."""
+        less = self.found.get(self.best.terms - {key})
+        return self.best.score() - less.score() if less else 0.0
 
     def _measure_leftover(self, found: Hypothesis) -> float:
         """Return the log evidence that the discrepancy adds to the laws of a hypothesis."""

@@ -13,17 +13,22 @@ from lostmotion.likelihood.system import key_of, onset_key
 
 
 def rewrite_term(fit: Fit, key: str, candidates: Collection[str]) -> Posterior | None:
-    """Return the posterior with more common terms in place of one, at the same force; None where it is no sum."""
+    """Return the posterior with more common terms in place of one, at the same force; None where it is no sum.
+
+    A common term that another law of the fit contains is not added once more.
+    """
     term, slots = find_term(fit.posterior, key)
     values = fit.values
     if not all(slot.key in values for slot in slots):
         return None
     commoner = term.commoner({slot.param.name: values[slot.key] for slot in slots})
-    keys = {t.name: key_of(t) for t in fit.posterior.system.terms if t.at == term.at and t.name in commoner}
-    if not commoner or len(keys) < len(commoner) or not set(keys.values()) <= set(candidates) - fit.posterior.active:
+    rest = [find_term(fit.posterior, other)[0] for other in fit.posterior.active - {key}]
+    names = commoner.keys() - {name for law in rest if law.at == term.at for name in law.extends}
+    keys = {t.name: key_of(t) for t in fit.posterior.system.terms if t.at == term.at and t.name in names}
+    if not names or len(keys) < len(names) or not set(keys.values()) <= set(candidates) - fit.posterior.active:
         return None
     since, posterior = find_onset(fit.posterior, key), restart(fit).remove_term(key, values)
-    for name, own in commoner.items():
-        start = {f"{keys[name]}.{param}": value for param, value in own.items()}
-        posterior = join_term(posterior, keys[name], {**start, onset_key(keys[name]): since})
+    for name, law in keys.items():
+        start = {f"{law}.{param}": value for param, value in commoner[name].items()}
+        posterior = join_term(posterior, law, {**start, onset_key(law): since})
     return posterior

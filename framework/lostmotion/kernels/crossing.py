@@ -26,6 +26,7 @@ from lostmotion.kernels.vector import (
     WIDTH,
     absolute,
     any_lane,
+    assign,
     call,
     jit,
     largest_lane,
@@ -71,7 +72,9 @@ STRAIGHT = ALIVE + 1
 EXPECTED = STRAIGHT + 1
 SEEN = EXPECTED + 1
 LOOSE = SEEN + 1
-NOISE = LOOSE + 1
+TAKEN = LOOSE + 1
+"""The number of steps that were computed, in its first lane: those of all lanes together."""
+NOISE = TAKEN + 1
 """Intensities of the process noise that enters the states, two rows for each source; then the impulse responses."""
 
 
@@ -394,6 +397,7 @@ def cross_sample(derive, space, wires, work, noises, u, which, begin, k, nsub, d
         while wide > 0:
             failed |= try_step(derive, space, wires, work, u, which, begin, k, place, wide, nsub, dt, lanes)
             carry_step(work, noises, sources, many, wires[PACES], wide * step, wide, place, keep, led, lanes)
+            assign(work, TAKEN, 0, value(work, TAKEN, 0) + lanes)
             done = wide
             wide = find_widest(work, place, lanes)
         place += done

@@ -127,7 +127,7 @@ class Lanes(RunningSystem):
             (made.derive, made.observe), blocks, wires, inputs, which, np.ascontiguousarray(readings),
             numbers, find_input_variance(self, observation), dt, nsub, padded, kept, led, lanes,
         )  # fmt: skip
-        add_work(len(points) * observation.samples * nsub * n)
+        add_work(int(blocks[1][kernels["TAKEN"], 0]) * n)
         require_no_failure(failed, system, blocks[0], wires)
         for mine, theirs in zip(written, padded, strict=True):
             if mine is not theirs:

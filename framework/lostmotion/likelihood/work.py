@@ -12,7 +12,7 @@ _DONE = [0]
 
 
 def add_work(steps: int) -> None:
-    """Count steps of filters: points times samples times steps for each sample, times the number of states."""
+    """Count steps of filters: those of all points, times the number of states. Lanes without a point count as well."""
     with _LOCK:
         _DONE[0] += steps
 
