@@ -8,7 +8,8 @@ and the residual of the linearisation is added to its variance: a force sensor w
 have reached gives little information on the position. With three points the gain would jump where the outermost point
 reaches the kink.
 
-`lostmotion.likelihood.kernels` compiles this text, after that of `crossing.py`, once for each number of states.
+`lostmotion.likelihood.kernels` compiles this text, after those of `crossing.py` and `propagation.py`, once for each
+number of states.
 """
 
 from __future__ import annotations
@@ -33,7 +34,6 @@ from lostmotion.kernels.crossing import (
     P,
     T,
     Y,
-    cross_sample,
 )  # fmt: skip
 from lostmotion.kernels.inputs import (
     DRAWN,
@@ -48,6 +48,9 @@ from lostmotion.kernels.noise_states import (
     initialise_noises,
     propagate_noises,
     update_noises,
+)  # fmt: skip
+from lostmotion.kernels.propagation import (
+    cross_sample,
 )  # fmt: skip
 from lostmotion.kernels.vector import (
     WIDTH,

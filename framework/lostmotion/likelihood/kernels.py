@@ -31,7 +31,8 @@ def _build_kernels(text: str, label: str, compiled: bool) -> dict[str, Any]:
 @lru_cache(maxsize=32)
 def build_filter(states: int, compiled: bool = True) -> dict[str, Any]:
     """Return the functions of the filter for a number of states, compiled or as plain Python."""
-    text = _read_source("inputs", "crossing", "noise_states", "filter").replace("\nN = 2\n", f"\nN = {states}\n")
+    text = _read_source("inputs", "crossing", "propagation", "noise_states", "filter")
+    text = text.replace("\nN = 2\n", f"\nN = {states}\n")
     return _build_kernels(text, f"a filter of {states} states", compiled)
 
 
