@@ -147,6 +147,12 @@ def test_a_term_is_open_if_it_alone_would_raise_the_evidence_by_much(gain, open_
     assert list_open_terms(make_facts(alone=alone, learned=True)) == ()
 
 
+def test_a_law_that_contains_a_found_one_does_not_stay_open():
+    alone = {STRIBECK: 30.0}
+    assert [row.mechanism for row in list_open_terms(make_facts(make_found(DELAY), alone=alone))] == [STRIBECK]
+    assert list_open_terms(make_facts(make_found(FRICTION), alone=alone)) == ()
+
+
 @pytest.mark.parametrize(("error", "noise", "good"), [(0.2, 0.01, True), (0.35, 0.1, True), (5.92, 0.01, False),
                                                      (float("nan"), 0.1, False)])  # fmt: skip
 def test_a_model_holds_that_predicts(error, noise, good):

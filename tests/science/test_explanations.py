@@ -2,24 +2,27 @@
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from explained import VALUES, bend, explain_machine, made_of
 
-from lostmotion.diagnosis.gather_facts import _list_reaching, _widen_vague
+from lostmotion.diagnosis.gather_facts import _widen_vague, list_reaching
+from lostmotion.diagnosis.nested_laws import find_simpler_set
 from lostmotion.diagnosis.stages import diagnose, explain_by
 from lostmotion.diagnosis.unknowns import make_learned_entry
 from lostmotion.evidence.corrections import find_corrections
 from lostmotion.evidence.explanations import Explanations
 from lostmotion.evidence.hypothesis import UNKNOWN, list_vague
-from lostmotion.inference.candidates import compute_slopes, run_score_test
+from lostmotion.inference.candidates import compute_slopes, join_term, run_score_test
 from lostmotion.inference.random_force import has_usual_random_force
 from lostmotion.results import Interval
 
 FRICTIONS = {"coulomb_friction", "stribeck_friction", "dahl_friction", "lugre_friction", "directional_friction"}
 SURE = 0.95
 NOTHING, FRICTION, CURVES = frozenset(), frozenset({"coulomb_friction"}), frozenset({UNKNOWN})
+STRIBECK = frozenset({"stribeck_friction"})
 
 
 def nothing(x, v, t):
@@ -96,7 +99,33 @@ def test_an_amplitude_whose_region_reaches_zero_is_vague(rubbing, deviations, va
 @pytest.mark.parametrize(("low", "vague"), [(-0.1, ["force"]), (0.1, [])])
 def test_an_amplitude_whose_stated_interval_reaches_zero_is_vague_as_well(rubbing, low, vague):
     told = {"coulomb_friction.force": Interval(0.8, low, 1.5, "N")}
-    assert list(_list_reaching(rubbing.chosen.posterior, "coulomb_friction", told)) == vague
+    assert list(list_reaching(rubbing.chosen.posterior, "coulomb_friction", told)) == vague
+
+
+def test_a_law_gives_its_probability_to_a_simpler_one(rubbing):
+    made = with_scores(rubbing, {NOTHING: 0.0, FRICTION: 500.0, STRIBECK: 505.0})
+    assert made.terms == STRIBECK
+    assert made.is_close(FRICTION, 8.0)
+    assert not made.is_close(FRICTION, 3.0)
+    less = made.simplify(FRICTION)
+    assert less.terms == FRICTION
+    assert less.inclusion("coulomb_friction") == pytest.approx(1.0)
+    assert less.inclusion("stribeck_friction") == 0.0
+
+
+@pytest.mark.parametrize(
+    ("low", "score", "simpler"),
+    [(-1.0, 500.0, FRICTION), (0.5, 500.0, None), (-1.0, 400.0, None)],
+    ids=["not told from zero", "told from zero", "the simpler law is refuted"],
+)
+def test_of_nested_laws_the_simplest_that_is_not_refuted_is_the_name(rubbing, low, score, simpler):
+    """All parameters have draws from `low` to 2 in their units, also the excess of Stribeck friction."""
+    made = with_scores(rubbing, {NOTHING: 0.0, FRICTION: score, STRIBECK: 505.0})
+    posterior = join_term(rubbing.nominal.posterior, "stribeck_friction", {})
+    after = SimpleNamespace(posterior=posterior)
+    draws = np.tile(np.linspace(low, 2.0, 201)[:, None], (1, len(posterior.space.free)))
+    outcome = SimpleNamespace(diagnosis=SimpleNamespace(explained=made, after=after), draws_after=draws)
+    assert find_simpler_set(outcome) == simpler
 
 
 def test_a_refuted_set_has_no_probability_and_the_next_one_is_the_best(rubbing):

@@ -22,6 +22,7 @@ from lostmotion.diagnosis.gather_facts import gather_facts
 from lostmotion.diagnosis.guest_sections import find_sections
 from lostmotion.diagnosis.mixed import draw_mixture
 from lostmotion.diagnosis.moving import note_rest
+from lostmotion.diagnosis.nested_laws import find_simpler_set
 from lostmotion.diagnosis.outcome import Outcome, draw_parameters
 from lostmotion.diagnosis.report.diagnosis_page import save_diagnosis
 from lostmotion.diagnosis.report.page_data import Evidence, make_evidence
@@ -32,6 +33,7 @@ from lostmotion.diagnosis.stored_arrays import list_arrays
 from lostmotion.diagnosis.write_result import make_result
 from lostmotion.errors import ContractError
 from lostmotion.evidence.bare import name_terms
+from lostmotion.evidence.hypothesis import UNKNOWN
 from lostmotion.inference.profile import measure_stretches
 from lostmotion.kernels.threads import each, hold_linear_algebra
 from lostmotion.likelihood.stepped import make_system
@@ -100,6 +102,7 @@ def diagnose_prepared(
     say("held-out predictions")
     outcome = check_heldout(diagnosis, rng, say)
     outcome = draw_posteriors(outcome, np.random.default_rng([seed, DRAWN]))
+    outcome = name_simplest(outcome, np.random.default_rng([seed, DRAWN]), say)
     diagnosis = outcome.diagnosis
     motions = list_motions(diagnosis)
     say("attractors")
@@ -174,6 +177,16 @@ def check_heldout(diagnosis: SearchResult, rng: np.random.Generator, say: Say = 
         less = explain_by(found.explained.refute(), found, rng.spawn(1)[0], say)
         outcome = compare_heldout(less)
     return outcome
+
+
+def name_simplest(outcome: Outcome, rng: np.random.Generator, say: Say = lambda _: None) -> Outcome:
+    """Return the outcome with the simplest of nested laws that the data do not tell apart."""
+    found = outcome.diagnosis
+    if UNKNOWN in found.explained.best.terms or (simpler := find_simpler_set(outcome)) is None:
+        return outcome
+    say(f"with the simpler law: {name_terms(simpler)}")
+    less = explain_by(found.explained.simplify(simpler), found, rng.spawn(1)[0], say)
+    return draw_posteriors(compare_heldout(replace(less, withdrawn=found.withdrawn)), rng)
 
 
 def _list_remarks(prepared: Prepared, d: SearchResult) -> list[str]:

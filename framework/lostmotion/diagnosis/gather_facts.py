@@ -246,7 +246,7 @@ def _make_support(d: SearchResult, key: str, intervals: Mapping[str, Interval]) 
     return Support(
         gain=d.explained.gain_beside(key),
         vague=tuple(
-            dict.fromkeys((*list_vague(d.explained.best, key), *_list_reaching(d.after.posterior, key, intervals)))
+            dict.fromkeys((*list_vague(d.explained.best, key), *list_reaching(d.after.posterior, key, intervals)))
         ),
         moved=tuple(_list_moved(d, key)),
         delay=_count_delay(d.after, key),
@@ -254,7 +254,7 @@ def _make_support(d: SearchResult, key: str, intervals: Mapping[str, Interval]) 
     )
 
 
-def _list_reaching(posterior: Posterior, key: str, intervals: Mapping[str, Interval]) -> Iterator[str]:
+def list_reaching(posterior: Posterior, key: str, intervals: Mapping[str, Interval]) -> Iterator[str]:
     """Yield the amplitudes whose interval, averaged over all explanations, contains the value that does nothing."""
     slots = sort_slots(posterior, key)[0]
     for group in group_amplitudes(posterior, key, slots):

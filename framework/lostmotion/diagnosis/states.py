@@ -212,9 +212,13 @@ def list_open_terms(facts: Facts) -> tuple[OpenTerm, ...]:
 
 
 def _list_tied(facts: Facts) -> set[str]:
-    """Return the term that alone adds much where smooth forces are absent, and is improbable beside them."""
+    """Return the term that alone adds much where smooth forces are absent, and is improbable beside them.
+
+    One that contains a found law is not told from it.
+    """
     alone = {one.key: one for one in facts.candidates if one.alone is not None}
     best = max(alone.values(), key=lambda one: one.alone or 0.0, default=None)
     if best is None or facts.learned or not (best.alone or 0.0) > facts.settings.rival.much:
         return set()
-    return {best.key} if facts.inclusion(best.key) < facts.settings.name.rival else set()
+    told = any(is_simpler(one.term, best.term) for one in facts.found)
+    return {best.key} if facts.inclusion(best.key) < facts.settings.name.rival and not told else set()

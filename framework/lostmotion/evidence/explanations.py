@@ -34,13 +34,15 @@ LEAST = 1e-3
 class Explanations:
     """The hypotheses of a diagnosis; `fits` are those of their terms alone, in the system of the case.
 
-    Sets in `refuted` have no probability, because free runs over held-out data are worse with them. `skipped` names the
+    Sets in `refuted` have no probability, because free runs over held-out data are worse with them. Those in `nested`
+    give theirs to another set with a simpler law, from which the data do not tell theirs. `skipped` names the
     sets that were not extended for lack of time, `promised` has the log evidence that the slopes of each term promise.
     """
 
     fits: Mapping[Terms, Fit]
     found: Mapping[Terms, Hypothesis]
     refuted: frozenset[Terms] = frozenset()
+    nested: Mapping[Terms, Terms] = field(default_factory=dict)
     skipped: tuple[str, ...] = ()
     promised: Mapping[str, float] = field(default_factory=dict)
 
@@ -60,7 +62,11 @@ class Explanations:
         """The posterior probability of each set."""
         allowed = [one for terms, one in self.found.items() if terms - {UNKNOWN} not in self.refuted]
         temper = measure_temper(allowed)
-        return _share_ties(allowed, compute_probabilities(allowed, temper), temper)
+        shares = _share_ties(allowed, compute_probabilities(allowed, temper), temper)
+        for rich, simple in self.nested.items():
+            shares[simple] += shares[rich]
+            shares[rich] = 0.0
+        return shares
 
     @property
     def best(self) -> Hypothesis:
@@ -95,6 +101,17 @@ class Explanations:
         """Return the score that a term of the best hypothesis adds to its other terms."""
         less = self.found.get(self.best.terms - {key})
         return self.best.score() - less.score() if less else self.gain(key)
+
+    def is_close(self, terms: Terms, reach: float) -> bool:
+        """Return whether a set was weighed, was not refuted, and has a score within `reach` of that of the best one."""
+        if terms not in self.probabilities:
+            return False
+        temper = measure_temper(self.found.values())
+        return self.found[terms].score(temper) > self.best.score(temper) - reach
+
+    def simplify(self, simple: Terms) -> Explanations:
+        """Return the explanations in which the most probable set gives its probability to one with a simpler law."""
+        return replace(self, nested={**self.nested, self.best.terms: simple})
 
     def refute(self) -> Explanations:
         """Return the explanations without the most probable set of terms; without any, no curves are learned."""
