@@ -426,5 +426,5 @@ def test_the_leading_set_of_several_laws_is_weighed_and_taken_apart_first(tmp_pa
 def test_a_gain_is_the_score_that_a_law_adds_to_the_best_set(rubbing):
     best, nothing = rubbing.best, rubbing.found[frozenset()]
     assert best.terms == frozenset({"coulomb_friction"})
-    assert rubbing.measure_gain("coulomb_friction") == pytest.approx(best.score() - nothing.score())
-    assert rubbing.measure_gain("cubic_stiffness") == 0.0
+    assert rubbing.measure_gain(best, "coulomb_friction") == pytest.approx(best.score() - nothing.score())
+    assert rubbing.measure_gain(best, "cubic_stiffness") == 0.0

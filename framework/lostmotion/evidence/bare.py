@@ -38,7 +38,8 @@ MOST_TERMS, MOST_BARE = 4, 3
 """The largest number of terms of a set, and of those that a climb without a discrepancy finds: beyond the first ones it
 describes with laws what a smooth force explains."""
 HALF = 0.5
-"""Work that may wait is not begun once this share of the budget is used: other shapes of a set, and AR(1) noise."""
+"""Work that may wait is not begun once this share of the budget is used: a further step of the climb, other shapes of a
+set, and AR(1) noise."""
 
 
 @dataclass(kw_only=True)

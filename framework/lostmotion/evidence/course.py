@@ -72,8 +72,9 @@ class Course:
             if fit.status != "diverged":
                 whole.weigh(fit, found.values, found.choice)
         whole.skipped += first.skipped
-        whole.bare.promised |= first.bare.promised | {key: first.measure_gain(key) for key in first.best.terms}
-        self._complete(whole, whole.best.terms == first.best.terms)
+        best = first.best
+        whole.bare.promised |= first.bare.promised | {key: first.measure_gain(best, key) for key in best.terms}
+        self._complete(whole, whole.best.terms == best.terms)
         return whole
 
     def _complete(self, search: ExplanationSearch, reduced: bool = False) -> None:

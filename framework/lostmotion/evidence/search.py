@@ -120,15 +120,15 @@ class ExplanationSearch(WeighedSets):
         """Return the law that adds less to a set than its discrepancy does, if another one adds more; empty if none."""
         if len(found.terms) < 2 or not all(found.terms - {key} in self.found for key in found.terms):
             return ""
-        gains = {key: found.score() - self.found[found.terms - {key}].score() for key in sorted(found.terms)}
+        gains = {key: self.measure_gain(found, key) for key in sorted(found.terms)}
         sharing = [key for key in gains if find_term(found.frame.posterior, key)[0].name not in LINEAR_FORCES]
         least = min(sharing, key=lambda key: gains[key], default="")
         return least if least and gains[least] < min(self._measure_leftover(found), max(gains.values())) else ""
 
-    def measure_gain(self, key: str) -> float:
-        """Return the score that a law of the best set adds to its others; zero if it was not weighed without it."""
-        less = self.found.get(self.best.terms - {key})
-        return self.best.score() - less.score() if less else 0.0
+    def measure_gain(self, found: Hypothesis, key: str) -> float:
+        """Return the score that a law adds to the others of a set; zero if the set was not weighed without it."""
+        less = self.found.get(found.terms - {key})
+        return found.score() - less.score() if less else 0.0
 
     def _measure_leftover(self, found: Hypothesis) -> float:
         """Return the log evidence that the discrepancy adds to the laws of a hypothesis."""
