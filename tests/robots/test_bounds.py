@@ -56,7 +56,8 @@ def test_a_promise_at_a_bound_is_that_of_the_bound(helpers, terms):
     told = {p.effect.key: p for p in list_promises(search.screen, search.found[frozenset()], search.price, 1.0)}
     gain = told["excitation_gain@elbow.torque"]
     assert gain.start == {"excitation_gain@elbow.torque.error": pytest.approx(-0.6)}
-    assert gain.gain < told["inertia_change@elbow"].gain < told["coulomb_friction@elbow"].gain
+    assert gain.gain < told["coulomb_friction@elbow"].gain
+    assert told["inertia_change@elbow"].gain < 0.0  # the joint moves with an acceleration that friction has reduced
 
 
 def test_a_gain_at_the_end_of_its_range_is_likely_at_most(helpers, search_of):

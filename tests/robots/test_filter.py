@@ -125,6 +125,18 @@ def test_an_unknown_armature_feels_the_acceleration_of_its_motor(empty):
     assert np.linalg.norm(change - told) < 0.1 * np.linalg.norm(change)
 
 
+def test_accelerations_have_the_share_of_a_force_that_the_model_lacks(make):
+    """Those of the model alone, as predicted from sample to sample, are wrong by the force over the inertia."""
+    arm = make(Arm(offset=np.array([0.0, 2.0])))
+    kept = arm.filter({}, (), LEVELS, keep=True)
+    known = arm.filter({}, (), LEVELS, keep=True, force=np.tile([0.0, 2.0], (arm.log.samples, 1)))
+    inner = slice(100, -100)
+    apart = np.mean(kept.accelerations[inner] - known.accelerations[inner], axis=0)
+    pushed = np.linalg.inv(arm.tape.mass[0] + np.diag(arm.get({}, "armature"))) @ [0.0, 2.0]
+    assert abs(pushed[1]) > 5.0
+    assert np.abs(apart).max() < 0.1 * abs(pushed[1])
+
+
 def test_the_damping_of_a_gear_acts_in_the_middle_of_a_step(make, monkeypatch):
     """At its beginning, it made play stiffer in proportion to the step: 6 and 7 nats were lost at the true values."""
     machine = Arm(play=np.array([1e-3, -1.0]), stiffness=np.array([6e4, 5e4]), loss=np.array([30.0, 10.0]))

@@ -55,7 +55,7 @@ def make_robot_case(
             raise CaseError(
                 f"{recording.name} has no {word} of {missing[0]}: add it, or leave the joint out of joints = [...]"
             )
-    clock = measure_clock(np.asarray(recording.sensors[0]["time"], dtype=float), recording.name)
+    clock = measure_clock(np.asarray(recording.sensors[0]["time"], dtype=float), recording.name, model.side)
     time = np.asarray(recording.sensors[0]["time"], dtype=float)
     torque = np.stack([columns[joint, "force"] for joint in model.joints], axis=1)
     picks = [(j, o) for o, q in enumerate(QUANTITIES) for j, joint in enumerate(model.joints) if (joint, q) in columns]

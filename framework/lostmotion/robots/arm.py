@@ -15,6 +15,7 @@ from typing import ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.signal import lfilter
 
 from lostmotion.contracts import DriveTerm, Term
 from lostmotion.kernels.chain import differentiate_errors, filter_chain
@@ -38,6 +39,8 @@ FASTEST, MOST_STEPS = 0.5, 64
 """The largest angle (rad) by which the motion of a gear may turn in one step; the largest number of steps."""
 SETTLING = 0.1
 """The time (s) at the beginning of a log that does not count."""
+CORRECTED = 0.03
+"""The time (s) over which the corrections of accelerations by readings are averaged."""
 DOUBT_ANGLE, DOUBT_SPEED = 1e-3, 0.1
 """Standard deviations of the first position and velocity (SI)."""
 
@@ -214,9 +217,23 @@ class TapedArm:
             np.ascontiguousarray(tau[part]), levels[0], levels[1], motors, plain, *table, first * log.dt, mean, cov,
             errors, variances, made["states"], made["accelerations"], made["gains"], made["moves"], made["pushes"],
         )  # fmt: skip
+        if keep:
+            made["accelerations"] += self._correct(made["states"], made["accelerations"], motors)
         errors[: max(self.settling - first, 0)], variances[: max(self.settling - first, 0)] = 0.0, 1.0 / (2.0 * math.pi)
         seen = Innovations.of(errors[None], variances[None], np.array([reached]))[0]
         return FilteredLog(seen, **made)
+
+    def _correct(self, states: Array, accelerations: Array, motors: Whole) -> Array:
+        """Return the mean correction (samples, 2n) of accelerations by the readings before each sample.
+
+        A force that the model lacks moves the joints all the same. Later readings would put their own noise in.
+        """
+        n = len(motors)
+        rates = np.concatenate([n + np.arange(n), np.where(motors < 0, n + np.arange(n), motors + 1)])
+        found = np.zeros_like(accelerations)
+        found[1:] = np.diff(states[:, rates], axis=0) / self.log.dt - accelerations[:-1]
+        width = max(round(CORRECTED / self.log.dt), 1)
+        return np.asarray(lfilter(np.full(width, 1.0 / width), 1.0, found, axis=0))
 
     def pick(self, gears: Mapping[int, Gear]) -> Whole:
         """Return the index of the state that each reading shows: that of the motor, where a joint has a gear."""

@@ -90,7 +90,7 @@ def load_robot_case(path: Path, registry: Registry) -> RobotCase:
     side = model.choice("torque", SIDES)
     tolerance = model.positive("tolerance") if "tolerance" in model.values else TOLERANCE
     gains = {**simulator.gains, **_read_gains(model.maybe_table("gains"), simulator.joints)}
-    log, sha = _read_log(recordings[0], path.parent, simulator, gains)
+    log, sha = _read_log(recordings[0], path.parent, simulator, gains, side)
     made = RobotModel(simulator, kind, str(path.parent / source), side, tolerance, log.hold)
     fields = model.maybe_table("estimate")
     file = made.file
@@ -127,7 +127,7 @@ def _read_gains(fields: Fields, joints: tuple[str, ...]) -> dict[str, tuple[floa
 
 
 def _read_log(
-    fields: Fields, folder: Path, simulator: Simulator, gains: Mapping[str, tuple[float, float]]
+    fields: Fields, folder: Path, simulator: Simulator, gains: Mapping[str, tuple[float, float]], side: str
 ) -> tuple[RobotLog, str]:
     """Return the log of a case on an even grid, and the digest of its file."""
     fields.only(RECORDING)
@@ -146,7 +146,7 @@ def _read_log(
         time, columns = time[~stale], columns[~stale]
     time, corrected = correct_stamps(time, columns[:, n : 2 * n])
     notes = (*notes, *corrected)
-    clock = measure_clock(time, path.name)
+    clock = measure_clock(time, path.name, side)
     hold = fields.choice("hold", HOLDS) if "hold" in fields.values else "step"
     u, _ = resample(time, columns[:, :n], clock, step=hold == "step")
     used = np.array([

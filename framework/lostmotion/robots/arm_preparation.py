@@ -28,7 +28,7 @@ FITTED = 0.7
 FORCE = 0.02
 """The random force to start from, as a share of the torque."""
 MOST_EFFECTS = 4
-"""The largest number of effects in a set; with more joints one more than joints."""
+"""The largest number of effects in a set; with more than two joints, two for each."""
 SECONDS = 1200.0
 """The processor time of a search (s)."""
 
@@ -110,7 +110,7 @@ def prepare_search(
     screen = make_screen(arm, effects, arm.tape.path.a)
     frame = ArmFrame(arm, (), base, usual, last)
     budget = Budget(seconds=options.budget)
-    most = max(options.most, len(arm.joints) + 1) if len(arm.joints) > 2 else options.most
+    most = max(options.most, 2 * len(arm.joints)) if len(arm.joints) > 2 else options.most
     search = ArmSearch(frame, screen, large, arm.log.samples, most, budget, options.jobs, say)
     return search, np.concatenate([at, np.zeros(len(usual.columns))])
 

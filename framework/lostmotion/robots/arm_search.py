@@ -17,7 +17,15 @@ from lostmotion.parts import Array
 from lostmotion.robots.arm_discrepancy import Discrepancy
 from lostmotion.robots.arm_effects import ArmEffect
 from lostmotion.robots.arm_hypothesis import ArmFrame, ArmHypothesis, find_precision, fit_hypothesis, score_heldout
-from lostmotion.robots.promises import Group, Screen, list_gear_promises, list_groups, list_promises
+from lostmotion.robots.promises import (
+    ArmPromise,
+    Group,
+    Screen,
+    leave_richer,
+    list_gear_promises,
+    list_groups,
+    list_promises,
+)
 
 Say = Callable[[str], None]
 Terms = frozenset[str]
@@ -119,20 +127,24 @@ class ArmSearch:
 
     def _list_proposals(self, target: ArmHypothesis) -> tuple[list[ProposedFit], list[ProposedFit]]:
         """Return what is proposed beside a set: groups of effects, and single effects, the best first."""
-        temper, small = self.temper, self._make_small(target)
-        promises = list_promises(self.screen, target, self.price, temper)
-        usual, groups = promises[:MOST_FITTED], list_groups(promises, self.most - len(target.terms))
+        present, small = target.frame.terms, self._make_small(target)
+        every = self._list_promises(target)
+        groups = list_groups(every, present, self.most - len(target.terms))
+        usual = leave_richer(every, present)[:MOST_FITTED]
         known = {p.effect.key for p in usual if p.gain > 0.0}
         if target.choice[-1]:
-            held = list_promises(self.screen, self._hold_values(target), self.price, temper)
+            held = leave_richer(self._list_promises(self._hold_values(target)), present)
             usual += [p for p in held[:MOST_SMALL] if p.effect.key not in known]
             known |= {p.effect.key for p in usual}
-        more = list_promises(self.screen, small, self.price, temper)[:MOST_SMALL] if small is not None else []
-        gears = list_gear_promises(self.screen, target, SMALL, self.price, temper)[:MOST_GEARS]
+        more = leave_richer(self._list_promises(small), present)[:MOST_SMALL] if small is not None else []
+        gears = list_gear_promises(self.screen, target, SMALL, self.price, self.temper)[:MOST_GEARS]
         singles = [ProposedFit((p,), (0.0,)) for p in usual if p.gain > 0.0]
         singles += [ProposedFit((p,), (math.log(SMALL),)) for p in more if p.gain > 0.0 and p.effect.key not in known]
         singles += [ProposedFit((p,), tuple(math.log(level) for level in p.levels)) for p in gears if p.gain > 0.0]
         return [ProposedFit(group, (0.0,)) for group in groups], singles
+
+    def _list_promises(self, beside: ArmHypothesis) -> list[ArmPromise]:
+        return list_promises(self.screen, beside, self.price, self.temper)
 
     def _fit_all(self, target: ArmHypothesis, proposals: Sequence[ProposedFit]) -> None:
         """Fit what is proposed beside a set, and keep it."""

@@ -13,8 +13,11 @@ from lostmotion.contracts import DriveTerm
 from lostmotion.errors import DataError
 from lostmotion.parts import Array, Input
 
-FINEST = 0.0019
-"""The shortest step (s) of a filter: faster logs are read at every second sample, or at fewer."""
+FINEST: Mapping[str, float] = {"motor": 0.0019, "link": 0.0099}
+"""The shortest step (s) of a filter, by the side of the torque: faster logs are read at every second sample or fewer.
+
+A sensor behind a strain-wave gear also reads the ripple of its flexible wheel, which moves nothing: above 10 Hz that of
+a Panda shares less than a third with the motion. Read as a force, it turned dry friction into gains of 0.4."""
 STALE = 0.3
 """The largest share of samples in which all joints repeat the reading before; with more, the arm rests."""
 SHORTEST = 200
@@ -142,8 +145,11 @@ class LogClock:
         return tuple(notes)
 
 
-def measure_clock(time: Array, source: str) -> LogClock:
-    """Return the clock of time stamps (samples,) in s; raise `DataError` where they run backwards or are too few."""
+def measure_clock(time: Array, source: str, side: str = "motor") -> LogClock:
+    """Return the clock of time stamps (samples,) in s of a log with the torque of one `side` of the gear.
+
+    Raise `DataError` where the stamps run backwards or are too few.
+    """
     if len(time) < SHORTEST:
         raise DataError(f"{source} has {len(time)} samples: a diagnosis needs at least {SHORTEST}")
     steps = np.diff(time)
@@ -162,7 +168,7 @@ def measure_clock(time: Array, source: str) -> LogClock:
             ' are in ms, write time = { column = "...", unit = "ms" }'
         )
     even = moving[moving < GAP * dt]
-    every = max(1, math.ceil(FINEST / dt))
+    every = max(1, math.ceil(FINEST[side] / dt))
     return LogClock(dt, float(np.std(even) / dt), len(steps) - len(moving), float(moving.max()), every)
 
 
