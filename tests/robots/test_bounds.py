@@ -68,3 +68,15 @@ def test_a_gain_at_the_end_of_its_range_is_likely_at_most(helpers, search_of):
     assert found.parameters["error"].median == pytest.approx(-0.6)
     assert found.state == "likely"
     assert "end of the range" in found.doubts[-1]
+
+
+def test_a_part_of_a_law_is_not_proposed_beside_it(helpers, terms):
+    """Dry friction is a part of one with a drift; that with a soft onset contains it too, and would only share it."""
+    log, simulator = helpers.record(Arm(friction=np.array([0.0, 0.5])), samples=1500), helpers.make_simulator()
+    kept = [term for term in terms if term.name in ("coulomb_friction", "friction_drift", "cogging")]
+    search, start = prepare_search(make_arm(simulator, log), simulator, kept, {}, SearchOptions())
+    (drift,) = [e for e in search.screen.effects if e.key == "friction_drift@elbow"]
+    search.weigh((drift,), [search._place((drift,), dict(zip([c.key for c in search.frame.own], start, strict=False)))])
+    told = {p.effect.key for p in list_promises(search.screen, search.found[frozenset({drift.key})], 0.0, 1.0)}
+    assert not {"coulomb_friction@elbow", "soft_friction@elbow", "friction_drift@elbow"} & told
+    assert {"coulomb_friction@shoulder", "cogging@elbow"} <= told

@@ -143,7 +143,7 @@ def list_promises(screen: Screen, beside: ArmHypothesis, price: float, temper: f
     size = np.sqrt(np.sum(more * more / v, axis=1))
     singles: list[tuple[int, str]] = []
     for effect, shape, part in sorted(screen.shapes, key=lambda row: row[0].price):
-        if effect.key in frame.terms:
+        if any(_overlaps(effect, present) for present in frame.effects):
             continue
         linear = isinstance(effect, LawEffect) and not isinstance(effect.term, DriveTerm)
         if linear and part.stop - part.start == 1 and size[part.start] > 0.0:
@@ -162,6 +162,15 @@ def list_promises(screen: Screen, beside: ArmHypothesis, price: float, temper: f
             shift[used] = -pulled[:, part] @ step
             best[effect.key] = replace(found, shift=shift)
     return sorted(best.values(), key=lambda p: -p.gain)
+
+
+def _overlaps(effect: ArmEffect, present: ArmEffect) -> bool:
+    """Return whether an effect is present, or a part of it is, within another law that it does not contain itself.
+
+    Data do not tell how two laws that contain the same simpler one divide it.
+    """
+    own, other = {effect.key, *effect.extends}, {present.key, *present.extends}
+    return present.key not in effect.extends and not own.isdisjoint(other)
 
 
 def leave_richer(promises: Sequence[ArmPromise], present: frozenset[str]) -> list[ArmPromise]:
