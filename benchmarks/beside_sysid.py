@@ -155,17 +155,17 @@ def format_rows(rows: list[dict]) -> str:
         named = ", ".join(row["named"]) or "nothing"
         errors = " | ".join(f"{100 * row[k]:.2g} %" for k in ("nominal", "sysid", "ours"))
         lines.append(f"| {row['truth']} | {named} | {moved} | {errors} |")
-    return "\n".join([*lines, "", format_share(LACKED, rows), "", format_share(OWNED, rows)])
+    return "\n".join(lines)
 
 
-def format_share(effects: tuple[str, ...], rows: list[dict]) -> str:
-    """Return in how many arms with some effects lostmotion has the smaller error, and is not worse by 10 %."""
-    own = [row for row in rows if row["truth"].partition(" ")[0] in effects]
-    lower, near = (sum(row["ours"] < most * row["sysid"] for row in own) for most in (1.0, 1.1))
-    return (
-        f"{', '.join(effects)}: lostmotion has the lower error in {lower} of {len(own)} arms, and is worse by more than"
-        f" 10 % in {len(own) - near}."
-    )
+def format_shares(rows: list[dict]) -> str:
+    """Return in how many arms lostmotion has the smaller error, and in how many one that is larger by 10 %."""
+    lines = ["| hidden | arms | lower error of lostmotion | larger by more than 10 % |", "|---|---|---|---|"]
+    for effects in (LACKED, OWNED):
+        own = [row for row in rows if row["truth"].partition(" ")[0] in effects]
+        lower, worse = sum(r["ours"] < r["sysid"] for r in own), sum(r["ours"] > 1.1 * r["sysid"] for r in own)
+        lines.append(f"| {', '.join(effects)} | {len(own)} | {lower} | {worse} |")
+    return "\n".join(lines)
 
 
 def main() -> None:
@@ -186,10 +186,11 @@ def main() -> None:
             with file.open("a") as stream:
                 stream.write(json.dumps(row) + "\n")
             print(json.dumps(row), flush=True)
-    table = format_rows([json.loads(line) for line in file.read_text().splitlines()])
-    print(table)
+    rows = [json.loads(line) for line in file.read_text().splitlines()]
+    tables = {MARK: format_rows(rows), f"{MARK} shares": format_shares(rows)}
+    print("\n\n".join(tables.values()))
     if options.write:
-        write_into_pages({MARK: table})
+        write_into_pages(tables)
 
 
 if __name__ == "__main__":

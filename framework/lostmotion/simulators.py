@@ -13,12 +13,29 @@ INVERSE = "inverse"
 
 
 class FoundMechanism(NamedTuple):
-    """A mechanism that a machine lacks: its name, its place, its parameters (SI), and what it is in a sentence."""
+    """A mechanism that a machine lacks: its name, its place, its parameters (SI), and what it is in a sentence.
+
+    `law` is the text of a function of Python, `name(t, x, v, u, p, s)` with the parameters p and after them what it
+    `needs` of the machine (`Term.needs`); empty where the mechanism is no law of one joint.
+    """
 
     mechanism: str
     at: str
     values: Mapping[str, float]
     says: str
+    law: str = ""
+    needs: tuple[str, ...] = ()
+
+
+class FoundFiles(NamedTuple):
+    """The file of a simulator with what was found, notes on it, and a Python file with what it cannot express.
+
+    The function `apply` of this file adds the forces in each step; without any the text is empty.
+    """
+
+    model: str
+    notes: tuple[str, ...]
+    callback: str = ""
 
 
 class Simulator(ABC):
@@ -111,9 +128,7 @@ class Simulator(ABC):
         """
         return None
 
-    def write_found(
-        self, found: Sequence[FoundMechanism], known: Mapping[str, float]
-    ) -> tuple[str, tuple[str, ...]] | None:
+    def write_found(self, found: Sequence[FoundMechanism], known: Mapping[str, float]) -> FoundFiles | None:
         """Return the file of the simulator with what was found in it, and what it cannot express; None without a file.
 
         `known` are values that a case states in place of those in the file.

@@ -1,5 +1,6 @@
 """Every rule of the kit for simulators, and findings written back into MJCF."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -7,6 +8,7 @@ import pytest
 from lostmotion_template.simulators import TwoLink
 
 from lostmotion import testing
+from lostmotion.robots.law_text import write_law
 from lostmotion.simulators import FoundMechanism
 
 mujoco = pytest.importorskip("mujoco", reason="MJCF and URDF need the extra mujoco")
@@ -95,7 +97,7 @@ def test_soft_friction_is_told_with_its_solref():
 
 
 def test_findings_are_written_into_the_file():
-    text, notes = MujocoSimulator().write_found(FOUND, {})
+    text, notes, _ = MujocoSimulator().write_found(FOUND, {})
     model = mujoco.MjModel.from_xml_string(text)
     assert np.allclose(model.dof_frictionloss, [0.0, 0.3])
     assert np.allclose(model.dof_damping, [0.7, 0.3])
@@ -120,3 +122,37 @@ def test_a_floating_base_is_refused_in_words(tmp_path):
     floating = MujocoSimulator(file=str(file))
     with pytest.raises(CaseError, match="its base floats"):
         floating.inverse(*np.zeros((3, 4, len(floating.joints))))
+
+
+def test_a_law_that_mjcf_lacks_is_a_callback_that_acts_as_its_force(tmp_path, registry):
+    """A constant force found at the elbow is one more torque there; the written file needs nothing of ours."""
+    term = registry.make("term", "offset_force")
+    push = FoundMechanism("offset_force", "elbow", {"force": 0.7}, "A constant force.", write_law(term))
+    files = MujocoSimulator().write_found((push,), {})
+    assert "lostmotion_" not in files.callback
+    assert any("in arm_found.py" in note for note in files.notes)
+    q, v, torque = np.array([[-1.2, 0.3]]), np.zeros((1, 2)), np.zeros((1, 50, 2))
+    plain, pushed = MujocoSimulator().with_found((), {}), MujocoSimulator().with_found((push,), {})
+    moved, _ = pushed.roll(q, v, torque, 0.002, step=5e-4)
+    told, _ = plain.roll(q, v, torque + np.array([0.0, 0.7]), 0.002, step=5e-4)
+    free, _ = plain.roll(q, v, torque, 0.002, step=5e-4)
+    assert np.abs(moved - told).max() < 1e-9 < 1e-3 < np.abs(moved - free).max()
+
+
+def test_the_text_of_a_law_is_its_force(registry):
+    """Each law that can be written gives the forces of its term; friction that sticks does with what it needs."""
+    rng, written = np.random.default_rng(0), []
+    for name in registry.names("term"):
+        term = registry.make("term", name)
+        text = write_law(term)
+        if not text:
+            continue
+        made = {"math": math}
+        exec("from __future__ import annotations\n" + text, made)  # noqa: S102 - the text that is tested
+        for _ in range(20):
+            p = tuple(rng.uniform(0.1, 1.0, len(term.params) + len(term.needs)))
+            x, v = rng.standard_normal(2)
+            given = (0.3, x, v, np.zeros(1), p, np.ones(3))
+            assert made[name](*given) == pytest.approx(term.force(*given))
+        written.append(name)
+    assert {"cogging", "offset_force", "quadratic_damping", "cubic_stiffness"} <= set(written)

@@ -24,7 +24,7 @@ from lostmotion.results.diagnosis import Diagnosis
 from lostmotion.results.robots import RobotDiagnosis, is_robot_result
 from lostmotion.robots import is_robot_case
 from lostmotion.robots.arm_case import load_robot_case
-from lostmotion.robots.arm_run import FOUND_MODEL, make_robot_origin, run_robot
+from lostmotion.robots.arm_run import FOUND_CALLBACK, FOUND_MODEL, make_robot_origin, run_robot
 from lostmotion.settings import DEFAULT, Settings
 from lostmotion.storage import folder_for, load_json, load_result, writing
 
@@ -152,7 +152,7 @@ def _join_name(parts: Sequence[str], depth: int) -> str:
 def _remove_results(place: Path) -> None:
     """Remove the files of a diagnosis, and its folder if it is empty then."""
     with writing(place):
-        for name in (*FILES, FOUND_MODEL):
+        for name in (*FILES, FOUND_MODEL, FOUND_CALLBACK):
             (place / name).unlink(missing_ok=True)
     with suppress(OSError):
         place.rmdir()

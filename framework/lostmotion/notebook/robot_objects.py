@@ -21,8 +21,9 @@ from lostmotion.results.robots import Check, RobotDiagnosis
 from lostmotion.robots.arm_case import RobotCase
 from lostmotion.robots.arm_model import RobotModel
 from lostmotion.robots.arm_page import RobotEvidence, draw_missing, draw_prediction, render
-from lostmotion.robots.arm_run import FOUND_MODEL, save_robot
+from lostmotion.robots.arm_run import FOUND_CALLBACK, FOUND_MODEL, save_robot
 from lostmotion.robots.log import RobotLog, measure_clock, resample
+from lostmotion.simulators import FoundFiles
 from lostmotion.storage import folder_for, load_arrays, load_result, save_text
 
 if TYPE_CHECKING:
@@ -104,19 +105,29 @@ def _refuse(what: str, instead: str) -> NoReturn:
 
 @dataclass(frozen=True, eq=False)
 class FoundRobot:
-    """The user's model with what was found in it; `text` is its file, None for a function of inverse dynamics."""
+    """The user's model with what was found in it; `files` is None for a function of inverse dynamics."""
 
     label: str
-    text: str | None = field(repr=False)
+    files: FoundFiles | None = field(repr=False)
+
+    @property
+    def text(self) -> str | None:
+        """The text of its file."""
+        return None if self.files is None else self.files.model
 
     def write_mjcf(self, path: str | Path) -> Path:
-        """Write the model with what was found as an MJCF file, and return its path."""
-        if self.text is None:
+        """Write the model with what was found as an MJCF file, and return its path.
+
+        What MJCF cannot express is written beside it, as a Python file with a callback of the same name.
+        """
+        if self.files is None:
             raise CaseError(
                 f"{self.label} has no MJCF file: only models of mujoco = and urdf = are written; the parameters of what"
                 " was found are in .found"
             )
-        return save_text(Path(path), self.text)
+        if self.files.callback:
+            save_text(Path(path).with_suffix(".py"), self.files.callback.replace("arm_found", Path(path).stem))
+        return save_text(Path(path), self.files.model)
 
     def simulate(self, *_: Any, **__: Any) -> NoReturn:
         """Raise `CaseError`: a robot is simulated by the simulator of its model."""
@@ -160,7 +171,7 @@ class RobotResult(DiagnosisAnswer[RobotDiagnosis]):
     of the model with what was found.
     """
 
-    written: str | None = field(repr=False)
+    written: FoundFiles | None = field(repr=False)
 
     @property
     def checks(self) -> tuple[Check, ...]:
@@ -212,9 +223,14 @@ class RobotResult(DiagnosisAnswer[RobotDiagnosis]):
 def load_robot(folder: Path) -> RobotResult:
     """Return the diagnosis of a robot stored in a folder; raise `DataError` where it is absent or damaged."""
     result = load_result(RobotDiagnosis, folder / "diagnosis.json", RERUN_HINT)
-    written = folder / FOUND_MODEL
+    texts = [_read_text(folder / name) for name in (FOUND_MODEL, FOUND_CALLBACK)]
+    files = None if texts[0] is None else FoundFiles(texts[0], (), texts[1] or "")
+    return RobotResult(result, load_arrays(folder / "arrays.nc", RERUN_HINT), files)
+
+
+def _read_text(file: Path) -> str | None:
+    """Return the text of a file; None where it is absent."""
     try:
-        text = written.read_text(encoding="utf-8") if written.is_file() else None
+        return file.read_text(encoding="utf-8") if file.is_file() else None
     except (OSError, ValueError) as err:
-        raise DataError(f"{written} cannot be read ({err}): {RERUN_HINT}") from err
-    return RobotResult(result, load_arrays(folder / "arrays.nc", RERUN_HINT), text)
+        raise DataError(f"{file} cannot be read ({err}): {RERUN_HINT}") from err

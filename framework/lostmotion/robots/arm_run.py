@@ -13,7 +13,6 @@ from lostmotion.codec import to_plain
 from lostmotion.contracts import Term
 from lostmotion.defaults import SLIDING
 from lostmotion.errors import CaseError
-from lostmotion.evidence.hypothesis import UNKNOWN
 from lostmotion.kernels.threads import hold_linear_algebra
 from lostmotion.parts import Array
 from lostmotion.provenance import origin_of
@@ -46,8 +45,8 @@ from lostmotion.robots.gears import GEARS
 from lostmotion.robots.log_checks import average, check_log, predict_torque
 from lostmotion.robots.step_costs import TOLD, describe_steps, measure_steps
 from lostmotion.robots.tape import Path as RobotPath
-from lostmotion.robots.write_back import measure_written
-from lostmotion.simulators import INVERSE, FoundMechanism
+from lostmotion.robots.write_back import list_changes, measure_written
+from lostmotion.simulators import INVERSE, FoundFiles
 from lostmotion.storage import StoredArray, dataset_of, folder_for, save_datasets, save_json, save_text
 
 if TYPE_CHECKING:
@@ -56,26 +55,28 @@ if TYPE_CHECKING:
 Say = Callable[[str], None]
 USUAL = 0.03
 """A random force above this share of the torque is more than the usual noise of a drive."""
-FOUND_MODEL = "arm_found.xml"
+FOUND_MODEL, FOUND_CALLBACK = "arm_found.xml", "arm_found.py"
 
 
 @dataclass(frozen=True, eq=False)
 class RobotOutput:
     """The output of a diagnosis: the result, the search it comes from, the arrays of the page, and the changed model.
 
-    `written` is the text of the model with what was found; None where the model has no file.
+    `written` is the model with what was found; None where the model has no file.
     """
 
     result: RobotDiagnosis
     search: ArmSearch
     arrays: xr.Dataset
-    written: str | None
+    written: FoundFiles | None
 
 
-def save_robot(folder: Path, result: RobotDiagnosis, arrays: xr.Dataset, written: str | None) -> None:
+def save_robot(folder: Path, result: RobotDiagnosis, arrays: xr.Dataset, written: FoundFiles | None) -> None:
     """Write `diagnosis.json`, `arrays.nc`, `report.html` and, where there is one, the changed model into a folder."""
     if written is not None:
-        save_text(folder / FOUND_MODEL, written)
+        save_text(folder / FOUND_MODEL, written.model)
+    if written is not None and written.callback:
+        save_text(folder / FOUND_CALLBACK, written.callback)
     save_datasets(folder / "arrays.nc", {None: arrays})
     save_json(folder / "diagnosis.json", to_plain(result))
     write_robot_report(folder)
@@ -157,7 +158,7 @@ def _make_output(
     rows = list_joints(search, (nominal, before), (best, after), found, motions)
     worst = max(rows, key=lambda row: row.random_after / row.torque)
     left = worst.random_after
-    changes = _list_changes(found)
+    changes = list_changes(found, search)
     stepped = measure_written(nominal, best, simulator, changes, case.known)
     steps = measure_steps(nominal, simulator)
     written = simulator.write_found(changes, case.known)
@@ -190,9 +191,7 @@ def _make_output(
         provenance=make_robot_origin(case, registry, search.budget.seconds),
     )
     arrays, coords = _list_arrays(case, path, missing, (before, after))
-    return RobotOutput(
-        result, search, dataset_of(arrays, coords, {"title": case.title}), None if written is None else written[0]
-    )
+    return RobotOutput(result, search, dataset_of(arrays, coords, {"title": case.title}), written)
 
 
 def _make_library(registry: Registry) -> list[Term]:
@@ -329,10 +328,10 @@ def _list_gearless(model: RobotModel, plain: TapedArm) -> list[str]:
     ]
 
 
-def _list_unwritten(written: tuple[str, tuple[str, ...]] | None, found: Sequence[Mechanism]) -> list[str]:
+def _list_unwritten(written: FoundFiles | None, found: Sequence[Mechanism]) -> list[str]:
     """Return what the changed model does not express, or expresses by a change beyond what was found."""
     said = {m.says for m in found}
-    return [] if written is None else [f"{FOUND_MODEL}: {note}" for note in written[1] if note not in said]
+    return [] if written is None else [f"{FOUND_MODEL}: {note}" for note in written.notes if note not in said]
 
 
 def make_robot_origin(case: RobotCase, registry: Registry, budget: float | None) -> Origin:
@@ -372,12 +371,3 @@ def _list_arrays(
         "time": StoredArray(("time",), log.dt * np.arange(first, log.samples), "s", "time"),
     }
     return arrays, coords
-
-
-def _list_changes(found: Sequence[Mechanism]) -> tuple[FoundMechanism, ...]:
-    """Return the named mechanisms for a simulator, which writes them into its own file."""
-    return tuple(
-        FoundMechanism(m.mechanism, m.at, {name: x.median for name, x in m.parameters.items()}, m.says)
-        for m in found
-        if m.mechanism != UNKNOWN
-    )

@@ -6,9 +6,15 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from lostmotion.contracts import DriveTerm
+from lostmotion.evidence.hypothesis import UNKNOWN
+from lostmotion.results.diagnosis import Mechanism
 from lostmotion.results.robots import WrittenModel
+from lostmotion.robots.arm_effects import LawEffect
 from lostmotion.robots.arm_hypothesis import ArmHypothesis
+from lostmotion.robots.arm_search import ArmSearch
 from lostmotion.robots.free_runs import HORIZON, predict_heldout
+from lostmotion.robots.law_text import write_law
 from lostmotion.simulators import FoundMechanism, Simulator
 
 DRIVE = ".torque"
@@ -65,3 +71,19 @@ def _place_states(best: ArmHypothesis, states: np.ndarray) -> tuple[np.ndarray, 
             motors[:, j] = states[:, 2 * n + 2 * place + order]
         found.append(np.concatenate([motors, (links - motors)[:, gears]], axis=1))
     return found[0], found[1]
+
+
+def list_changes(found: Sequence[Mechanism], search: ArmSearch) -> tuple[FoundMechanism, ...]:
+    """Return the named mechanisms for a simulator, which writes them into its own file."""
+    terms = {e.key: e.term for e in search.screen.effects if isinstance(e, LawEffect)}
+    made = []
+    for m in found:
+        if m.mechanism == UNKNOWN:
+            continue
+        values, term = {name: x.median for name, x in m.parameters.items()}, terms.get(f"{m.mechanism}@{m.at}")
+        if term is None or isinstance(term, DriveTerm):
+            made.append(FoundMechanism(m.mechanism, m.at, values, m.says))
+            continue
+        ordered = {q.name: values[q.name] for q in term.params}
+        made.append(FoundMechanism(m.mechanism, m.at, ordered, m.says, write_law(term), term.needs))
+    return tuple(made)

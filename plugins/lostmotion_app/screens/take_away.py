@@ -12,7 +12,7 @@ from lostmotion_app.desk import Desk
 from lostmotion_app.parts import make_html, write_heading, write_lines, write_note
 from lostmotion_app.screens import PageScreen
 
-WRITTEN = ("report.html", "arm_found.xml")
+WRITTEN = ("report.html", "arm_found.xml", "arm_found.py")
 """The files of a result that are offered."""
 FORMAT = {"nbformat": 4, "nbformat_minor": 5}
 """The version of the format of notebooks: the oldest with identifiers of cells."""

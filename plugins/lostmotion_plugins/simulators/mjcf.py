@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 from lostmotion.errors import ContractError
-from lostmotion.simulators import FoundMechanism
+from lostmotion.simulators import FoundFiles, FoundMechanism
+from lostmotion_plugins.simulators.callback import write_callback
 
 FINE = 5e-4
 """The longest step (s) at which stiff friction and limits hold."""
@@ -20,10 +21,8 @@ GEAR = "_gear"
 """The end of the name of a joint between motor and link."""
 
 
-def write_findings(
-    mujoco: Any, spec: Any, found: Sequence[FoundMechanism], known: Mapping[str, float]
-) -> tuple[str, tuple[str, ...]]:
-    """Return the changed MJCF, and notes on what was changed and on what MJCF cannot express.
+def write_findings(mujoco: Any, spec: Any, found: Sequence[FoundMechanism], known: Mapping[str, float]) -> FoundFiles:
+    """Return the changed MJCF, notes on what was changed, and a callback with the laws that MJCF cannot express.
 
     `spec` is an `MjSpec` of the file; `known` are values of joints and bodies that a case states in place of its own.
     """
@@ -38,7 +37,8 @@ def write_findings(
         raise ContractError(f"the changed model cannot be compiled by MuJoCo ({' '.join(str(err).split())})") from err
     notes = "\n".join(f"  {MARK}: {note}" for note in writer.notes).replace("--", "- -")
     text = str(spec.to_xml())
-    return text.replace("\n", f"\n<!--\n{notes}\n-->\n", 1) if notes else text, tuple(writer.notes)
+    told = text.replace("\n", f"\n<!--\n{notes}\n-->\n", 1) if notes else text
+    return FoundFiles(told, tuple(writer.notes), write_callback(writer.called))
 
 
 class _Writer:
@@ -47,6 +47,7 @@ class _Writer:
     def __init__(self, mujoco: Any, spec: Any) -> None:
         self.mujoco, self.spec = mujoco, spec
         self.notes: list[str] = []
+        self.called: list[FoundMechanism] = []
 
     def set_value(self, name: str, value: float) -> None:
         """Set a value of a joint or a body, such as `elbow.damping`."""
@@ -62,6 +63,11 @@ class _Writer:
     def apply(self, one: FoundMechanism) -> None:
         """Change the spec by one finding, or note that MJCF cannot express it."""
         change = getattr(self, f"_add_{one.mechanism}", None)
+        if change is None and one.law and self.spec.joint(one.at) is not None:
+            self.called.append(one)
+            self._refine()
+            self.notes.append(f"in arm_found.py, because MJCF has no such law: {one.says}")
+            return
         if change is None:
             self.notes.append(f"not written, because MJCF has no such law: {one.says}")
             return
@@ -71,7 +77,9 @@ class _Writer:
     def _refine(self) -> None:
         if self.spec.option.timestep > FINE:
             self.spec.option.timestep = FINE
-            self.notes.append(f"the step is {1e3 * FINE:g} ms now: with a longer one friction and limits are soft.")
+            self.notes.append(
+                f"the step is {1e3 * FINE:g} ms now: with a longer one friction, limits and callbacks are soft."
+            )
 
     def _add_viscous_damping(self, one: FoundMechanism) -> None:
         joint = self.spec.joint(one.at)

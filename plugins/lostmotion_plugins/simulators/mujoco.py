@@ -13,7 +13,8 @@ import numpy as np
 
 from lostmotion.errors import CaseError, nearest
 from lostmotion.parts import Array
-from lostmotion.simulators import FoundMechanism, Simulator
+from lostmotion.simulators import FoundFiles, FoundMechanism, Simulator
+from lostmotion_plugins.simulators.callback import calling
 from lostmotion_plugins.simulators.inertial import add_amount, add_payload, measure_sizes
 from lostmotion_plugins.simulators.mjcf import GEAR, write_findings
 from lostmotion_plugins.simulators.stepping import Stepper, tell_softness
@@ -251,8 +252,8 @@ class MujocoSimulator(Simulator):
         model.qpos0[places], model.opt.gravity[:] = q, 0.0
         return tell_softness(_import_mujoco(), model, dofs, forces)
 
-    def write_found(self, found: Sequence[FoundMechanism], known: Mapping[str, float]) -> tuple[str, tuple[str, ...]]:
-        """Return the MJCF with what was found, and notes; a URDF becomes an MJCF."""
+    def write_found(self, found: Sequence[FoundMechanism], known: Mapping[str, float]) -> FoundFiles:
+        """Return the MJCF with what was found, notes, and a callback; a URDF becomes an MJCF."""
         mujoco = _import_mujoco()
         spec = mujoco.MjSpec.from_file(self.file) if self.file else mujoco.MjSpec.from_string(EXAMPLE)
         return write_findings(mujoco, spec, found, known)
@@ -260,12 +261,12 @@ class MujocoSimulator(Simulator):
     def with_found(self, found: Sequence[FoundMechanism], known: Mapping[str, float]) -> FoundSimulator:
         """Return the changed machine; a gear is one more joint, `elbow_gear`."""
         mujoco = _import_mujoco()
-        text, _ = self.write_found(found, known)
-        spec = mujoco.MjSpec.from_string(text)
+        files = self.write_found(found, known)
+        spec = mujoco.MjSpec.from_string(files.model)
         if self.file:
             spec.modelfiledir = str(Path(self.file).parent)
         gears = tuple(f"{joint}{GEAR}" for joint in self.joints if f"{joint}.gear" in {one.at for one in found})
-        return FoundSimulator(self.file, (*self.joints, *gears), model=spec.compile())
+        return FoundSimulator(self.file, (*self.joints, *gears), model=spec.compile(), callback=files.callback)
 
     def changed(self, values: Mapping[str, float]) -> MujocoSimulator:
         """Return the machine with other masses (kg) of bodies, `fore.mass`, more of `inertial`, or a payload (kg)."""
@@ -278,16 +279,18 @@ class MujocoSimulator(Simulator):
 
 @dataclass(frozen=True)
 class FoundSimulator(MujocoSimulator):
-    """A machine with what was found in it, which is stepped with its own dry friction and limits."""
+    """A machine with what was found in it, which is stepped with its own dry friction, limits and `callback`."""
 
     model: Any = None
+    callback: str = ""
 
     @cached_property
     def _source(self) -> Any:
         return self.model
 
     def roll(self, q: Array, v: Array, torque: Array, dt: float, *, step: float | None = None) -> tuple[Array, Array]:
-        return self._roll(self._copy_stepped(), (q, v), torque, dt, step)
+        with calling(_import_mujoco(), self.callback):
+            return self._roll(self._copy_stepped(), (q, v), torque, dt, step)
 
 
 @dataclass(frozen=True)
