@@ -256,6 +256,8 @@ def condense_arms(run: Path, options: Mapping) -> tuple[dict, list[dict]]:
     proof, seconds = json.loads((run / "proof.json").read_text()), read_seconds(options.get("seconds"))
     origin = proof["provenance"]
     words = format_plan(origin, ("clean", "only"), {"samples": "samples", "joints": "joints", "wrong": "wrong"})
+    if origin["settings"].get("effects", 1) > 1:
+        words += f" --effects {origin['settings']['effects']}"
     head = {"set": "arms", "machines": f"{words} --seed {origin['seed']}", "of": len(proof["arms"])}
     head["commands"] = [f"lostmotion prove --cases {len(proof['arms'])} {words} --seed {origin['seed']} --out OUT"]
     rows = [
