@@ -35,6 +35,8 @@ NUDGE = 1e-3
 GAINS = (0.4, 2.5)
 """The gains of a torque that are tried. Others are a wrong unit, which is refused before any fit; with a gain near zero
 nothing would drive a joint, and the friction that its torque overcomes would seem to be missing in both."""
+CALIBRATED = (0.8, 1.25)
+"""Those of a torque sensor behind the gear, which is calibrated, where that of a motor follows from its current."""
 GAIN_ERROR = "error"
 """The parameter of a gain: its relative error."""
 FURTHER = 0.5
@@ -177,7 +179,8 @@ class LawEffect:
         low = max(q.low, 0.0) if causal else q.low  # a torque from the future holds the noise of a later reading
         key = f"{self.key}.{q.name}"
         if isinstance(self.term, DriveTerm) and q.name == GAIN_ERROR:
-            bounds = (GAINS[0] - 1.0, GAINS[1] - 1.0)
+            gains = CALIBRATED if self.arm.side == "link" else GAINS
+            bounds = (gains[0] - 1.0, gains[1] - 1.0)
             return ArmCoordinate(key, unit, 0.0, 1.0, False, *bounds, q.null is not None, q.dimension)
         if q.null is None and q.scale == "log":
             return ArmCoordinate(key, 1.0, math.log(unit), UNSURE, True, low, q.high, dimension=q.dimension)

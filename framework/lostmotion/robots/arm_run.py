@@ -43,6 +43,7 @@ from lostmotion.robots.arm_words import (
 from lostmotion.robots.free_runs import HORIZON, HeldOutRuns, predict_heldout
 from lostmotion.robots.gears import GEARS
 from lostmotion.robots.log_checks import average, check_log, predict_torque
+from lostmotion.robots.refutation import leave_out_refuted
 from lostmotion.robots.step_costs import TOLD, describe_steps, measure_steps
 from lostmotion.robots.tape import Path as RobotPath
 from lostmotion.robots.write_back import list_changes, measure_written
@@ -141,6 +142,9 @@ def diagnose_robot(
         raise CaseError(
             "the model diverges from the log at any level of noise: check units, signs and the order of the joints"
         )
+    say("free runs over held-out data")
+    refuted = leave_out_refuted(search)
+    say(f"{refuted} sets refuted" if refuted else "no set refuted")
     return _make_output(case, plain, search, checks, registry)
 
 

@@ -1,0 +1,26 @@
+"""A set that explains one-step errors and predicts the motion worse is not told."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from lostmotion.robots.arm_search import find_probabilities
+from lostmotion.robots.arm_words import find_told
+from lostmotion.robots.refutation import leave_out_refuted
+from lostmotion_trials.integrators.arm import Arm
+
+FRICTION = "coulomb_friction@elbow"
+
+
+def test_a_set_whose_free_runs_are_worse_is_left_out(search_of, helpers):
+    """The friction that is there stays; with four times its size, the same set at the same score is refuted."""
+    search = search_of(helpers.record(Arm(friction=np.array([0.0, 0.5])), samples=1500), ("coulomb_friction",), most=1)
+    assert leave_out_refuted(search) == 0
+    told = find_told(search)
+    assert told.terms == {FRICTION}
+    place = [c.key for c in told.frame.own].index(f"{FRICTION}.force")
+    wrong = told.at.copy()
+    wrong[place] *= 4.0
+    search.found[told.terms] = replace(told, at=wrong)
+    assert leave_out_refuted(search) >= 1  # an unknown force over time may be refuted as well
+    assert FRICTION not in find_probabilities(search)
