@@ -130,8 +130,9 @@ def test_a_sensor_behind_the_gear_does_not_saturate_and_has_no_gain_near_zero(wr
         tried[side] = {effect.key: effect for effect in search.screen.effects}
     assert "drive_saturation@left.torque" in tried["motor"]
     assert {"drive_saturation", "drive_dead_zone"}.isdisjoint(key.partition("@")[0] for key in tried["link"])
-    (gain,) = tried["link"]["excitation_gain@left.torque"].coordinates
-    assert (gain.low, gain.high) == (-0.6, 1.5)
+    for side, bounds in (("motor", (-0.6, 1.5)), ("link", (-0.2, 0.25))):
+        (gain,) = tried[side]["excitation_gain@left.torque"].coordinates
+        assert (gain.low, gain.high) == pytest.approx(bounds)
 
 
 def test_set_points_without_gains_are_refused_with_the_remedy(write, registry):

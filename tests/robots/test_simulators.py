@@ -124,10 +124,10 @@ def test_a_floating_base_is_refused_in_words(tmp_path):
         floating.inverse(*np.zeros((3, 4, len(floating.joints))))
 
 
-def test_a_law_that_mjcf_lacks_is_a_callback_that_acts_as_its_force(tmp_path, registry):
+def test_a_law_that_mjcf_lacks_is_a_callback_that_acts_as_its_force(registry):
     """A constant force found at the elbow is one more torque there; the written file needs nothing of ours."""
     term = registry.make("term", "offset_force")
-    push = FoundMechanism("offset_force", "elbow", {"force": 0.7}, "A constant force.", write_law(term))
+    push = FoundMechanism("offset_force", "elbow", {"force": 0.7}, "A constant\nforce.", write_law(term))
     files = MujocoSimulator().write_found((push,), {})
     assert "lostmotion_" not in files.callback
     assert any("in arm_found.py" in note for note in files.notes)

@@ -55,7 +55,8 @@ def write_callback(found: Sequence[FoundMechanism]) -> str:
 
 def _write_row(one: FoundMechanism) -> str:
     values = ", ".join(repr(float(x)) for x in one.values.values())
-    return f"    # {one.says}\n    ({one.at!r}, {one.mechanism}, ({values},), {one.needs!r}),\n"
+    says = " ".join(one.says.split())  # a name in a file may have a line break, which would end the comment
+    return f"    # {says}\n    ({one.at!r}, {one.mechanism}, ({values},), {one.needs!r}),\n"
 
 
 @contextmanager
@@ -65,7 +66,7 @@ def calling(mujoco: Any, text: str) -> Iterator[None]:
         yield
         return
     made: dict[str, Any] = {}
-    exec(compile(text, "arm_found.py", "exec"), made)  # noqa: S102 - our own text, run as the user would run it
+    exec(compile(text, "arm_found.py", "exec"), made)  # noqa: S102 - our own text, of laws of loaded plugins
     mujoco.set_mjcb_passive(made["apply"])
     try:
         yield
