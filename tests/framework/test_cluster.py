@@ -93,6 +93,23 @@ def test_a_trial_that_kills_each_of_its_workers_ends_the_campaign(workers, tmp_p
         Campaign(deadly, Fate, 3, {}).run(tmp_path, 1, cluster=workers)
 
 
+def test_a_result_that_no_worker_is_left_to_compute_is_not_waited_for():
+    """A worker that was killed is not always started again: the campaign waited for ever."""
+
+    class Lost:
+        status = "pending"
+
+        def result(self, timeout):
+            raise TimeoutError
+
+    class Empty:
+        def scheduler_info(self):
+            return {"workers": {}}
+
+    with pytest.raises(DataError, match=r"cannot do this work \(none is left\)"):
+        cluster_module._get_result(Empty(), Lost())
+
+
 def test_a_cluster_that_ends_in_the_middle_is_told(tmp_path):
     with distributed.LocalCluster(
         n_workers=1, threads_per_worker=1, processes=False, dashboard_address=":0", silence_logs=50

@@ -17,6 +17,8 @@ AHEAD = 1000
 """The number of pieces that the scheduler holds at a time: enough for the workers, little memory for a million."""
 RETRIES = 3
 """How often a piece that raised an exception is repeated; that of a lost worker is, by the configuration of dask."""
+PATIENCE = 30.0
+"""The time (s) after which it is asked whether any worker is left."""
 
 
 def compute_on_cluster(
@@ -50,7 +52,7 @@ def compute_on_cluster(
 
         submit(AHEAD)
         for future in finished:
-            yield numbers.pop(future.key), _get_result(future)
+            yield numbers.pop(future.key), _get_result(client, future)
             future.release()
             submit(1)
 
@@ -61,12 +63,12 @@ def _compute_remotely(texts: Mapping[str, str], packed: bytes, piece: Any) -> An
     return pickle.loads(packed)(piece)  # noqa: S301 - bytes from the client of this cluster
 
 
-def _get_result(future: Any) -> Any:
+def _get_result(client: Any, future: Any) -> Any:
     """Return the result of a worker, or raise `DataError` when the workers cannot do the work at all."""
     from distributed import KilledWorker
 
     try:
-        return future.result()
+        return _wait_for_result(client, future)
     except (ImportError, KilledWorker) as err:
         raise DataError(
             f"the workers of the cluster cannot do this work ({' '.join(str(err).split())[:200]}): "
@@ -74,3 +76,18 @@ def _get_result(future: Any) -> Any:
         ) from err
     except CancelledError as err:
         raise DataError("the cluster was lost: start it and run the same command again, which continues") from err
+
+
+def _wait_for_result(client: Any, future: Any) -> Any:
+    """Return the result of a worker, which may have to be computed again; raise `DataError` if no worker is left."""
+    while True:
+        try:
+            return future.result(timeout=PATIENCE)
+        except TimeoutError as err:
+            if future.status == "error":
+                raise
+            if not client.scheduler_info()["workers"]:
+                raise DataError(
+                    "the workers of the cluster cannot do this work (none is left): start new ones and run the same"
+                    " command again, which continues"
+                ) from err
