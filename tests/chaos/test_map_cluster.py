@@ -47,11 +47,11 @@ def test_a_worker_killed_midway_changes_nothing(tmp_path):
 
 def test_workers_that_lack_a_plugin_are_told():
     class Lost:
-        def result(self):
+        def result(self, timeout):
             raise ModuleNotFoundError("No module named 'my_terms'")
 
     with pytest.raises(DataError, match=r"No module named 'my_terms'.*install lostmotion and its plugins"):
-        _get_result(Lost())
+        _get_result(None, Lost())
 
 
 def files(path):
