@@ -15,12 +15,12 @@ FRICTION = "coulomb_friction@elbow"
 def test_a_set_whose_free_runs_are_worse_is_left_out(search_of, helpers):
     """The friction that is there stays; with four times its size, the same set at the same score is refuted."""
     search = search_of(helpers.record(Arm(friction=np.array([0.0, 0.5])), samples=1500), ("coulomb_friction",), most=1)
-    assert leave_out_refuted(search) == 0
+    assert leave_out_refuted(search).refuted == 0
     told = find_told(search)
     assert told.terms == {FRICTION}
     place = [c.key for c in told.frame.own].index(f"{FRICTION}.force")
     wrong = told.at.copy()
     wrong[place] *= 4.0
     search.found[told.terms] = replace(told, at=wrong)
-    assert leave_out_refuted(search) >= 1  # an unknown force over time may be refuted as well
+    assert leave_out_refuted(search).refuted >= 1  # an unknown force over time may be refuted as well
     assert FRICTION not in find_probabilities(search)

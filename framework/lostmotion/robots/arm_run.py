@@ -40,10 +40,10 @@ from lostmotion.robots.arm_words import (
     make_interval,
     rank_sets,
 )
-from lostmotion.robots.free_runs import HORIZON, HeldOutRuns, predict_heldout
+from lostmotion.robots.free_runs import HORIZON, HeldOutRuns
 from lostmotion.robots.gears import GEARS
 from lostmotion.robots.log_checks import average, check_log, predict_torque
-from lostmotion.robots.refutation import leave_out_refuted
+from lostmotion.robots.refutation import ToldRuns, leave_out_refuted
 from lostmotion.robots.step_costs import TOLD, describe_steps, measure_steps
 from lostmotion.robots.tape import Path as RobotPath
 from lostmotion.robots.write_back import list_changes, measure_written
@@ -143,18 +143,18 @@ def diagnose_robot(
             "the model diverges from the log at any level of noise: check units, signs and the order of the joints"
         )
     say("free runs over held-out data")
-    refuted = leave_out_refuted(search)
-    say(f"{refuted} sets refuted" if refuted else "no set refuted")
-    return _make_output(case, plain, search, checks, registry)
+    runs = leave_out_refuted(search)
+    say(f"{runs.refuted} sets refuted" if runs.refuted else "no set refuted")
+    return _make_output(case, plain, search, checks, registry, runs)
 
 
 def _make_output(
-    case: RobotCase, plain: TapedArm, search: ArmSearch, checks: Sequence[Check], registry: Registry
+    case: RobotCase, plain: TapedArm, search: ArmSearch, checks: Sequence[Check], registry: Registry, runs: ToldRuns
 ) -> RobotOutput:
     simulator = case.model.simulator
     motions = dict(zip(simulator.joints, simulator.moves, strict=True))
     nominal, best = search.found[frozenset()], find_told(search)
-    before, after = predict_heldout(nominal), predict_heldout(best)
+    before, after = runs.before, runs.after
     found = list_findings(search, best, motions)
     nothing = find_probabilities(search).get(NOTHING, 0.0)
     missing = average(plain.torque - predict_torque(plain), case.log.dt)

@@ -127,16 +127,15 @@ class ArmSearch:
 
     def _list_proposals(self, target: ArmHypothesis) -> tuple[list[ProposedFit], list[ProposedFit]]:
         """Return what is proposed beside a set: groups of effects, and single effects, the best first."""
-        present, small = target.frame.terms, self._make_small(target)
-        every = self._list_promises(target)
-        groups = list_groups(every, present, self.most - len(target.terms))
-        usual = leave_richer(every, present)[:MOST_FITTED]
+        small, every = self._make_small(target), self._list_promises(target)
+        groups = list_groups(every, self.most - len(target.terms))
+        usual = leave_richer(every)[:MOST_FITTED]
         known = {p.effect.key for p in usual if p.gain > 0.0}
         if target.choice[-1]:
-            held = leave_richer(self._list_promises(self._hold_values(target)), present)
+            held = leave_richer(self._list_promises(self._hold_values(target)))
             usual += [p for p in held[:MOST_SMALL] if p.effect.key not in known]
             known |= {p.effect.key for p in usual}
-        more = leave_richer(self._list_promises(small), present)[:MOST_SMALL] if small is not None else []
+        more = leave_richer(self._list_promises(small))[:MOST_SMALL] if small is not None else []
         gears = list_gear_promises(self.screen, target, SMALL, self.price, self.temper)[:MOST_GEARS]
         singles = [ProposedFit((p,), (0.0,)) for p in usual if p.gain > 0.0]
         singles += [ProposedFit((p,), (math.log(SMALL),)) for p in more if p.gain > 0.0 and p.effect.key not in known]

@@ -53,26 +53,25 @@ MOST_GROUPS = 2
 """The number of laws that are proposed at several joints at once."""
 
 
-def list_groups(promises: Sequence[ArmPromise], present: frozenset[str], most: int) -> list[Group]:
+def list_groups(promises: Sequence[ArmPromise], most: int) -> list[Group]:
     """Return proposals of two to `most` effects at once: a law at several joints, and the best law of each joint.
 
     Forces at different joints hardly share an explanation, so that their promises add up. A law in all joints is
-    proposed in the form that promises most, beside effects that are `present`: one after the other, a search does not
-    reach the richer form of many.
+    proposed in the form that promises most: one after the other, a search does not reach the richer form of many.
     """
     by_law: dict[str, list[ArmPromise]] = {}
     by_joint: dict[int, ArmPromise] = {}
-    for promise in _list_laws(promises):
-        by_law.setdefault(promise.effect.term.name, []).append(promise)  # type: ignore[attr-defined]
-    for promise in _list_laws(leave_richer(promises, present)):
-        by_joint.setdefault(promise.effect.joint, promise)  # type: ignore[attr-defined]
+    for law, promise in _list_laws(promises):  # the best first
+        by_law.setdefault(law.term.name, []).append(promise)
+    for law, promise in _list_laws(leave_richer(promises)):
+        by_joint.setdefault(law.joint, promise)
     ranked = sorted(by_law.values(), key=lambda group: -sum(p.gain for p in group))[:MOST_GROUPS]
     found = [tuple(group[:most]) for group in (*ranked, list(by_joint.values()))]
     return list({frozenset(p.effect.key for p in group): group for group in found if len(group) > 1}.values())
 
 
-def _list_laws(promises: Sequence[ArmPromise]) -> list[ArmPromise]:
-    return [p for p in promises if p.gain > 0.0 and isinstance(p.effect, LawEffect)]
+def _list_laws(promises: Sequence[ArmPromise]) -> list[tuple[LawEffect, ArmPromise]]:
+    return [(p.effect, p) for p in promises if p.gain > 0.0 and isinstance(p.effect, LawEffect)]
 
 
 def list_effects(
@@ -173,9 +172,9 @@ def _overlaps(effect: ArmEffect, present: ArmEffect) -> bool:
     return present.key not in effect.extends and not own.isdisjoint(other)
 
 
-def leave_richer(promises: Sequence[ArmPromise], present: frozenset[str]) -> list[ArmPromise]:
+def leave_richer(promises: Sequence[ArmPromise]) -> list[ArmPromise]:
     """Return the promises without laws of which a simpler form is proposed: they follow once that is in the set."""
-    proposed = {p.effect.key for p in promises if p.gain > 0.0} - present
+    proposed = {p.effect.key for p in promises if p.gain > 0.0}
     return [p for p in promises if proposed.isdisjoint(p.effect.extends)]
 
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from lostmotion.contracts import DriveTerm
+from lostmotion.contracts import DriveTerm, Term
 from lostmotion.evidence.hypothesis import UNKNOWN
 from lostmotion.results.diagnosis import Mechanism
 from lostmotion.results.robots import WrittenModel
@@ -75,15 +75,15 @@ def _place_states(best: ArmHypothesis, states: np.ndarray) -> tuple[np.ndarray, 
 
 def list_changes(found: Sequence[Mechanism], search: ArmSearch) -> tuple[FoundMechanism, ...]:
     """Return the named mechanisms for a simulator, which writes them into its own file."""
-    terms = {e.key: e.term for e in search.screen.effects if isinstance(e, LawEffect)}
-    made = []
-    for m in found:
-        if m.mechanism == UNKNOWN:
-            continue
-        values, term = {name: x.median for name, x in m.parameters.items()}, terms.get(f"{m.mechanism}@{m.at}")
-        if term is None or isinstance(term, DriveTerm):
-            made.append(FoundMechanism(m.mechanism, m.at, values, m.says))
-            continue
-        ordered = {q.name: values[q.name] for q in term.params}
-        made.append(FoundMechanism(m.mechanism, m.at, ordered, m.says, write_law(term), term.needs))
-    return tuple(made)
+    laws = (e for e in search.screen.effects if isinstance(e, LawEffect) and not isinstance(e.term, DriveTerm))
+    terms = {law.key: law.term for law in laws}
+    return tuple(_make_change(m, terms.get(f"{m.mechanism}@{m.at}")) for m in found if m.mechanism != UNKNOWN)
+
+
+def _make_change(m: Mechanism, law: Term | None) -> FoundMechanism:
+    """Return a mechanism for a simulator; the parameters of a law are in its own order."""
+    values = {name: x.median for name, x in m.parameters.items()}
+    if law is None:
+        return FoundMechanism(m.mechanism, m.at, values, m.says)
+    ordered = {q.name: values[q.name] for q in law.params}
+    return FoundMechanism(m.mechanism, m.at, ordered, m.says, write_law(law), law.needs)
