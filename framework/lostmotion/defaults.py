@@ -13,7 +13,7 @@ _CHAOS = "lostmotion_chaos"
 STEPS = ("denoise", "embed", "quantify", "surrogate_test")
 SOURCES: Mapping[str, str] = dict.fromkeys(("analyse", "map", "reproduce", *STEPS, ATTRACTORS, QUANTIFIERS), _CHAOS)
 """The package of commands and functions that are documented as parts of lostmotion, for messages where it is absent."""
-PLAY, INERTIA_CHANGE = "backlash", "inertia_change"
+PLAY, INERTIA_CHANGE, HYSTERETIC = "backlash", "inertia_change", "bouc_wen_hysteresis"
 """The mechanisms of a robot that are terms of other machines as well, under the same names."""
 
 

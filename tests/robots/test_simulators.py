@@ -114,6 +114,24 @@ def test_a_gear_becomes_two_hinges():
     assert model.jnt_stiffness.max() == pytest.approx(2e4)
 
 
+def test_hysteresis_in_a_gear_is_a_spring_with_dry_friction():
+    values = {"stiffness": 3e2, "damping_ratio": 0.05, "force": 0.7, "travel": 2e-3}
+    loop = FoundMechanism("bouc_wen_hysteresis", "elbow.gear", values, "A loop.")
+    files = MujocoSimulator().write_found((loop,), {})
+    model = mujoco.MjModel.from_xml_string(files.model)
+    gear = int(np.argmax(model.jnt_stiffness))
+    assert model.nv == 3
+    assert model.dof_frictionloss[model.jnt_dofadr[gear]] == pytest.approx(0.7)
+    assert any("MJCF has no hysteresis" in note for note in files.notes)
+
+
+def test_friction_through_bristles_is_written_as_its_sliding_level():
+    bristles = FoundMechanism("dahl_friction", "elbow", {"force": 0.3, "deflection": 2e-3}, "Bristles.")
+    files = MujocoSimulator().write_found((bristles,), {})
+    assert np.allclose(mujoco.MjModel.from_xml_string(files.model).dof_frictionloss, [0.0, 0.3])
+    assert any("elastic before it slides" in note for note in files.notes)
+
+
 def test_a_floating_base_is_refused_in_words(tmp_path):
     from lostmotion.errors import CaseError
 

@@ -6,7 +6,8 @@ under the uncertainty of the state are found by Gauss-Hermite quadrature (statis
 that is a line of width `force * mobility` around zero velocity then is the impulse that holds the joint, as in time
 stepping with set-valued friction (Moreau, 1988), averaged over the uncertainty.
 
-States are the positions (n,), the velocities (n,), then position and velocity of each motor behind a gear.
+States are the positions (n,), the velocities (n,), position and velocity of each motor behind a gear, and the inner
+state of each law that has one.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ import math
 
 import numpy as np
 
+from lostmotion.kernels.inner_states import follow_law
 from lostmotion.kernels.joint_laws import average_laws, clip_moments
 from lostmotion.kernels.stored import stored
 from lostmotion.kernels.vector import STRIDE
@@ -27,8 +29,9 @@ RUNAWAY = 1e6
 
 @stored(nogil=True, error_model="numpy")
 def filter_chain(  # type: ignore[no-untyped-def]
-    z, picks, dt, coarse, fine, inverses, Kq, KV, h, q0, v0, tau, S, R, motors, gears, joints, addresses, firsts,
-    widths, needs, numbers, begin, x0, P0, errors, variances, states, accelerations, gains, moves, pushes,
+    z, picks, dt, coarse, fine, inverses, Kq, KV, h, q0, v0, tau, S, R, motors, gears, joints, slots, between,
+    addresses, firsts, widths, needs, numbers, begin, x0, P0, errors, variances, states, accelerations, gains, moves,
+    pushes,
 ):  # fmt: skip
     """Write one-step errors and their variances, (samples, readings); return the number of samples that were filtered.
 
@@ -37,10 +40,11 @@ def filter_chain(  # type: ignore[no-untyped-def]
     for the two lengths hs of a step. `h` already holds - Kv v0. `tau` (samples, n) acts over the sample that follows,
     `S` (n,) is the intensity of the random force (N m)^2 s and `R` (readings,) the variance of readings.
     `motors` (n,) is the position of the motor of a joint in the state, or -1; `gears` (n, 5) holds half of its play,
-    stiffness, damping, one over its inertia, and its viscous damping. Laws have a joint, an address, and numbers; the
-    time of the first sample is `begin` (s). Where `moves` has a row for each sample, `states`, `gains`,
-    `accelerations` (samples, 2n) of links and of what the drives turn, and the transitions `moves` (samples, L, L) and
-    `pushes` (samples, L, 2n) by torques of the drives and on the links are written too.
+    stiffness, damping, one over its inertia, and its viscous damping. Laws have a joint, an address, numbers, and in
+    `slots` the place of their inner state, or -1; those `between` motor and link have one, and depend on the motion of
+    the motor relative to its link. The time of the first sample is `begin` (s). Where `moves` has a row for each
+    sample, `states`, `gains`, `accelerations` (samples, 2n) of links and of what the drives turn, and the transitions
+    `moves` (samples, L, L) and `pushes` (samples, L, 2n) by torques of the drives and on the links are written too.
     """
     N, m = z.shape
     n = Kq.shape[1]
@@ -50,11 +54,17 @@ def filter_chain(  # type: ignore[no-untyped-def]
     A, T, F, E = np.zeros((L, L)), np.zeros((L, L)), np.zeros((L, L)), np.zeros((L, 2 * n))
     Y, y, g, d, f, up = np.zeros((n, L)), np.zeros(n), np.zeros(L), np.zeros(L), np.zeros(L), np.zeros(L)
     own, desk, noise = np.zeros((16, STRIDE)), np.zeros((8, STRIDE)), np.zeros((n, n))
-    places = np.concatenate((np.arange(n), np.arange(2 * n, L, 2)))
-    rates = np.concatenate((np.arange(n, 2 * n), np.arange(2 * n + 1, L, 2)))
+    last = L
     active = np.zeros(n, dtype=np.bool_)
     for a in range(len(joints)):
-        active[joints[a]] = True
+        if slots[a] < 0:
+            active[joints[a]] = True
+        else:
+            last = min(last, slots[a])
+    places = np.concatenate((np.arange(n), np.arange(2 * n, last, 2)))
+    rates = np.concatenate((np.arange(n, 2 * n), np.arange(2 * n + 1, last, 2)))
+    ends, room = np.zeros(5, dtype=np.int64), np.zeros((2, max(L, 2 * n)))
+    table = (addresses, firsts, widths, needs, numbers)
     past, bends, eases = np.zeros(n), np.zeros(n), np.zeros(n)
     shares, turns = np.zeros((n, 2 * n)), np.zeros((n, 2 * n))
     for k in range(N):
@@ -91,7 +101,9 @@ def filter_chain(  # type: ignore[no-untyped-def]
                 accelerations[k, i] = -x[n + i] / dt
                 accelerations[k, n + i] = accelerations[k, i] if motors[i] < 0 else -x[motors[i] + 1] / dt
         steps, W = coarse, inverses[0]
-        if fine > coarse:
+        if last < L:
+            steps, W = fine, inverses[1]
+        elif fine > coarse:
             for i in range(n):
                 c = n + i if motors[i] < 0 else motors[i] + 1
                 if active[i] and (bends[i] > STEEP or abs(x[c]) < 2.0 * abs(x[c] - past[i])):
@@ -191,6 +203,8 @@ def filter_chain(  # type: ignore[no-untyped-def]
                     A[w, w + 1] += 0.5 * hs
                     x[w] += hs * (x[w + 1] + 0.5 * hs * f[w + 1])
                     x[w + 1] += hs * f[w + 1]
+            for b in range(last, L):
+                A[b, b] = 1.0
             for i in range(len(rates)):  # P = A P A', of which only the rows of velocities in A are full
                 u, p = rates[i], places[i]
                 for b in range(L):
@@ -218,6 +232,10 @@ def filter_chain(  # type: ignore[no-untyped-def]
                     p, q = places[i], places[j]
                     P[p, q] = 0.5 * hs * (P[p, rates[j]] + T[p, rates[j]]) + T[p, q]
                     P[q, p] = P[p, q]
+                for b in range(last, L):
+                    for a in (places[i], rates[i]):
+                        P[a, b] = T[a, b]
+                        P[b, a] = T[a, b]
             if keep:
                 T[:] = A @ F
                 F[:] = T
@@ -262,7 +280,7 @@ def filter_chain(  # type: ignore[no-untyped-def]
                 sq, sv = math.sqrt(max(P[b, b], 1e-24)), math.sqrt(max(P[c, c], 1e-24))
                 mean, slant, slope, left = average_laws(
                     begin + (k + (s + 0.5) / steps) * dt, x[b] - 0.5 * hs * x[c], x[c], sq, sv, i, hs * ease, hs,
-                    joints, addresses, firsts, widths, needs, numbers, own, desk)  # fmt: skip
+                    joints, slots, addresses, firsts, widths, needs, numbers, own, desk)  # fmt: skip
                 for a in range(L):
                     g[a] = 0.0
                 if w < 0:
@@ -290,6 +308,26 @@ def filter_chain(  # type: ignore[no-untyped-def]
                         push = slant * E[b, j] + slope * E[c, j]
                         for a in range(L):
                             E[a, j] += g[a] * push
+            for a in range(len(joints)):
+                if slots[a] < 0:
+                    continue
+                i = joints[a]
+                w = motors[i]
+                ends[0], ends[1], ends[2], ends[3], ends[4] = i, n + i, slots[a], -1, -1
+                g[:] = 0.0
+                if w < 0 or between[a]:
+                    sign = 1.0 if w < 0 else -1.0
+                    for b in range(n):
+                        g[n + b] = sign * hs * W[k, b, i]
+                        g[b] = 0.5 * hs * g[n + b]
+                if w >= 0:
+                    g[w + 1] = hs * gears[i, 3]
+                    g[w] = 0.5 * hs * g[w + 1]
+                    ends[0], ends[1] = w, w + 1
+                    if between[a]:
+                        ends[3], ends[4] = i, n + i
+                now = begin + (k + (s + 0.5) / steps) * dt
+                follow_law(now, x, P, F, E, keep, ends, g, hs, a, table, own, desk, room)
         if keep:
             moves[k] = F
             pushes[k] = E

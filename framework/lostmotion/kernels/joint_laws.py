@@ -40,12 +40,33 @@ def clip_moments(m, s, c):  # type: ignore[no-untyped-def]
 
 
 @stored(nogil=True, error_model="numpy")
-def average_laws(t, q, v, sq, sv, j, mobility, step, joints, addresses, firsts, widths, needs, numbers, own, desk):  # type: ignore[no-untyped-def]
-    """Return the mean force of the laws of a joint, its slopes over position and velocity, and its variance."""
+def fill_numbers(a, lanes, mobility, step, firsts, widths, needs, numbers, own):  # type: ignore[no-untyped-def]
+    """Write the numbers of law `a` into its desk `own`, with those that only the filter knows."""
+    for b in range(widths[a]):
+        kind = needs[firsts[a] + b]
+        number = numbers[firsts[a] + b]
+        if kind == 1:
+            number = mobility
+        elif kind == 2:
+            number = step
+        elif kind == 3:
+            number = step / mobility
+        for o in range(lanes):
+            own[b, o] = number
+
+
+@stored(nogil=True, error_model="numpy")
+def average_laws(  # type: ignore[no-untyped-def]
+    t, q, v, sq, sv, j, mobility, step, joints, slots, addresses, firsts, widths, needs, numbers, own, desk
+):  # fmt: skip
+    """Return the mean force of the laws of a joint, its slopes over position and velocity, and its variance.
+
+    Laws with an inner state, in one of the `slots` of the state, do not count.
+    """
     spread = 6.0 * sv
     near = abs(v) < spread + 1e-9
     for a in range(len(joints)):
-        if joints[a] == j:  # the width of the line of dry friction: a force times the mobility
+        if joints[a] == j and slots[a] < 0:  # the width of the line of dry friction: a force times the mobility
             for b in range(widths[a]):
                 if needs[firsts[a] + b] == 1 and abs(v) < spread + 3.0 * mobility * abs(numbers[firsts[a]]):
                     near = True
@@ -62,19 +83,9 @@ def average_laws(t, q, v, sq, sv, j, mobility, step, joints, addresses, firsts, 
     for o in range(lanes):
         total[o] = 0.0
     for a in range(len(joints)):
-        if joints[a] != j:
+        if joints[a] != j or slots[a] >= 0:
             continue
-        for b in range(widths[a]):
-            kind = needs[firsts[a] + b]
-            number = numbers[firsts[a] + b]
-            if kind == 1:
-                number = mobility
-            elif kind == 2:
-                number = step
-            elif kind == 3:
-                number = step / mobility
-            for o in range(lanes):
-                own[b, o] = number
+        fill_numbers(a, lanes, mobility, step, firsts, widths, needs, numbers, own)
         if call(addresses[a], pointer(own), pointer(desk), lanes) != 0:
             return math.nan, 0.0, 0.0, 0.0
         for o in range(lanes):

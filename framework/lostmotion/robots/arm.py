@@ -24,7 +24,7 @@ from lostmotion.likelihood.innovations import Innovations
 from lostmotion.likelihood.plan import Law
 from lostmotion.parts import Array, Param, Values
 from lostmotion.quantities import FORCE
-from lostmotion.robots.gears import Gear
+from lostmotion.robots.gears import AT, Gear
 from lostmotion.robots.log import RobotLog, average_neighbours
 from lostmotion.robots.tape import Part, Tape
 
@@ -41,30 +41,37 @@ SETTLING = 0.1
 """The time (s) at the beginning of a log that does not count."""
 CORRECTED = 0.03
 """The time (s) over which the corrections of accelerations by readings are averaged."""
+SLOW = 1e-9
+"""The velocity (SI) at which the stiffness of bristles is found."""
 DOUBT_ANGLE, DOUBT_SPEED = 1e-3, 0.1
 """Standard deviations of the first position and velocity (SI)."""
 
 
 def can_act(term: Term) -> bool:
-    """Return whether a term can act at a joint: a law of position, velocity and time without states, or of a drive."""
+    """Return whether a term can act at a joint: a law of the motion with at most one inner state, or of a drive."""
     if isinstance(term, DriveTerm):
         return not term.needs
     plain = isinstance(inspect.getattr_static(type(term), "force", None), staticmethod)
     known = set(term.needs) <= set(NEEDS)
-    if not (term.acts == "motion" and plain and known) or term.states:
+    if not (term.acts == "motion" and plain and known) or len(term.states) > 1:
         return False
     return not make_law(term).reads_inputs
 
 
 def make_law(term: Term) -> Law:
     """Return a term as the kernels of laws know it."""
-    return Law(0, len(term.params) + len(term.needs), 0, term.force, term.rate)
+    return Law(0, len(term.params) + len(term.needs), len(term.states), term.force, term.rate)
 
 
 class _LawTable(NamedTuple):
-    """Laws as the kernel knows them: their joints, addresses, first numbers, widths, needs and numbers."""
+    """Laws as the kernel knows them: their joints, slots, addresses, first numbers, widths, needs and numbers.
+
+    `slots` are the places of inner states in the state of the filter, or -1. Laws `between` motor and link have one.
+    """
 
     joints: Whole
+    slots: Whole
+    between: NDArray[np.bool_]
     addresses: Whole
     firsts: Whole
     widths: Whole
@@ -160,12 +167,16 @@ class TapedArm:
         self._cache[key] = made_now
         return made_now
 
-    def count_steps(self, gears: Mapping[int, Gear]) -> int:
-        """Return the number of steps of the filter within a sample that gears need."""
-        steps = 1
-        for j, gear in gears.items():
-            light = float(np.linalg.inv(self.tape.mass[0])[j, j]) + 1.0 / self.values[f"{self.joints[j]}.armature"]
-            steps = max(steps, math.ceil(math.sqrt(gear.stiffness * light) * self.log.dt / FASTEST))
+    def count_steps(self, gears: Mapping[int, Gear], bristles: Mapping[int, float] | None = None) -> int:
+        """Return the number of steps of the filter within a sample that springs need.
+
+        They are those of gears and of laws with an inner state: `bristles` are the stiffnesses of these, by joint.
+        """
+        steps, mobility = 1, np.diag(np.linalg.inv(self.tape.mass[0]))
+        for j in {*gears, *(bristles or {})}:
+            stiff = (gears[j].stiffness if j in gears else 0.0) + (bristles or {}).get(j, 0.0)
+            light = mobility[j] + (1.0 / self.values[f"{self.joints[j]}.armature"] if j in gears else 0.0)
+            steps = max(steps, math.ceil(math.sqrt(stiff * light) * self.log.dt / FASTEST))
         return min(steps, MOST_STEPS)
 
     def filter(
@@ -188,9 +199,9 @@ class TapedArm:
         replace those of the log; `start` is a first sample, with the mean and covariance of the state there.
         """
         log, gears = self.log, dict(gears or {})
-        laws = [(t, self.joints.index(t.at)) for t in terms if not isinstance(t, DriveTerm)]
-        table = self._list_laws(laws, values)
-        coarse = self.count_steps(gears)
+        laws = [(t, self.joints.index(t.at.removesuffix(AT))) for t in terms if not isinstance(t, DriveTerm)]
+        table = self._list_laws(laws, values, 2 * len(self.joints) + 2 * len(gears))
+        coarse = self.count_steps(gears, _measure_bristles(laws, values))
         fine = max(coarse, LAW_STEPS) if len(table.joints) else coarse
         inverses, kq, kv, free = self._build(values, tuple(sorted(gears)), (coarse, fine))
         tau = log.drive([t for t in terms if isinstance(t, DriveTerm)], values)
@@ -201,7 +212,8 @@ class TapedArm:
         part = slice(first, last)
         z = (log.readings if readings is None else readings)[part]
         motors, plain = self._place_motors(gears, values)
-        mean, cov = self._begin(gears, motors) if start is None else start[1:]
+        inner = int(np.count_nonzero(table.slots >= 0))
+        mean, cov = self._begin(gears, motors, inner) if start is None else start[1:]
         samples, count, size = len(z), z.shape[1], len(mean)
         errors, variances = np.zeros((samples, count)), np.ones((samples, count))
         kept = samples if keep else 0
@@ -245,8 +257,11 @@ class TapedArm:
             found.append(state)
         return np.array(found, dtype=np.int64)
 
-    def _list_laws(self, laws: Sequence[tuple[Term, int]], values: Mapping[str, float]) -> _LawTable:
-        """Return the tables of the laws for the kernel, with the friction that the model itself has."""
+    def _list_laws(self, laws: Sequence[tuple[Term, int]], values: Mapping[str, float], states: int) -> _LawTable:
+        """Return the tables of the laws for the kernel, with the friction that the model itself has.
+
+        Inner states of laws come after the other `states`.
+        """
         rows = [(t, j, [values[f"{t.name}@{t.at}.{q.name}"] for q in t.params]) for t, j in laws]
         for j, force in enumerate(self.get(values, "frictionloss").tolist()):
             if force != 0.0:
@@ -256,8 +271,11 @@ class TapedArm:
         numbers = [x for term, _, given in rows for x in (*given, *(KNOWN_NEEDS.get(name, 0.0) for name in term.needs))]
         needs = [k for term, _, given in rows for k in (*[0] * len(given), *(NEEDS[name] for name in term.needs))]
         firsts = np.cumsum([0, *widths])[:-1]
+        inner = np.array([len(term.states) for term, *_ in rows], dtype=np.int64)
         return _LawTable(
             np.array([j for _, j, _ in rows], dtype=np.int64),
+            np.where(inner > 0, states + np.cumsum(inner) - 1, -1),
+            np.array([term.at.endswith(AT) for term, *_ in rows], dtype=np.bool_),
             np.array([compile_law(law, 0)[0] for law in made], dtype=np.int64),
             firsts.astype(np.int64),
             np.array(widths, dtype=np.int64),
@@ -276,11 +294,11 @@ class TapedArm:
             plain[j] = gears[j].play, gears[j].stiffness, gears[j].damp(inertia[j]), 1.0 / inertia[j], loss[j]
         return motors, plain
 
-    def _begin(self, gears: Mapping[int, Gear], motors: Whole) -> tuple[Array, Array]:
-        """Return mean and covariance of the first state: the motors are where the joints are."""
-        n, path = len(self.joints), self.tape.path
-        mean = np.concatenate([path.q[0], path.v[0], np.zeros(2 * len(gears))])
-        spread = np.concatenate([np.full(n, DOUBT_ANGLE), np.full(n, DOUBT_SPEED), np.zeros(2 * len(gears))])
+    def _begin(self, gears: Mapping[int, Gear], motors: Whole, inner: int) -> tuple[Array, Array]:
+        """Return mean and covariance of the first state: motors are where joints are, bristles are not bent."""
+        n, path, more = len(self.joints), self.tape.path, np.zeros(2 * len(gears) + inner)
+        mean = np.concatenate([path.q[0], path.v[0], more])
+        spread = np.concatenate([np.full(n, DOUBT_ANGLE), np.full(n, DOUBT_SPEED), more])
         for j, gear in gears.items():
             w = motors[j]
             mean[w], mean[w + 1], spread[w], spread[w + 1] = path.q[0, j], path.v[0, j], DOUBT_ANGLE, DOUBT_SPEED
@@ -321,6 +339,17 @@ class TapedArm:
         for c, column in enumerate(columns[wide:]):
             drives[:, c] = column.force[:samples]
         return links, drives, np.searchsorted(joints[wide:], np.arange(n + 1)).astype(np.int64)
+
+
+def _measure_bristles(laws: Sequence[tuple[Term, int]], values: Mapping[str, float]) -> dict[int, float]:
+    """Return the stiffness (N m/rad or N/m) of laws with an inner state by joint, that before anything slides."""
+    found: dict[int, float] = {}
+    for term, j in laws:
+        if term.states:
+            own, rate = [values[f"{term.name}@{term.at}.{q.name}"] for q in term.params], np.zeros(1)
+            term.rate(0.0, 0.0, SLOW, rate, (*own, *(SLOW for _ in term.needs)), (0.0,), rate)
+            found[j] = found.get(j, 0.0) + abs(float(rate[0])) / SLOW
+    return found
 
 
 _run_filter: Callable[..., int] = filter_chain

@@ -16,12 +16,13 @@ import numpy as np
 from lostmotion.contracts import DriveTerm, Term
 from lostmotion.defaults import RARE_IN_JOINTS
 from lostmotion.inference.penalties import compute_own_penalty
+from lostmotion.kernels.inner_states import follow_path
 from lostmotion.kernels.joint_laws import evaluate_law
 from lostmotion.likelihood.compose import compile_law
 from lostmotion.parts import Array, Param
-from lostmotion.quantities import INERTIA, LENGTH, NUMBER, STIFFNESS, TIME, Dimension
+from lostmotion.quantities import FORCE, INERTIA, LENGTH, NUMBER, STIFFNESS, TIME, Dimension
 from lostmotion.robots.arm import KNOWN_NEEDS, Column, TapedArm, make_law
-from lostmotion.robots.gears import AT, BACKLASH, ELASTICITY, USUAL_DAMPING, Gear, GearLaw
+from lostmotion.robots.gears import AT, ELASTICITY, USUAL_DAMPING, Gear, GearLaw
 from lostmotion.robots.tape import Path
 
 UNSURE = 1.5
@@ -41,8 +42,9 @@ GAIN_ERROR = "error"
 """The parameter of a gain: its relative error."""
 FURTHER = 0.5
 """The log prior odds against each parameter of a law beyond the first."""
-USUAL_GAP, USUAL_MESH = 1e-3, 60.0
-"""The usual half play (rad or m), and the usual frequency (Hz) of a motor on its gear."""
+USUAL_GAP, USUAL_MESH, USUAL_LOOP = 1e-3, 60.0, 0.1
+"""The usual half play (rad or m), the usual frequency (Hz) of a motor on its gear, and the usual size of hysteresis in
+it, as a share of the torque (rms)."""
 
 
 @dataclass(frozen=True)
@@ -231,17 +233,19 @@ class LawEffect:
         found = np.zeros(len(path.q))
         time = self.arm.log.dt * np.arange(len(found))
         q, v = (np.ascontiguousarray(x[:, self.joint]) for x in (path.q, path.v))
-        evaluate_law(compile_law(make_law(self.term), 0)[0], np.array(numbers), time, q, v, found)
+        evaluate = follow_path if self.term.states else evaluate_law
+        evaluate(compile_law(make_law(self.term), 0)[0], np.array(numbers), time, q, v, found)
         return found
 
 
 @dataclass(frozen=True, eq=False)
 class GearEffect:
-    """Play or flexibility between motor and link of a joint."""
+    """Play or flexibility between motor and link of a joint; beside the latter an `inner` law may act there."""
 
     law: GearLaw
     arm: TapedArm
     joint: int
+    inner: Term | None = None
 
     @property
     def at(self) -> str:
@@ -255,8 +259,8 @@ class GearEffect:
 
     @property
     def extends(self) -> tuple[str, ...]:
-        """The flexibility that play contains as well."""
-        return (f"joint_elasticity@{self.at}",) if self.law is BACKLASH else ()
+        """The flexibility that play and hysteresis contain as well."""
+        return () if self.law is ELASTICITY else (f"{ELASTICITY.name}@{self.at}",)
 
     @property
     def price(self) -> float:
@@ -270,10 +274,11 @@ class GearEffect:
 
     @property
     def coordinates(self) -> tuple[ArmCoordinate, ...]:
-        """Half of the play and the stiffness, by their orders of magnitude."""
+        """Its parameters, by their orders of magnitude."""
         mesh = (2.0 * math.pi * USUAL_MESH) ** 2 * self.inertia
-        usual = {"gap": USUAL_GAP, "stiffness": mesh, "damping_ratio": USUAL_DAMPING}
-        kinds = {"gap": LENGTH, "stiffness": STIFFNESS, "damping_ratio": NUMBER}
+        usual = {"gap": USUAL_GAP, "stiffness": mesh, "damping_ratio": USUAL_DAMPING, "travel": USUAL_GAP}
+        usual["force"] = USUAL_LOOP * float(np.std(self.arm.torque[:, self.joint]))
+        kinds = {"gap": LENGTH, "stiffness": STIFFNESS, "damping_ratio": NUMBER, "travel": LENGTH, "force": FORCE}
         return tuple(
             ArmCoordinate(f"{self.key}.{name}", 1.0, math.log(usual[name]), UNSURE, log=True, dimension=kinds[name])
             for name in self.law.params
@@ -283,15 +288,21 @@ class GearEffect:
         """Return nothing: a gear is no force on the chain."""
         return ()
 
-    def list_starts(self) -> list[dict[str, float]]:
-        """Return values at which the gear is tried: the resonance of one without play may be sharp."""
+    def list_starts(self, known: Mapping[str, float]) -> list[dict[str, float]]:
+        """Return values at which the gear is tried: the resonance of one without play may be sharp.
+
+        An inner law is tried beside the flexibility that is `known`.
+        """
         stiff = tuple(np.linspace(-3.5, 1.0, 10).tolist()) if self.law is ELASTICITY else (-1.0, 1.0)
         tried = {"gap": (-1.5, 0.0, 1.5), "stiffness": stiff, "damping_ratio": (0.0,)}
-        grids = [tried[name] for name in self.law.params]
-        return [
-            {c.key: math.exp(c.mean + step) for c, step in zip(self.coordinates, steps, strict=True)}
-            for steps in itertools.product(*grids)
-        ]
+        tried |= {"force": (-1.5, 0.0, 1.5), "travel": (-1.5, 0.0, 1.5)}
+        places = {
+            c.key: [math.exp(c.mean + s) for s in tried[n]]
+            for n, c in zip(self.law.params, self.coordinates, strict=True)
+        }
+        if self.inner is not None:
+            places |= {f"{self.key}.{n}": [known[f"{ELASTICITY.name}@{self.at}.{n}"]] for n in ELASTICITY.params}
+        return [dict(zip(places, values, strict=True)) for values in itertools.product(*places.values())]
 
     def make(self, values: Mapping[str, float]) -> Gear:
         """Return the gear."""

@@ -73,8 +73,9 @@ class ArmFrame:
 
     @cached_property
     def laws(self) -> tuple[Term, ...]:
-        """The terms of the library."""
-        return tuple(e.term for e in self.effects if isinstance(e, LawEffect))
+        """The terms of the library, at joints and within gears."""
+        inner = (replace(e.inner, at=e.at) for e in self.gears if e.inner is not None)  # type: ignore[type-var]
+        return (*(e.term for e in self.effects if isinstance(e, LawEffect)), *inner)
 
     def read(self, at: Array) -> dict[str, float]:
         """Return the values of all coordinates but those of the discrepancy."""

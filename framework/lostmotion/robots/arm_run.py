@@ -309,7 +309,7 @@ def _write_notes(
     tried = {effect.key.partition("@")[0] for effect in search.screen.effects}
     others = (term for term in _make_library(registry) if not can_act(term) and term.acts == "motion")
     aside = sorted({term.name for term in others} - tried)
-    notes.append(f"Not tried at joints, because they have states or need other places: {', '.join(aside)}.")
+    notes.append(f"Not tried at joints, because they need other places: {', '.join(aside)}.")
     if case.model.side == "motor":
         notes += _list_gearless(case.model, plain)
     if search.temper > 1.5:

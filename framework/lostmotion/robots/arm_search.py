@@ -18,6 +18,7 @@ from lostmotion.robots.arm_discrepancy import Discrepancy
 from lostmotion.robots.arm_effects import ArmEffect
 from lostmotion.robots.arm_hypothesis import ArmFrame, ArmHypothesis, find_precision, fit_hypothesis, score_heldout
 from lostmotion.robots.promises import (
+    SAME_LAW,
     ArmPromise,
     Group,
     Screen,
@@ -37,8 +38,6 @@ REACH, STRONGER = 3.0, 3.0
 set by factors that differ less than this: those that cannot come so near to the best set are not made."""
 SMALL = 0.1
 """The random force of a second start, as a share of the fitted one: a gap is else taken for noise."""
-SAME_LAW = 3.0
-"""A law that contains a simpler one must gain so much log evidence over it (odds of 20) to count as another one."""
 NOTHING = "nothing_missing"
 """The name of the set without any effect."""
 UNKNOWN_PRICE = 1.0

@@ -1,6 +1,6 @@
-"""What lies between the motor and the link of a joint: play, and the flexibility of a gear.
+"""What lies between the motor and the link of a joint: play, the flexibility of a gear, and hysteresis in it.
 
-Either splits a joint in two: the motor with its armature, and the link. The encoder and the torque are those of the
+Each splits a joint in two: the motor with its armature, and the link. The encoder and the torque are those of the
 motor (Spong, J. Dynamic Systems, Measurement, and Control 109 (1987) 310-319; Nordin, Gutman, Automatica 38 (2002)).
 """
 
@@ -10,7 +10,7 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from lostmotion.defaults import PLAY
+from lostmotion.defaults import HYSTERETIC, PLAY
 
 USUAL_DAMPING = 0.05
 """Usual damping ratio of the motor on the stiffness of its gear."""
@@ -41,7 +41,8 @@ class GearLaw(NamedTuple):
 
     def make(self, values: tuple[float, ...]) -> Gear:
         """Return the gear for values of `params`."""
-        return Gear(values[0] if self.name == PLAY else 0.0, *values[-2:])
+        told = dict(zip(self.params, values, strict=True))
+        return Gear(told.get("gap", 0.0), told["stiffness"], told["damping_ratio"])
 
 
 BACKLASH = GearLaw(
@@ -56,4 +57,12 @@ ELASTICITY = GearLaw(
     "The gear is flexible: motor and link are joined by a stiffness of {stiffness}",
     "Spong, J. Dynamic Systems, Measurement, and Control 109 (1987) 310-319",
 )
+HYSTERESIS = GearLaw(
+    HYSTERETIC,
+    ("stiffness", "damping_ratio", "force", "travel"),
+    "The gear is flexible, with a stiffness of {stiffness}, and a hysteretic torque in it yields at {force} after"
+    " {travel} of travel",
+    "Ruderman, Bertram, Iwasaki, Mechatronics 24 (2014) 407-415",
+)
+"""A flexible gear beside a law of the library with an inner state, which acts on the motion of motor against link."""
 GEARS = (BACKLASH, ELASTICITY)

@@ -10,9 +10,9 @@ from lostmotion.contracts import Term
 
 
 def write_law(term: Term) -> str:
-    """Return the function of the force of a term, under the name of the term; empty where it calls other functions."""
+    """Return the function of the force of a term, under its name; empty if it has states or calls functions."""
     force = inspect.getattr_static(type(term), "force", None)
-    if not isinstance(force, staticmethod):
+    if not isinstance(force, staticmethod) or term.states:
         return ""
     used = inspect.getclosurevars(force.__func__)
     if used.nonlocals or any(value is not math for value in used.globals.values()):

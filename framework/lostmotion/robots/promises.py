@@ -20,14 +20,16 @@ from lostmotion.parts import Array
 from lostmotion.quantities import TIME
 from lostmotion.robots.arm import Column, FilteredLog, TapedArm, can_act
 from lostmotion.robots.arm_effects import ArmEffect, GearEffect, JointScales, LawEffect, MassEffect, Shape
-from lostmotion.robots.arm_hypothesis import ArmHypothesis
-from lostmotion.robots.gears import ELASTICITY, GEARS
+from lostmotion.robots.arm_hypothesis import ArmFrame, ArmHypothesis
+from lostmotion.robots.gears import BACKLASH, GEARS, HYSTERESIS
 from lostmotion.robots.pitch_scan import find_pitches
 from lostmotion.robots.soft_friction import SOFT_FRICTION
 from lostmotion.robots.tape import Path
 
 TYPICAL_MASS = 0.1
 """The usual error of a mass or an armature, as a share of it."""
+SAME_LAW = 3.0
+"""A law that contains a simpler one must gain so much log evidence over it (odds of 20) to count as another one."""
 SAME = 0.9999
 """The cosine of the effects of two laws on this log above which only the more common one is tried."""
 
@@ -95,6 +97,7 @@ def list_effects(
         found.append(MassEffect(INERTIA_CHANGE, joint, f"{joint}.armature", arm, unit))
         if armature > 0.0 and not controlled:
             found += [GearEffect(law, arm, j) for law in GEARS]
+            found += [GearEffect(HYSTERESIS, arm, j, term) for term in terms if term.name == HYSTERESIS.name]
     for name in arm.parts:
         at, kind = name.rsplit(".", 1)
         if kind == "payload" and at in points:
@@ -173,9 +176,12 @@ def _overlaps(effect: ArmEffect, present: ArmEffect) -> bool:
 
 
 def leave_richer(promises: Sequence[ArmPromise]) -> list[ArmPromise]:
-    """Return the promises without laws of which a simpler form is proposed: they follow once that is in the set."""
-    proposed = {p.effect.key for p in promises if p.gain > 0.0}
-    return [p for p in promises if proposed.isdisjoint(p.effect.extends)]
+    """Return the promises without laws of which a simpler form promises as much: they follow once that is in the set.
+
+    Friction through bristles that bend far is no dry friction, and a fit of that does not lead to it.
+    """
+    known = {p.effect.key: p.gain for p in promises if p.gain > 0.0}
+    return [p for p in promises if all(p.gain > known.get(key, -math.inf) + SAME_LAW for key in p.effect.extends)]
 
 
 def _weigh_shape(
@@ -216,21 +222,20 @@ def list_gear_promises(
     at[: len(frame.arm.joints)] += math.log(small)
     plain = float(frame.run(at).seen.log_likelihood)
     force = frame.discrepancy.force(at[len(frame.own) :])
-    taken = {e.joint for e in frame.gears}
+    present = {e.joint: e.key for e in frame.gears}
     for effect in screen.effects:
-        if not isinstance(effect, GearEffect) or effect.key in frame.terms or effect.joint in taken:
+        if not isinstance(effect, GearEffect) or present.get(effect.joint, "") not in _list_gears_before(effect):
             continue
-        wider = replace(frame, effects=(*frame.effects, effect))
+        kept = [e for e in frame.effects if e.key not in effect.extends]
+        wider = replace(frame, effects=(*kept, effect))
         best, start = -math.inf, {}
         levels: tuple[float, ...] = ()
-        for values in effect.list_starts():
-            own = [c.place(values[c.key]) for c in effect.coordinates]
-            told = (
-                float(wider.run(np.concatenate([at[: len(frame.own)], own]), force=force).seen.log_likelihood) - plain
-            )
+        for values in effect.list_starts(beside.values):
+            own = {c.key: c.place(values[c.key]) for c in effect.coordinates}
+            told = float(wider.run(_place(wider, frame, at, own), force=force).seen.log_likelihood) - plain
             tried: tuple[float, ...] = (1.0, small)
-            if effect.law is ELASTICITY:
-                seen = wider.run(np.concatenate([beside.at[: len(frame.own)], own]), force=force).seen
+            if effect.law is not BACKLASH:
+                seen = wider.run(_place(wider, frame, beside.at, own), force=force).seen
                 fitted = _gain_in_one_step(beside, seen)
                 told, tried = (told, (small,)) if told > fitted else (fitted, (1.0,))
             if told > best:
@@ -238,6 +243,17 @@ def list_gear_promises(
         if math.isfinite(best):
             found.append(ArmPromise(effect, start, best / temper - price - effect.price, levels=levels))
     return sorted(found, key=lambda p: -p.gain)
+
+
+def _list_gears_before(effect: GearEffect) -> tuple[str, ...]:
+    """Return what a joint may have before a gear is tried there: none, or for an inner law a flexible one."""
+    return ("",) if effect.inner is None else effect.extends
+
+
+def _place(wider: ArmFrame, frame: ArmFrame, at: Array, more: Mapping[str, float]) -> Array:
+    """Return own coordinates of a wider frame: those of a frame, and `more`."""
+    known = {c.key: float(x) for c, x in zip(frame.own, at, strict=False)} | dict(more)
+    return np.array([known[c.key] for c in wider.own])
 
 
 def _gain_in_one_step(beside: ArmHypothesis, seen: Innovations) -> float:

@@ -95,6 +95,20 @@ class _Writer:
         self._add_coulomb_friction(one)
         self.notes.append("MJCF has no friction that rises towards rest: only its sliding level is written.")
 
+    def _add_dahl_friction(self, one: FoundMechanism) -> None:
+        self._add_coulomb_friction(one)
+        self.notes.append("MJCF has no friction that is elastic before it slides: only its sliding level is written.")
+
+    _add_lugre_friction = _add_dahl_friction
+
+    def _add_bouc_wen_hysteresis(self, one: FoundMechanism) -> None:
+        if one.at.endswith(".gear"):
+            gear = self._add_joint_elasticity(one)
+            gear.frictionloss, gear.solref_friction = one.values["force"], STIFF
+            self.notes.append("MJCF has no hysteresis: dry friction in the gear of the same force takes its place.")
+        else:
+            self._add_dahl_friction(one)
+
     def _add_linear_stiffness(self, one: FoundMechanism) -> None:
         joint, more = self.spec.joint(one.at), one.values["coefficient"]
         own = _get_first(joint.stiffness)
@@ -148,11 +162,12 @@ class _Writer:
             name=f"{motor.name}{GEAR}", type=motor.type, axis=motor.axis, pos=motor.pos, armature=0.0
         )
 
-    def _add_joint_elasticity(self, one: FoundMechanism) -> None:
+    def _add_joint_elasticity(self, one: FoundMechanism) -> Any:
         motor, gear = self.spec.joint(one.at.removesuffix(".gear")), self._add_gear(one)
         _set_first(gear, "stiffness", one.values["stiffness"])
         loss = 2.0 * one.values["damping_ratio"] * math.sqrt(one.values["stiffness"] * motor.armature)
         _set_first(gear, "damping", loss)
+        return gear
 
     def _add_backlash(self, one: FoundMechanism) -> None:
         gear = self._add_gear(one)

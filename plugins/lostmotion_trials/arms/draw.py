@@ -88,6 +88,12 @@ def _hide_soft(arm: Arm, j: int, rng: np.random.Generator) -> Truth:
     return Truth("soft_friction", JOINTS[j], {"force": float(arm.friction[j]), "velocity": float(arm.onset[j])})
 
 
+def _hide_dahl(arm: Arm, j: int, rng: np.random.Generator) -> Truth:
+    arm.bristles[j], arm.travel[j] = _size(rng, (0.8, 0.3)[j]), _size(rng, 5e-3)
+    values = {"force": float(arm.bristles[j]), "deflection": float(arm.travel[j])}
+    return Truth("dahl_friction", JOINTS[j], values)
+
+
 def _hide_viscous(arm: Arm, j: int, rng: np.random.Generator) -> Truth:
     more = _size(rng, (0.4, 0.2)[j])
     arm.damping[j] += more
@@ -120,6 +126,14 @@ def _hide_flexible(arm: Arm, j: int, rng: np.random.Generator) -> Truth:
     return Truth("joint_elasticity", f"{JOINTS[j]}.gear", {"stiffness": float(arm.stiffness[j])})
 
 
+def _hide_loop(arm: Arm, j: int, rng: np.random.Generator) -> Truth:
+    _hide_flexible(arm, j, rng)
+    arm.stiffness[j], arm.loss[j] = 0.3 * arm.stiffness[j], 0.5 * arm.loss[j]
+    arm.bristles[j], arm.travel[j], arm.within[j] = _size(rng, (3.0, 1.0)[j]), _size(rng, 3e-3), 1.0
+    values = {"force": float(arm.bristles[j]), "travel": float(arm.travel[j]), "stiffness": float(arm.stiffness[j])}
+    return Truth("bouc_wen_hysteresis", f"{JOINTS[j]}.gear", values)
+
+
 def _hide_delay(arm: Arm, j: int, rng: np.random.Generator) -> Truth:
     arm.delay[j] = _size(rng, 0.004)
     return Truth("excitation_delay", f"{JOINTS[j]}.torque", {"delay": float(arm.delay[j])})
@@ -140,7 +154,7 @@ EFFECTS: Mapping[str, Callable[[Arm, int, np.random.Generator], Truth]] = {
     "cogging": _hide_ripple, "backlash": _hide_play, "joint_elasticity": _hide_flexible,
     "excitation_delay": _hide_delay, "payload": _hide_payload, "directional_friction": _hide_directional,
     "linear_stiffness": _hide_spring, "offset_force": _hide_offset, "excitation_gain": _hide_gain,
-    "soft_friction": _hide_soft,
+    "soft_friction": _hide_soft, "dahl_friction": _hide_dahl, "bouc_wen_hysteresis": _hide_loop,
 }  # fmt: skip
 """What may be hidden."""
 

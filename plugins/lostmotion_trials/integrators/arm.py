@@ -33,7 +33,9 @@ class Arm:
     """Two links in a vertical plane, and what acts at their joints; arrays are (2,), in SI units.
 
     `onset` is the speed (rad/s) over which dry friction changes its sign. `play` is half of the play, negative where
-    there is no gear between motor and link; a gear without play is flexible.
+    there is no gear between motor and link; a gear without play is flexible. A hysteretic force yields at `bristles`
+    after a `travel` of the motor, or of the motor relative to its link where it is `within` the gear; it is that of
+    Bouc and Wen there, and Dahl's else.
     `delay` (s) and `gain` change the commanded torque. `payload` (kg) is carried at `reach` (m) on the second link.
     """
 
@@ -56,16 +58,19 @@ class Arm:
     play: Array = field(default_factory=lambda: _pair(-1.0))
     stiffness: Array = field(default_factory=lambda: _pair(5e4))
     loss: Array = field(default_factory=lambda: _pair(20.0))
+    bristles: Array = field(default_factory=lambda: _pair(0.0))
+    travel: Array = field(default_factory=lambda: _pair(1e-3))
+    within: Array = field(default_factory=lambda: _pair(0.0))
     delay: Array = field(default_factory=lambda: _pair(0.0))
     gain: Array = field(default_factory=lambda: _pair(1.0))
     payload: float = 0.0
     reach: float = 0.35
 
     def joint_table(self) -> Array:
-        """Return what acts at each joint, (13, 2)."""
+        """Return what acts at each joint, (16, 2)."""
         rows = (
             self.friction, self.excess, self.stribeck, self.backward, self.ripple, self.order, self.phase, self.spring,
-            self.offset, self.play, self.stiffness, self.loss, self.onset,
+            self.offset, self.play, self.stiffness, self.loss, self.onset, self.bristles, self.travel, self.within,
         )  # fmt: skip
         return np.array(rows)
 
@@ -158,7 +163,10 @@ def record_motion(
 
 @stored(error_model="numpy")
 def _accelerate(y, torque, length, bodies, table, out):  # type: ignore[no-untyped-def]
-    """Write the rates of the state (positions and velocities of links, then of motors) under motor torques (2,)."""
+    """Write the rates of the state under motor torques (2,).
+
+    It has positions and velocities of links, then of motors, and the bent bristles as shares of where they yield.
+    """
     pull, push = np.zeros(2), np.zeros(2)
     motors = np.zeros(2)
     for j in range(2):
@@ -168,11 +176,13 @@ def _accelerate(y, torque, length, bodies, table, out):  # type: ignore[no-untyp
         level += table[1, j] * math.exp(-((w / table[2, j]) ** 2))
         force = torque[j] - bodies[4, j] * w - level * math.tanh(w / table[12, j])
         force += table[4, j] * math.sin(table[5, j] * x + table[6, j]) - table[7, j] * x + table[8, j]
+        force -= (1.0 - table[15, j]) * table[13, j] * y[8 + j]
         if soft:
             twist = x - y[j]
             gap = table[9, j]
             deep = twist - gap if twist > gap else (twist + gap if twist < -gap else 0.0)
             push[j] = table[10, j] * deep + (table[11, j] * (w - y[2 + j]) if deep != 0.0 else 0.0)
+            push[j] += table[15, j] * table[13, j] * y[8 + j]
             motors[j] = (force - push[j]) / bodies[3, j]
         else:
             push[j] = force
@@ -193,6 +203,10 @@ def _accelerate(y, torque, length, bodies, table, out):  # type: ignore[no-untyp
     for j in range(2):
         out[4 + j] = y[6 + j] if table[9, j] >= 0.0 else y[2 + j]
         out[6 + j] = motors[j] if table[9, j] >= 0.0 else out[2 + j]
+        z, inside = y[8 + j], table[15, j] > 0.0
+        w = (y[6 + j] - y[2 + j] if inside else y[6 + j]) if table[9, j] >= 0.0 else y[2 + j]
+        bent = 0.5 * (abs(w) * z * abs(z) + w * z * z) if inside else abs(w) * z
+        out[8 + j] = (w - bent) / table[14, j] if table[13, j] != 0.0 else 0.0
 
 
 @stored(error_model="numpy")
@@ -200,13 +214,13 @@ def _integrate(q, v, feed, noise, kicks, gains, length, bodies, table, late, gai
     """Return encoder readings and commanded torques (samples, 2) under a controller that holds its torque."""
     samples = len(q)
     seen, told = np.zeros((samples, 2)), np.zeros((samples, 2))
-    y, h = np.zeros(8), dt / steps
+    y, h = np.zeros(10), dt / steps
     for j in range(2):
         y[j], y[2 + j], y[4 + j], y[6 + j] = q[0, j], v[0, j], q[0, j], v[0, j]
     past = np.zeros((8192, 2))
     past[:, 0], past[:, 1] = feed[0, 0], feed[0, 1]
     place, rate, last = 0, v[0].copy(), q[0].copy()
-    k1, k2, k3, k4 = np.zeros(8), np.zeros(8), np.zeros(8), np.zeros(8)
+    k1, k2, k3, k4 = np.zeros(10), np.zeros(10), np.zeros(10), np.zeros(10)
     acting = np.zeros(2)
     for k in range(samples):
         for j in range(2):
@@ -224,6 +238,6 @@ def _integrate(q, v, feed, noise, kicks, gains, length, bodies, table, late, gai
             _accelerate(y + 0.5 * h * k1, acting, length, bodies, table, k2)
             _accelerate(y + 0.5 * h * k2, acting, length, bodies, table, k3)
             _accelerate(y + h * k3, acting, length, bodies, table, k4)
-            for i in range(8):
+            for i in range(10):
                 y[i] += h * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]) / 6.0
     return seen, told
