@@ -208,8 +208,12 @@ def test_mjcf_needs_mujoco_or_reads_it(tmp_path):
 
     model, _, log = draw_arm(0, 7, "none")
     case = write_case(tmp_path / "case", 0, model, log)
+    earlier = tmp_path / "out" / "arm_found.py"
+    earlier.parent.mkdir()
+    earlier.write_text("the callback of an earlier diagnosis")
     done = run(case, tmp_path / "out")
     assert done.exit_code == 0, done.output
+    assert not earlier.exists()
     assert json.loads((tmp_path / "out" / "diagnosis.json").read_text())["verdict"] == "adequate"
     assert "<mujoco" in (tmp_path / "out" / "arm_found.xml").read_text()
 

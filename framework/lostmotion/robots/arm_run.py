@@ -73,11 +73,16 @@ class RobotOutput:
 
 
 def save_robot(folder: Path, result: RobotDiagnosis, arrays: xr.Dataset, written: FoundFiles | None) -> None:
-    """Write `diagnosis.json`, `arrays.nc`, `report.html` and, where there is one, the changed model into a folder."""
-    if written is not None:
-        save_text(folder / FOUND_MODEL, written.model)
-    if written is not None and written.callback:
-        save_text(folder / FOUND_CALLBACK, written.callback)
+    """Write `diagnosis.json`, `arrays.nc`, `report.html` and, where there is one, the changed model into a folder.
+
+    A changed model or a callback of an earlier diagnosis is removed.
+    """
+    texts = {} if written is None else {FOUND_MODEL: written.model, FOUND_CALLBACK: written.callback}
+    for name in (FOUND_MODEL, FOUND_CALLBACK):
+        if texts.get(name):
+            save_text(folder / name, texts[name])
+        else:
+            (folder / name).unlink(missing_ok=True)
     save_datasets(folder / "arrays.nc", {None: arrays})
     save_json(folder / "diagnosis.json", to_plain(result))
     write_robot_report(folder)
