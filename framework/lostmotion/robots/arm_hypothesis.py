@@ -216,6 +216,11 @@ class ArmHypothesis:
         place = int(np.flatnonzero(self.used == index)[0])
         return math.sqrt(self.scatter * self.covariance[place, place])
 
+    def is_vague(self, key: str) -> bool:
+        """Return whether the 95 % interval of an amplitude holds its null, zero."""
+        index = [c.key for c in self.frame.own].index(key)
+        return abs(float(self.at[index])) < 1.96 * self.deviation(key)
+
 
 def fit_hypothesis(
     frame: ArmFrame, start: Array, price: float, choice: Choice | None = None, *, worth: float = -math.inf

@@ -102,6 +102,8 @@ class ArmSearch:
             if len(target.terms) > 1:
                 self.drop_each(target)
         self.drop_each(self.best)
+        while self.swap_each(self.best):
+            self.drop_each(self.best)
         for target in sorted(self.found.values(), key=lambda one: -one.score(self.temper))[:2]:
             self.weigh_unknown(target)
         if not any(one.unknown and not one.frame.terms for one in self.found.values()):
@@ -262,6 +264,42 @@ class ArmSearch:
                 wanted.append(rest)
         for made in each(fit, wanted, self.jobs):
             self._keep(made)
+
+    def swap_each(self, target: ArmHypothesis) -> bool:
+        """Fit a set with other laws in the place of each of its effects, and return whether one is better.
+
+        A search that adds effects to the best set does not meet them: a law that does the same for two effects, such as
+        a lag and a delay, is tried beside the other one.
+        """
+        best = self.best.score(self.temper)
+        for effect in target.frame.effects if len(target.terms) > 1 and not target.unknown else ():
+            rest = self.found.get(target.terms - {effect.key})
+            if rest is not None:
+                others = (*self._list_simpler(target, effect), *self._list_rivals(rest, effect))
+                self._fit_all(rest, [ProposedFit((promise,), (0.0,)) for promise in others])
+        return self.best.score(self.temper) > best
+
+    def _list_simpler(self, target: ArmHypothesis, effect: ArmEffect) -> list[ArmPromise]:
+        """Return the simpler forms of an effect of a set, if an amplitude that they lack may be zero."""
+        names = {c.key.rpartition(".")[2]: c for c in effect.coordinates}
+        found = []
+        for simpler in self.screen.effects:
+            own = {c.key.rpartition(".")[2]: c for c in simpler.coordinates}
+            more = [c for name, c in names.items() if c.amplitude and name not in own]
+            if simpler.key in effect.extends and any(target.is_vague(c.key) for c in more):
+                start = {c.key: target.values[names[name].key] for name, c in own.items() if name in names}
+                found.append(ArmPromise(simpler, start, 0.0))
+        return found
+
+    def _list_rivals(self, rest: ArmHypothesis, effect: ArmEffect) -> list[ArmPromise]:
+        """Return the law that promises most beside the rest of a set at the place of an effect, if it is another."""
+        place = effect.key.partition("@")[2]
+        for promise in self._list_promises(rest):
+            other = promise.effect
+            if other.key.partition("@")[2] == place and promise.gain > 0.0 and other.key != effect.key:
+                nested = other.key in effect.extends or effect.key in other.extends
+                return [] if nested else [promise]
+        return []
 
     def weigh_unknown(self, target: ArmHypothesis) -> None:
         """Fit a set with a smooth force that is larger than the usual discrepancy."""
