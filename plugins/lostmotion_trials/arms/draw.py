@@ -128,7 +128,6 @@ def _hide_flexible(arm: Arm, j: int, rng: np.random.Generator) -> Truth:
 
 def _hide_loop(arm: Arm, j: int, rng: np.random.Generator) -> Truth:
     _hide_flexible(arm, j, rng)
-    arm.stiffness[j], arm.loss[j] = 0.3 * arm.stiffness[j], 0.5 * arm.loss[j]
     arm.bristles[j], arm.travel[j], arm.within[j] = _size(rng, (3.0, 1.0)[j]), _size(rng, 3e-3), 1.0
     values = {"force": float(arm.bristles[j]), "travel": float(arm.travel[j]), "stiffness": float(arm.stiffness[j])}
     return Truth("bouc_wen_hysteresis", f"{JOINTS[j]}.gear", values)
