@@ -293,7 +293,7 @@ class GearEffect:
 
         An inner law is tried beside the flexibility that is `known`.
         """
-        stiff = tuple(np.linspace(-5.0, 1.0, 13).tolist()) if self.law is ELASTICITY else (-1.0, 1.0)
+        stiff = tuple(np.linspace(-3.5, 1.0, 10).tolist()) if self.law is ELASTICITY else (-1.0, 1.0)
         tried = {"gap": (-1.5, 0.0, 1.5), "stiffness": stiff, "damping_ratio": (0.0,)}
         tried |= {"force": (-1.5, 0.0, 1.5), "travel": (-1.5, 0.0, 1.5)}
         places = {
