@@ -13,7 +13,7 @@ from lostmotion.evidence import posterior_draws
 from lostmotion.evidence.discrepancy import Quadratic
 from lostmotion.evidence.effects import linearise_all
 from lostmotion.evidence.hypothesis import compute_step
-from lostmotion.evidence.posterior_draws import draw_own, find_shares, sample_choices
+from lostmotion.evidence.posterior_draws import ALONG, draw_own, find_along, find_shares, sample_choices
 from lostmotion.inference.natural import find_term
 
 DRAWS = 4000
@@ -39,6 +39,13 @@ def list_shares(found):
     return choices, softmax([quadratic.evaluate(one) / found.scatter for one in choices])
 
 
+def find_covariance(found, choice):
+    """Return the covariance of own coordinates beside some smooth forces, with what these tell of the unseen part."""
+    unseen = ALONG * found.frame.measure_smooth(choice)
+    along = find_along(found.frame, find_shares(found))
+    return found.scatter * replace(found, choice=choice).covariance + unseen**2 * along
+
+
 def test_choices_are_drawn_by_their_evidence(pushed):
     """Seeded; 4,000 draws of some tens of likely choices: half the sum of the differences of shares is about 0.05."""
     choices, shares = list_shares(pushed)
@@ -56,7 +63,7 @@ def test_draws_beside_a_smooth_force_have_the_tails_of_a_t_distribution(pushed, 
     monkeypatch.setattr(posterior_draws, "sample_choices", lambda found, count, rng: [choice] * count)
     k = pushed.frame.names.index("c")
     drawn = draw_own(pushed, DRAWS, np.random.default_rng(2))[:, k]
-    width = np.sqrt(pushed.scatter * replace(pushed, choice=choice).covariance[k, k])
+    width = np.sqrt(np.diag(find_covariance(pushed, choice))[k])
     wanted = t.ppf(0.975, posterior_draws.FREEDOM) if beside else norm.ppf(0.975)
     assert np.diff(np.quantile(drawn, [0.025, 0.975])) / 2.0 / width == pytest.approx(wanted, rel=0.12)
 
@@ -67,10 +74,9 @@ def test_draws_have_mean_and_deviation_of_the_mixture_over_all_choices(pushed, m
     own, shares_of = pushed.frame.own, find_shares(pushed)
     middle, within = np.zeros((2, len(choices), own))
     for i, choice in enumerate(choices):
-        other = replace(pushed, choice=choice)
         at = pushed.at + compute_step(pushed.frame, pushed.expansion, choice)[0]
         middle[i] = at[:own] + shares_of @ at
-        within[i] = pushed.scatter * np.diag(other.covariance)
+        within[i] = np.diag(find_covariance(pushed, choice))
     mean = shares @ middle
     deviation = np.sqrt(shares @ (within + (middle - mean) ** 2))
     drawn = draw_own(pushed, DRAWS, np.random.default_rng(1))
@@ -78,6 +84,19 @@ def test_draws_have_mean_and_deviation_of_the_mixture_over_all_choices(pushed, m
     for k in (names.index("c"), names.index("k")):
         assert drawn[:, k].mean() == pytest.approx(mean[k], abs=0.1 * deviation[k])
         assert drawn[:, k].std() == pytest.approx(deviation[k], rel=0.1)
+
+
+def test_an_unseen_damping_is_as_large_as_a_share_of_the_smooth_forces(pushed):
+    """A line over velocity of 1 N per half range changes the damping by 1 N over that: d log c = 1 / (c half)."""
+    frame, along = pushed.frame, find_along(pushed.frame, find_shares(pushed))
+    key = next(force.key for force in frame.forces if "velocity" in force.key)
+    half = float(frame.posterior.known[frame.posterior.system.index[f"{key}.half"]])
+    c = float(np.exp(pushed.theta[frame.names.index("c")]))
+    assert along[0, 0] == pytest.approx((c * half) ** -2, rel=0.05)
+    sizes = [force.sizes for force in frame.forces]
+    assert frame.measure_smooth((0, -1)) == sizes[0][0]
+    assert frame.measure_smooth((0, 3)) == pytest.approx(np.hypot(sizes[0][0], sizes[1][3]))
+    assert frame.measure_smooth((-1, -1)) == 0.0
 
 
 def test_laws_take_over_what_is_along_them_of_a_smooth_force(pushed):

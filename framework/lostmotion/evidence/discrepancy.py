@@ -145,6 +145,10 @@ class JointFrame:
                 found[force.columns] = force.options[option]
         return found[self.own :]
 
+    def measure_smooth(self, choice: Choice) -> float:
+        """Return the standard deviation of all smooth forces of a choice together (N or N m)."""
+        return math.hypot(*(f.sizes[option] for f, option in zip(self.forces, choice, strict=True) if option >= 0))
+
     def make_room(self, choice: Choice) -> list[Choice]:
         """Return choices that leave to a law what smooth forces explain, the given one first.
 

@@ -35,15 +35,18 @@ MOST_WAVES = 20
 class SmoothForce:
     """The coefficients of one smooth force: its key, its coordinates, and the prior widths (options, count).
 
-    `straight` (options,) is the number of constants and straight lines that the force may have, `bent` (options,
-    sizes) the options of the same length and each of `SIZES` without any, or itself where it has none.
+    `sizes` (options,) are the standard deviations of the force (N or N m). `straight` (options,) is the number of
+    constants and straight lines that it may have, `bent` (options, sizes) the options of the same length and each of
+    `SIZES` without any, or itself where it has none. `lines` are the coordinates of its constant and its straight line.
     """
 
     key: str
     columns: slice
     options: Array
+    sizes: Array
     straight: Array
     bent: NDArray[np.intp]
+    lines: slice
 
 
 def make_smooth_force(term: LearnedTerm, first: int, size: float, sizes: Sequence[float]) -> SmoothForce:
@@ -62,7 +65,8 @@ def make_smooth_force(term: LearnedTerm, first: int, size: float, sizes: Sequenc
     bent = np.array(
         [[made.index((other if lined else share, length, False)) for other in SIZES] for share, length, lined in made]
     )
-    return SmoothForce(key_of(term), slice(first, first + count), options, straight, bent)
+    sizes_of, lines = size * np.array([share for share, _, _ in made]), slice(first, first + term.plain)
+    return SmoothForce(key_of(term), slice(first, first + count), options, sizes_of, straight, bent, lines)
 
 
 def _list_options(sizes: Sequence[float]) -> list[tuple[float, float, bool]]:
