@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lostmotion.kernels.inner_states import follow_law
+from lostmotion.kernels.inner_states import FORCE, RATE, follow_law
 from lostmotion.kernels.joint_laws import FEW, FEW_SHARES, MANY, MANY_SHARES
 from lostmotion.likelihood.compose import compile_law
 from lostmotion.robots.arm import Column, make_law
@@ -30,56 +30,51 @@ def bristled(helpers):
     return helpers.make_arm(helpers.make_simulator(), helpers.record(BRISTLES))
 
 
-def plain_follow(term, numbers, x, cov, move, ends, push, hs):
+def plain_follow(term, numbers, x, cov, move, ends, row, push, hs):
     """Return state, covariance and transition after a law has acted, by matrices and calls of the term."""
     b, c, s, b2, c2 = ends
     see = np.zeros((3, len(x)))
     see[[0, 1, 2], [b, c, s]] = 1.0
     if b2 >= 0:
         see[[0, 1], [b2, c2]] = -1.0
-    x, cov, move = x.copy(), cov.copy(), move.copy()
-    for rate in (True, False):
 
-        def tell(q, v, z, rate=rate):
-            found = np.zeros(1)
-            term.rate(0.0, q, v, found, numbers, (z,), found)
-            return found[0] if rate else term.force(0.0, q, v, found, numbers, (z,))
+    def tell(q, v, z):
+        found = np.zeros(1)
+        term.rate(0.0, q, v, found, numbers, (z,), found)
+        return found[0] if row == RATE else term.force(0.0, q, v, found, numbers, (z,))
 
-        q, v, z = see @ x
-        q -= 0.5 * hs * v
-        sq, sv, sz = np.sqrt(np.diag(see @ cov @ see.T))
-        near = abs(v) < 6.0 * sv + 1e-9
-        nodes, shares = (MANY, MANY_SHARES) if near else (FEW, FEW_SHARES)
-        told = np.array([tell(q, v + sv * node, z) for node in nodes])
-        slopes = np.array([
-            (tell(q + sq, v, z) - tell(q - sq, v, z)) / (2.0 * sq),
-            shares @ (nodes * told) / sv,
-            (tell(q, v, z + sz) - tell(q, v, z - sz)) / (2.0 * sz),
-        ])  # fmt: skip
-        left = max(shares @ told**2 - (shares @ told) ** 2 - (slopes[1] * sv) ** 2, 0.0)
-        along = hs * np.eye(len(x))[s] if rate else push
-        step = np.eye(len(x)) + np.outer(along, slopes @ see)
-        x, cov, move = x + along * (shares @ told), step @ cov @ step.T + left * np.outer(along, along), step @ move
-    return x, cov, move
+    q, v, z = see @ x
+    q -= 0.5 * hs * v
+    sq, sv, sz = np.sqrt(np.diag(see @ cov @ see.T))
+    near = abs(v) < 6.0 * sv + 1e-9
+    nodes, shares = (MANY, MANY_SHARES) if near else (FEW, FEW_SHARES)
+    told = np.array([tell(q, v + sv * node, z) for node in nodes])
+    slopes = np.array([
+        (tell(q + sq, v, z) - tell(q - sq, v, z)) / (2.0 * sq),
+        shares @ (nodes * told) / sv,
+        (tell(q, v, z + sz) - tell(q, v, z - sz)) / (2.0 * sz),
+    ])  # fmt: skip
+    left = max(shares @ told**2 - (shares @ told) ** 2 - (slopes[1] * sv) ** 2, 0.0)
+    step = np.eye(len(x)) + np.outer(push, slopes @ see)
+    return x + push * (shares @ told), step @ cov @ step.T + left * np.outer(push, push), step @ move
 
 
+@pytest.mark.parametrize("row", [RATE, FORCE])
 @pytest.mark.parametrize("ends", [(1, 3, 6, -1, -1), (4, 5, 6, 1, 3)])
 @pytest.mark.parametrize("speed", [0.0, 0.003, 0.4])
-def test_the_kernel_is_its_slow_twin(ends, speed):
+def test_the_kernel_is_its_slow_twin(ends, speed, row):
     rng = np.random.default_rng(0)
     term, hs, size = BoucWenHysteresis(at="elbow.gear"), 5e-4, 7
     x, root = rng.normal(0.0, 0.02, size), 1e-3 * rng.standard_normal((size, size))
     x[ends[1]] = speed
     cov, push, move = root @ root.T, rng.normal(0.0, hs, size), np.eye(size)
-    push[ends[2]] = 0.0
     law, values = make_law(term), np.array([0.8, 2e-3, 0.0])
-    table = (
-        np.array([compile_law(law, 0)[0]]), np.array([0]), np.array([3]), np.array([0, 0, 2]), values,
-    )  # fmt: skip
-    found, told, pushes = [x.copy(), cov.copy(), move.copy()], (0.8, 2e-3, hs), np.zeros((size, 4))
+    table = np.array([compile_law(law, 0)[0]]), np.array([0]), np.array([3]), np.array([0, 0, 2]), values
+    found, pushes = [x.copy(), cov.copy(), move.copy()], np.zeros((size, 4))
     desks = np.zeros((16, 32)), np.zeros((8, 32)), np.zeros((2, size))
-    follow_law(0.0, *found, pushes, True, np.array(ends), push, hs, 0, table, *desks)
-    for one, other in zip(found, plain_follow(term, told, x, cov, move, ends, push, hs), strict=True):
+    follow_law(0.0, *found, pushes, True, np.array(ends), row, push, hs, 0, table, *desks)
+    wanted = plain_follow(term, (0.8, 2e-3, hs), x, cov, move, ends, row, push, hs)
+    for one, other in zip(found, wanted, strict=True):
         assert np.abs(one - other).max() < 1e-12 * max(1.0, np.abs(other).max())
 
 

@@ -16,7 +16,7 @@ import math
 
 import numpy as np
 
-from lostmotion.kernels.inner_states import follow_law
+from lostmotion.kernels.inner_states import FORCE, RATE, follow_law, place_law
 from lostmotion.kernels.joint_laws import average_laws, clip_moments
 from lostmotion.kernels.stored import stored
 from lostmotion.kernels.vector import STRIDE
@@ -112,6 +112,13 @@ def filter_chain(  # type: ignore[no-untyped-def]
         hs = dt / steps
         for s in range(steps):
             off = ((s + 0.5) / steps - 0.5) * dt
+            for a in range(len(joints)):
+                if slots[a] >= 0:
+                    place_law(ends, joints[a], n, motors[joints[a]], slots[a], between[a])
+                    g[:] = 0.0
+                    g[slots[a]] = hs
+                    now = begin + (k + s / steps) * dt
+                    follow_law(now, x, P, F, E, keep, ends, RATE, g, hs, a, table, own, desk, room)
             for i in range(n):
                 r = tau[k, i] - h[k, i]
                 for b in range(L):
@@ -313,7 +320,7 @@ def filter_chain(  # type: ignore[no-untyped-def]
                     continue
                 i = joints[a]
                 w = motors[i]
-                ends[0], ends[1], ends[2], ends[3], ends[4] = i, n + i, slots[a], -1, -1
+                place_law(ends, i, n, w, slots[a], between[a])
                 g[:] = 0.0
                 if w < 0 or between[a]:
                     sign = 1.0 if w < 0 else -1.0
@@ -323,11 +330,8 @@ def filter_chain(  # type: ignore[no-untyped-def]
                 if w >= 0:
                     g[w + 1] = hs * gears[i, 3]
                     g[w] = 0.5 * hs * g[w + 1]
-                    ends[0], ends[1] = w, w + 1
-                    if between[a]:
-                        ends[3], ends[4] = i, n + i
                 now = begin + (k + (s + 0.5) / steps) * dt
-                follow_law(now, x, P, F, E, keep, ends, g, hs, a, table, own, desk, room)
+                follow_law(now, x, P, F, E, keep, ends, FORCE, g, hs, a, table, own, desk, room)
         if keep:
             moves[k] = F
             pushes[k] = E

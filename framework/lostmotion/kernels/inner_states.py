@@ -99,42 +99,39 @@ def combine_rows(M, ends, slopes, found):  # type: ignore[no-untyped-def]
 
 
 @stored(nogil=True, error_model="numpy")
-def follow_law(t, x, P, F, E, keep, ends, push, hs, a, table, own, desk, room):  # type: ignore[no-untyped-def]
-    """Move the inner state of law `a` by a step, then let its force act, both averaged over the uncertainty.
+def place_law(ends, joint, links, motor, slot, between):  # type: ignore[no-untyped-def]
+    """Write the states of a law at a joint of `links` joints, whose motor has the place `motor` or -1, into `ends`."""
+    ends[0], ends[1], ends[2], ends[3], ends[4] = joint, links + joint, slot, -1, -1
+    if motor >= 0:
+        ends[0], ends[1] = motor, motor + 1
+        if between:
+            ends[3], ends[4] = joint, links + joint
 
-    `push` (L,) is what a unit force changes in the state `x` within the step. The force is that of the new inner state:
-    a spring of bristles keeps its energy then. With `keep` the transitions `F` and `E` follow. `room` (2, wide) is
-    overwritten.
+
+@stored(nogil=True, error_model="numpy")
+def follow_law(t, x, P, F, E, keep, ends, row, push, hs, a, table, own, desk, room):  # type: ignore[no-untyped-def]
+    """Add a row of the desk of law `a`, averaged over the uncertainty, to the state `x` along `push` (L,).
+
+    For `RATE` that is its inner state, before a step; for `FORCE` the velocities, after it. So the inner state is that
+    in the middle of the step (leapfrog: Hairer, Lubich, Wanner, Acta Numerica 12 (2003) 399-450). With `keep` the
+    transitions `F` and `E` follow. `room` (2, wide) is overwritten.
     """
-    L, s = len(x), ends[2]
+    L = len(x)
     means, spreads, slopes = np.zeros(3), np.zeros(3), np.zeros(3)
     d, more = room[0], room[1]
-    for row in (RATE, FORCE):
-        see_motion(x, P, ends, hs, means, spreads)
-        mean, left = average_law(t, means, spreads, row, a, hs, table, own, desk, slopes)
-        combine_rows(P, ends, slopes, d)
-        inner = slopes[0] * d[ends[0]] + slopes[1] * d[ends[1]] + slopes[2] * d[s] + left
-        if ends[3] >= 0:
-            inner -= slopes[0] * d[ends[3]] + slopes[1] * d[ends[4]]
-        if row == RATE:
-            x[s] += hs * mean
-            for j in range(L):
-                P[s, j] += hs * d[j]
-            for j in range(L):
-                P[j, s] += hs * d[j]
-            P[s, s] += hs * hs * inner
-        else:
-            for i in range(L):
-                x[i] += push[i] * mean
-                for j in range(L):
-                    P[i, j] += push[i] * d[j] + d[i] * push[j] + inner * push[i] * push[j]
-        if not keep:
-            continue
+    see_motion(x, P, ends, hs, means, spreads)
+    mean, left = average_law(t, means, spreads, row, a, hs, table, own, desk, slopes)
+    combine_rows(P, ends, slopes, d)
+    inner = slopes[0] * d[ends[0]] + slopes[1] * d[ends[1]] + slopes[2] * d[ends[2]] + left
+    if ends[3] >= 0:
+        inner -= slopes[0] * d[ends[3]] + slopes[1] * d[ends[4]]
+    for i in range(L):
+        x[i] += push[i] * mean
+        for j in range(L):
+            P[i, j] += push[i] * d[j] + d[i] * push[j] + inner * push[i] * push[j]
+    if keep:
         for M in (F, E):
             combine_rows(M, ends, slopes, more)
-            for j in range(M.shape[1]):
-                if row == RATE:
-                    M[s, j] += hs * more[j]
-                else:
-                    for i in range(L):
-                        M[i, j] += push[i] * more[j]
+            for i in range(L):
+                for j in range(M.shape[1]):
+                    M[i, j] += push[i] * more[j]

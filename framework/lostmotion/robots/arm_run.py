@@ -168,7 +168,7 @@ def _make_output(
     worst = max(rows, key=lambda row: row.random_after / row.torque)
     left = worst.random_after
     changes = list_changes(found, search)
-    stepped = measure_written(nominal, best, simulator, changes, case.known)
+    stepped = measure_written(best, runs, simulator, changes, case.known)
     steps = measure_steps(nominal, simulator)
     written = simulator.write_found(changes, case.known)
     result = RobotDiagnosis(

@@ -13,8 +13,9 @@ from lostmotion.results.robots import WrittenModel
 from lostmotion.robots.arm_effects import LawEffect
 from lostmotion.robots.arm_hypothesis import ArmHypothesis
 from lostmotion.robots.arm_search import ArmSearch
-from lostmotion.robots.free_runs import HORIZON, predict_heldout
+from lostmotion.robots.free_runs import HORIZON
 from lostmotion.robots.law_text import write_law
+from lostmotion.robots.refutation import ToldRuns
 from lostmotion.simulators import FoundMechanism, Simulator
 
 DRIVE = ".torque"
@@ -22,8 +23,8 @@ DRIVE = ".torque"
 
 
 def measure_written(
-    nominal: ArmHypothesis,
     best: ArmHypothesis,
+    runs: ToldRuns,
     simulator: Simulator,
     found: Sequence[FoundMechanism],
     known: Mapping[str, float],
@@ -55,7 +56,7 @@ def measure_written(
         shown[begin + 1 : begin + length] = run[:-1, joints]
     readings = log.readings[first:, places]
     nrmse = np.sqrt(np.nanmean((readings - shown) ** 2, axis=0)) / np.nanstd(readings, axis=0)
-    before, after = (float(np.mean(predict_heldout(one, alone=True).nrmse)) for one in (nominal, best))
+    before, after = (float(np.mean(one.nrmse)) for one in (runs.before_alone, runs.after_alone))
     error = float(np.mean(nrmse))
     return WrittenModel(before, after, error, (before - error) / max(before - after, 1e-300))
 
