@@ -245,9 +245,8 @@ def find_unused_reasons(results: Iterable[Result], reasons: Reasons) -> list[str
 
 
 def write_arms(results: Sequence[Result], _: Reasons) -> str:
-    """Return the table of the trials on arms, a column for each."""
-    arms = [r for r in results if r.set in ARMS]
-    lines = {
+    """Return the table of the trials on arms, a row for each."""
+    counts = {
         "joint and physics right, of the effects that gain more than 30": lambda r: count_arms(
             [row for row in r if row["hidden"] and row["gain"] > CLEAR], RIGHT, MORE),
         "of all hidden effects": lambda r: count_arms(take_hiding(r), RIGHT, MORE),
@@ -257,12 +256,13 @@ def write_arms(results: Sequence[Result], _: Reasons) -> str:
         "arms without an effect that have a name": lambda r: count_arms([x for x in r if not x["hidden"]], FALSE),
         "95 % intervals of named sizes that hold the truth": count_sizes,
     }  # fmt: skip
-    rows = [[what, *(format_rate(count(r.rows)) for r in arms)] for what, count in lines.items()]
-    times = [sorted(row["cpu"] for row in r.rows if row["cpu"] is not None) for r in arms]
-    rows.append(["processor s: median, largest", *map(format_seconds, times)])
-    rows.insert(0, ["command", *(f"`{r.commands[0]}`" for r in arms)])
-    rows.insert(1, ["version, date", *(f"`{r.code}`, {r.date}{mark(r)}" for r in arms)])
-    return make_table(("", *(f"`{r.name}`" for r in arms)), rows)
+    rows = []
+    for r in (r for r in results if r.set in ARMS):
+        asked = r.commands[0].removeprefix("lostmotion prove ").replace("--world arms ", "").replace(" --out OUT", "")
+        times = format_seconds(sorted(row["cpu"] for row in r.rows if row["cpu"] is not None))
+        rates = (format_rate(count(r.rows)) for count in counts.values())
+        rows.append([f"`{r.name}`", f"`{asked}`", f"`{r.code}`, {r.date}{mark(r)}", *rates, times])
+    return make_table(("trial", "options", "version, date", *counts, "processor s: median, largest"), rows)
 
 
 def take_hiding(rows: Iterable[dict]) -> list[dict]:
