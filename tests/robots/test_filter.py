@@ -11,7 +11,7 @@ from lostmotion.robots.arm_effects import measure_scales
 from lostmotion.robots.arm_preparation import make_arm
 from lostmotion.robots.gears import Gear
 from lostmotion.robots.soft_friction import SOFT_FRICTION
-from lostmotion_plugins.terms.friction import CoulombFriction
+from lostmotion_plugins.terms.friction import CoulombFriction, StribeckFriction
 from lostmotion_plugins.terms.friction_kinds import FrictionDrift
 from lostmotion_trials.integrators.arm import Arm
 
@@ -167,6 +167,22 @@ def test_a_law_takes_fine_steps_where_it_is_steep(make, monkeypatch):
         monkeypatch.setattr(TapedArm, "count_steps", lambda *_: LAW_STEPS)
         assert abs(arm.filter(values, (term,), LEVELS).seen.log_likelihood - told) < 2.0
         monkeypatch.undo()
+
+
+def test_laws_act_at_the_velocity_in_the_middle_of_a_step(make, monkeypatch):
+    """At that after a step, the Stribeck velocity of friction was 1.2 % larger than with four times as many steps."""
+    arm = make(Arm(friction=np.array([0.0, 0.3]), excess=np.array([0.0, 0.2]), stribeck=np.array([0.05, 0.15])))
+    names = [f"stribeck_friction@elbow.{name}" for name in ("force", "excess", "velocity")]
+    term, places, found = StribeckFriction(at="elbow"), np.array([0.147, 0.157, 0.167]), []
+    for steps in (LAW_STEPS, 4 * LAW_STEPS):
+        monkeypatch.setattr("lostmotion.robots.arm.LAW_STEPS", steps)
+        told = [
+            arm.filter(dict(zip(names, (0.3, 0.2, v), strict=True)), (term,), LEVELS).seen.log_likelihood
+            for v in places
+        ]
+        bend, slope, _ = np.polyfit(places - places[1], told, 2)
+        found.append(places[1] - 0.5 * slope / bend)
+    assert found[0] == pytest.approx(found[1], rel=0.005)
 
 
 def test_a_run_that_begins_later_has_the_clock_of_the_log(empty):

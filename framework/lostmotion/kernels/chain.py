@@ -286,8 +286,8 @@ def filter_chain(  # type: ignore[no-untyped-def]
                 ease = W[k, i, i] if w < 0 else gears[i, 3]
                 sq, sv = math.sqrt(max(P[b, b], 1e-24)), math.sqrt(max(P[c, c], 1e-24))
                 mean, slant, slope, left = average_laws(
-                    begin + (k + (s + 0.5) / steps) * dt, x[b] - 0.5 * hs * x[c], x[c], sq, sv, i, hs * ease, hs,
-                    joints, slots, addresses, firsts, widths, needs, numbers, own, desk)  # fmt: skip
+                    begin + (k + (s + 0.5) / steps) * dt, x[b] - 0.5 * hs * x[c], x[c], hs * f[c], sq, sv, i,
+                    hs * ease, hs, joints, slots, addresses, firsts, widths, needs, numbers, own, desk)  # fmt: skip
                 for a in range(L):
                     g[a] = 0.0
                 if w < 0:

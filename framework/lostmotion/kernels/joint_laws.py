@@ -57,11 +57,12 @@ def fill_numbers(a, lanes, mobility, step, firsts, widths, needs, numbers, own):
 
 @stored(nogil=True, error_model="numpy")
 def average_laws(  # type: ignore[no-untyped-def]
-    t, q, v, sq, sv, j, mobility, step, joints, slots, addresses, firsts, widths, needs, numbers, own, desk
+    t, q, v, gained, sq, sv, j, mobility, step, joints, slots, addresses, firsts, widths, needs, numbers, own, desk
 ):  # fmt: skip
     """Return the mean force of the laws of a joint, its slopes over position and velocity, and its variance.
 
-    Laws with an inner state, in one of the `slots` of the state, do not count.
+    `v` is the velocity after a step, of which `gained` has been gained in it: far from rest, laws act at the velocity
+    in the middle. Laws with an inner state, in one of the `slots` of the state, do not count.
     """
     spread = 6.0 * sv
     near = abs(v) < spread + 1e-9
@@ -70,6 +71,8 @@ def average_laws(  # type: ignore[no-untyped-def]
             for b in range(widths[a]):
                 if needs[firsts[a] + b] == 1 and abs(v) < spread + 3.0 * mobility * abs(numbers[firsts[a]]):
                     near = True
+    if not near:
+        v -= 0.5 * gained
     count = len(MANY) if near else len(FEW)
     lanes = count + 2
     for o in range(lanes):
