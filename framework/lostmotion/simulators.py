@@ -12,11 +12,16 @@ INVERSE = "inverse"
 """The key of a simulation that is a function of the user, in `[model]` of a case."""
 
 
+RATE = "_rate"
+"""The end of the name of the function of rates."""
+
+
 class FoundMechanism(NamedTuple):
     """A mechanism that a machine lacks: its name, its place, its parameters (SI), and what it is in a sentence.
 
     `law` is the text of a function of Python, `name(t, x, v, u, p, s)` with the parameters p and after them what it
-    `needs` of the machine (`Term.needs`); empty where the mechanism is no law of one joint.
+    `needs` of the machine (`Term.needs`); empty where the mechanism is no law of one joint. `rate` is that of
+    `name_rate(t, x, v, u, p, s, dsdt)`, which writes the rate of its inner state; empty without one.
     """
 
     mechanism: str
@@ -25,6 +30,7 @@ class FoundMechanism(NamedTuple):
     says: str
     law: str = ""
     needs: tuple[str, ...] = ()
+    rate: str = ""
 
 
 class FoundFiles(NamedTuple):

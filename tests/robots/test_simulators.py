@@ -8,7 +8,7 @@ import pytest
 from lostmotion_template.simulators import TwoLink
 
 from lostmotion import testing
-from lostmotion.robots.law_text import write_law
+from lostmotion.robots.law_text import write_law, write_rate
 from lostmotion.simulators import FoundMechanism
 
 mujoco = pytest.importorskip("mujoco", reason="MJCF and URDF need the extra mujoco")
@@ -125,11 +125,27 @@ def test_hysteresis_in_a_gear_is_a_spring_with_dry_friction():
     assert any("MJCF has no hysteresis" in note for note in files.notes)
 
 
-def test_friction_through_bristles_is_written_as_its_sliding_level():
-    bristles = FoundMechanism("dahl_friction", "elbow", {"force": 0.3, "deflection": 2e-3}, "Bristles.")
-    files = MujocoSimulator().write_found((bristles,), {})
-    assert np.allclose(mujoco.MjModel.from_xml_string(files.model).dof_frictionloss, [0.0, 0.3])
-    assert any("elastic before it slides" in note for note in files.notes)
+def test_friction_through_bristles_is_a_callback_with_a_memory(registry):
+    """A joint that is pushed by less than the friction moves by the bend of the bristles, and stays there.
+
+    With the force F of the bristles and their travel d, a push P bends them by d log(1 / (1 - P / F)) (Dahl, 1976).
+    """
+    force, travel, push = 2.0, 2e-3, 1.0
+    term = registry.make("term", "dahl_friction")
+    values = {"force": force, "deflection": travel}
+    dahl = FoundMechanism("dahl_friction", "elbow", values, "Bristles.", write_law(term), term.needs, write_rate(term))
+    hanging = np.array([[-0.5 * np.pi, 0.0]])
+    steps = np.linspace(0.0, 1.0, 1000)
+    torque = np.zeros((1, 1500, 2))
+    torque[0, :, 1] = push * np.concatenate([steps, np.ones(500)])
+    held = FoundMechanism("viscous_damping", "elbow", {"coefficient": 200.0}, "Slow.")
+    machine = MujocoSimulator().with_found((dahl, held), {})
+    for _ in range(2):  # the bristles of a second run are straight again
+        q, _v = machine.roll(hanging, np.zeros((1, 2)), torque, 0.002, step=5e-4)
+        gravity = 9.81 * 2.0 * 0.15
+        bent = float(q[0, -1, 1])
+        left = push - gravity * np.sin(bent)
+        assert bent == pytest.approx(travel * np.log(1.0 / (1.0 - left / force)), rel=0.05)
 
 
 def test_a_floating_base_is_refused_in_words(tmp_path):

@@ -14,7 +14,7 @@ from lostmotion.robots.arm_effects import LawEffect
 from lostmotion.robots.arm_hypothesis import ArmHypothesis
 from lostmotion.robots.arm_search import ArmSearch
 from lostmotion.robots.free_runs import HORIZON
-from lostmotion.robots.law_text import write_law
+from lostmotion.robots.law_text import write_law, write_rate
 from lostmotion.robots.refutation import ToldRuns
 from lostmotion.simulators import FoundMechanism, Simulator
 
@@ -87,4 +87,4 @@ def _make_change(m: Mechanism, law: Term | None) -> FoundMechanism:
     if law is None:
         return FoundMechanism(m.mechanism, m.at, values, m.says)
     ordered = {q.name: values[q.name] for q in law.params}
-    return FoundMechanism(m.mechanism, m.at, ordered, m.says, write_law(law), law.needs)
+    return FoundMechanism(m.mechanism, m.at, ordered, m.says, write_law(law), law.needs, write_rate(law))

@@ -18,6 +18,7 @@ STIFF = (2.0 * FINE, 1.0)
 """Time constant (s) and damping ratio of friction and limits: MuJoCo takes two steps for the shortest time constant."""
 MARK = "found by lostmotion"
 GEAR = "_gear"
+GEAR_PLACE, HYSTERESIS = ".gear", "bouc_wen_hysteresis"
 """The end of the name of a joint between motor and link."""
 
 
@@ -62,7 +63,8 @@ class _Writer:
 
     def apply(self, one: FoundMechanism) -> None:
         """Change the spec by one finding, or note that MJCF cannot express it."""
-        change = getattr(self, f"_add_{one.mechanism}", None)
+        within = one.at.endswith(GEAR_PLACE) and one.mechanism == HYSTERESIS
+        change = self._add_hysteretic_gear if within else getattr(self, f"_add_{one.mechanism}", None)
         if change is None and one.law and self.spec.joint(one.at) is not None:
             self.called.append(one)
             self._refine()
@@ -94,20 +96,6 @@ class _Writer:
     def _add_stribeck_friction(self, one: FoundMechanism) -> None:
         self._add_coulomb_friction(one)
         self.notes.append("MJCF has no friction that rises towards rest: only its sliding level is written.")
-
-    def _add_dahl_friction(self, one: FoundMechanism) -> None:
-        self._add_coulomb_friction(one)
-        self.notes.append("MJCF has no friction that is elastic before it slides: only its sliding level is written.")
-
-    _add_lugre_friction = _add_dahl_friction
-
-    def _add_bouc_wen_hysteresis(self, one: FoundMechanism) -> None:
-        if one.at.endswith(".gear"):
-            gear = self._add_joint_elasticity(one)
-            gear.frictionloss, gear.solref_friction = one.values["force"], STIFF
-            self.notes.append("MJCF has no hysteresis: dry friction in the gear of the same force takes its place.")
-        else:
-            self._add_dahl_friction(one)
 
     def _add_linear_stiffness(self, one: FoundMechanism) -> None:
         joint, more = self.spec.joint(one.at), one.values["coefficient"]
@@ -156,18 +144,23 @@ class _Writer:
 
     def _add_gear(self, one: FoundMechanism) -> Any:
         """Return a second joint between motor and link, with the axis of the first one."""
-        motor = self.spec.joint(one.at.removesuffix(".gear"))
+        motor = self.spec.joint(one.at.removesuffix(GEAR_PLACE))
         self._refine()
         return motor.parent.add_joint(
             name=f"{motor.name}{GEAR}", type=motor.type, axis=motor.axis, pos=motor.pos, armature=0.0
         )
 
     def _add_joint_elasticity(self, one: FoundMechanism) -> Any:
-        motor, gear = self.spec.joint(one.at.removesuffix(".gear")), self._add_gear(one)
+        motor, gear = self.spec.joint(one.at.removesuffix(GEAR_PLACE)), self._add_gear(one)
         _set_first(gear, "stiffness", one.values["stiffness"])
         loss = 2.0 * one.values["damping_ratio"] * math.sqrt(one.values["stiffness"] * motor.armature)
         _set_first(gear, "damping", loss)
         return gear
+
+    def _add_hysteretic_gear(self, one: FoundMechanism) -> None:
+        gear = self._add_joint_elasticity(one)
+        gear.frictionloss, gear.solref_friction = one.values["force"], STIFF
+        self.notes.append("MJCF has no hysteresis: dry friction in the gear of the same force takes its place.")
 
     def _add_backlash(self, one: FoundMechanism) -> None:
         gear = self._add_gear(one)
