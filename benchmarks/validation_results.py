@@ -102,9 +102,14 @@ def read_reasons(folder: Path = RESULTS) -> dict[tuple[str, str], str]:
 
 
 def choose_newest(results: Iterable[Result]) -> list[Result]:
-    """Return the judged results of the newest version that has any; `results` begin with the newest."""
+    """Return the judged results of the newest version with machines that hide something and that hide nothing.
+
+    Without such a version they are those of the newest one; `results` begin with the newest.
+    """
     judged = [r for r in results if r.judged]
-    return [r for r in judged if r.code == judged[0].code]
+    sets = {code: {r.set for r in judged if r.code == code} for code in (r.code for r in judged)}
+    whole = [code for code, names in sets.items() if names >= {"clean", "imperfect"}]
+    return [r for r in judged if r.code == (*whole, *sets)[0]]
 
 
 def count_rows(rows: Sequence[dict]) -> Counts:

@@ -102,7 +102,7 @@ class ArmSearch:
             if len(target.terms) > 1:
                 self.drop_each(target)
         self.drop_each(self.best)
-        while self.swap_each(self.best):
+        while not self.budget.spent and self.swap_each(self.best):
             self.drop_each(self.best)
         for target in sorted(self.found.values(), key=lambda one: -one.score(self.temper))[:2]:
             self.weigh_unknown(target)
