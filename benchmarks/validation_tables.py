@@ -66,7 +66,8 @@ def write_version(results: Sequence[Result], _: Reasons) -> str:
     commands = dict.fromkeys(f"`{command}`" for r in newest for command in r.commands)
     machines = sum(len(r.rows) for r in newest)
     return (
-        f"The newest results with and without hidden effects are of version `{newest[0].code}`, committed on {newest[0].committed[:10]}: {machines}"
+        "The newest results with and without hidden effects are of version"
+        f" `{newest[0].code}`, committed on {newest[0].committed[:10]}: {machines}"
         f" machines, run on {newest[0].date}. In a checkout of this version they are repeated by {', '.join(commands)}."
     )
 
