@@ -12,6 +12,8 @@ INVERSE = "inverse"
 """The key of a simulation that is a function of the user, in `[model]` of a case."""
 
 
+AT_GEAR = ".gear"
+"""The end of the name of the place between motor and link: `elbow.gear`."""
 RATE = "_rate"
 """The end of the name of the function of rates."""
 

@@ -16,10 +16,8 @@ WRONG = {
 
 def test_a_lag_is_swapped_for_a_delay_and_a_rich_law_for_its_simpler_form(helpers, registry):
     machine = Arm(friction=np.array([0.8, 0.0]), delay=np.array([0.0, 0.004]))
-    arm, terms = (
-        helpers.make_arm(helpers.make_simulator(), helpers.record(machine)),
-        [registry.make("term", name) for name in LAWS],
-    )
+    arm = helpers.make_arm(helpers.make_simulator(), helpers.record(machine))
+    terms = [registry.make("term", name) for name in LAWS]
     search, start = prepare_search(arm, helpers.make_simulator(), terms, {}, SearchOptions())
     search.weigh((), [start])
     effects = {e.key: e for e in search.screen.effects}

@@ -17,7 +17,7 @@ import math
 import numpy as np
 
 from lostmotion.kernels.inner_states import FORCE, RATE, follow_law, place_law
-from lostmotion.kernels.joint_laws import average_laws, clip_moments
+from lostmotion.kernels.joint_laws import average_laws, clip_moments, find_push
 from lostmotion.kernels.stored import stored
 from lostmotion.kernels.vector import STRIDE
 
@@ -288,15 +288,7 @@ def filter_chain(  # type: ignore[no-untyped-def]
                 mean, slant, slope, left = average_laws(
                     begin + (k + (s + 0.5) / steps) * dt, x[b] - 0.5 * hs * x[c], x[c], hs * f[c], sq, sv, i,
                     hs * ease, hs, joints, slots, addresses, firsts, widths, needs, numbers, own, desk)  # fmt: skip
-                for a in range(L):
-                    g[a] = 0.0
-                if w < 0:
-                    for a in range(n):
-                        g[n + a] = hs * W[k, a, i]
-                        g[a] = 0.5 * hs * g[n + a]
-                else:
-                    g[w + 1] = hs * ease
-                    g[w] = 0.5 * hs * g[w + 1]
+                find_push(g, k, W, i, w, gears[i, 3], hs, False)
                 bends[i] = abs(slope) * ease * dt
                 inner = slant * slant * P[b, b] + 2.0 * slant * slope * P[b, c] + slope * slope * P[c, c] + left
                 for a in range(L):
@@ -321,15 +313,7 @@ def filter_chain(  # type: ignore[no-untyped-def]
                 i = joints[a]
                 w = motors[i]
                 place_law(ends, i, n, w, slots[a], between[a])
-                g[:] = 0.0
-                if w < 0 or between[a]:
-                    sign = 1.0 if w < 0 else -1.0
-                    for b in range(n):
-                        g[n + b] = sign * hs * W[k, b, i]
-                        g[b] = 0.5 * hs * g[n + b]
-                if w >= 0:
-                    g[w + 1] = hs * gears[i, 3]
-                    g[w] = 0.5 * hs * g[w + 1]
+                find_push(g, k, W, i, w, gears[i, 3], hs, between[a])
                 now = begin + (k + (s + 0.5) / steps) * dt
                 follow_law(now, x, P, F, E, keep, ends, FORCE, g, hs, a, table, own, desk, room)
         if keep:

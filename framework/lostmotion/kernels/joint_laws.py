@@ -55,6 +55,25 @@ def fill_numbers(a, lanes, mobility, step, firsts, widths, needs, numbers, own):
             own[b, o] = number
 
 
+@stored(nogil=True, error_model="numpy", forceinline=True)
+def find_push(push, k, W, joint, motor, light, hs, between):  # type: ignore[no-untyped-def]
+    """Write what a unit force at a joint changes in the state within a step of sample `k` into `push` (L,).
+
+    It acts on the link, or on the `motor` (its place in the state, or -1) of mobility `light`; a force `between` both
+    acts on the link in the opposite direction.
+    """
+    n = W.shape[1]
+    push[:] = 0.0
+    if motor < 0 or between:
+        sign = 1.0 if motor < 0 else -1.0
+        for a in range(n):
+            push[n + a] = sign * hs * W[k, a, joint]
+            push[a] = 0.5 * hs * push[n + a]
+    if motor >= 0:
+        push[motor + 1] = hs * light
+        push[motor] = 0.5 * hs * push[motor + 1]
+
+
 @stored(nogil=True, error_model="numpy")
 def average_laws(  # type: ignore[no-untyped-def]
     t, q, v, gained, sq, sv, j, mobility, step, joints, slots, addresses, firsts, widths, needs, numbers, own, desk

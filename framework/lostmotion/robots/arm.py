@@ -24,9 +24,10 @@ from lostmotion.likelihood.innovations import Innovations
 from lostmotion.likelihood.plan import Law
 from lostmotion.parts import Array, Param, Values
 from lostmotion.quantities import FORCE
-from lostmotion.robots.gears import AT, Gear
+from lostmotion.robots.gears import Gear
 from lostmotion.robots.log import RobotLog, average_neighbours
 from lostmotion.robots.tape import Part, Tape
+from lostmotion.simulators import AT_GEAR
 
 Whole = NDArray[np.int64]
 NEEDS = {"angle": 0, "mobility": 1, "step": 2, "finest": 2, "inertia": 3}
@@ -167,15 +168,20 @@ class TapedArm:
         self._cache[key] = made_now
         return made_now
 
-    def count_steps(self, gears: Mapping[int, Gear], bristles: Mapping[int, float] | None = None) -> int:
+    @cached_property
+    def _mobility(self) -> Array:
+        """One over the inertia of each link (n,), that of the first sample."""
+        return np.diag(np.linalg.inv(self.tape.mass[0]))
+
+    def count_steps(self, gears: Mapping[int, Gear], bristles: Mapping[int, float]) -> int:
         """Return the number of steps of the filter within a sample that springs need.
 
         They are those of gears and of laws with an inner state: `bristles` are the stiffnesses of these, by joint.
         """
-        steps, mobility = 1, np.diag(np.linalg.inv(self.tape.mass[0]))
-        for j in {*gears, *(bristles or {})}:
-            stiff = (gears[j].stiffness if j in gears else 0.0) + (bristles or {}).get(j, 0.0)
-            light = mobility[j] + (1.0 / self.values[f"{self.joints[j]}.armature"] if j in gears else 0.0)
+        steps = 1
+        for j in {*gears, *bristles}:
+            stiff = (gears[j].stiffness if j in gears else 0.0) + bristles.get(j, 0.0)
+            light = self._mobility[j] + (1.0 / self.values[f"{self.joints[j]}.armature"] if j in gears else 0.0)
             steps = max(steps, math.ceil(math.sqrt(stiff * light) * self.log.dt / FASTEST))
         return min(steps, MOST_STEPS)
 
@@ -199,7 +205,7 @@ class TapedArm:
         replace those of the log; `start` is a first sample, with the mean and covariance of the state there.
         """
         log, gears = self.log, dict(gears or {})
-        laws = [(t, self.joints.index(t.at.removesuffix(AT))) for t in terms if not isinstance(t, DriveTerm)]
+        laws = [(t, self.joints.index(t.at.removesuffix(AT_GEAR))) for t in terms if not isinstance(t, DriveTerm)]
         table = self._list_laws(laws, values, 2 * len(self.joints) + 2 * len(gears))
         coarse = self.count_steps(gears, _measure_bristles(laws, values))
         fine = max(coarse, LAW_STEPS) if len(table.joints) else coarse
@@ -275,7 +281,7 @@ class TapedArm:
         return _LawTable(
             np.array([j for _, j, _ in rows], dtype=np.int64),
             np.where(inner > 0, states + np.cumsum(inner) - 1, -1),
-            np.array([term.at.endswith(AT) for term, *_ in rows], dtype=np.bool_),
+            np.array([term.at.endswith(AT_GEAR) for term, *_ in rows], dtype=np.bool_),
             np.array([compile_law(law, 0)[0] for law in made], dtype=np.int64),
             firsts.astype(np.int64),
             np.array(widths, dtype=np.int64),

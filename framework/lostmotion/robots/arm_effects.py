@@ -22,8 +22,9 @@ from lostmotion.likelihood.compose import compile_law
 from lostmotion.parts import Array, Param
 from lostmotion.quantities import FORCE, INERTIA, LENGTH, NUMBER, STIFFNESS, TIME, Dimension
 from lostmotion.robots.arm import KNOWN_NEEDS, Column, TapedArm, make_law
-from lostmotion.robots.gears import AT, ELASTICITY, USUAL_DAMPING, Gear, GearLaw
+from lostmotion.robots.gears import ELASTICITY, USUAL_DAMPING, Gear, GearLaw
 from lostmotion.robots.tape import Path
+from lostmotion.simulators import AT_GEAR
 
 UNSURE = 1.5
 """Standard deviation of the logarithm of a parameter that is known by its order of magnitude."""
@@ -250,7 +251,7 @@ class GearEffect:
     @property
     def at(self) -> str:
         """The place."""
-        return f"{self.arm.joints[self.joint]}{AT}"
+        return f"{self.arm.joints[self.joint]}{AT_GEAR}"
 
     @property
     def key(self) -> str:

@@ -14,8 +14,6 @@ from lostmotion.defaults import HYSTERETIC, PLAY
 
 USUAL_DAMPING = 0.05
 """Usual damping ratio of the motor on the stiffness of its gear."""
-AT = ".gear"
-"""The end of the name of the place between motor and link: `elbow.gear`."""
 
 
 @dataclass(frozen=True)

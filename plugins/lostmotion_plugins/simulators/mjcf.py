@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from lostmotion.defaults import HYSTERETIC
 from lostmotion.errors import ContractError
-from lostmotion.simulators import FoundFiles, FoundMechanism
+from lostmotion.simulators import AT_GEAR, FoundFiles, FoundMechanism
 from lostmotion_plugins.simulators.callback import write_callback
 
 FINE = 5e-4
@@ -18,7 +19,6 @@ STIFF = (2.0 * FINE, 1.0)
 """Time constant (s) and damping ratio of friction and limits: MuJoCo takes two steps for the shortest time constant."""
 MARK = "found by lostmotion"
 GEAR = "_gear"
-GEAR_PLACE, HYSTERESIS = ".gear", "bouc_wen_hysteresis"
 """The end of the name of a joint between motor and link."""
 
 
@@ -63,7 +63,7 @@ class _Writer:
 
     def apply(self, one: FoundMechanism) -> None:
         """Change the spec by one finding, or note that MJCF cannot express it."""
-        within = one.at.endswith(GEAR_PLACE) and one.mechanism == HYSTERESIS
+        within = one.at.endswith(AT_GEAR) and one.mechanism == HYSTERETIC
         change = self._add_hysteretic_gear if within else getattr(self, f"_add_{one.mechanism}", None)
         if change is None and one.law and self.spec.joint(one.at) is not None:
             self.called.append(one)
@@ -144,14 +144,14 @@ class _Writer:
 
     def _add_gear(self, one: FoundMechanism) -> Any:
         """Return a second joint between motor and link, with the axis of the first one."""
-        motor = self.spec.joint(one.at.removesuffix(GEAR_PLACE))
+        motor = self.spec.joint(one.at.removesuffix(AT_GEAR))
         self._refine()
         return motor.parent.add_joint(
             name=f"{motor.name}{GEAR}", type=motor.type, axis=motor.axis, pos=motor.pos, armature=0.0
         )
 
     def _add_joint_elasticity(self, one: FoundMechanism) -> Any:
-        motor, gear = self.spec.joint(one.at.removesuffix(GEAR_PLACE)), self._add_gear(one)
+        motor, gear = self.spec.joint(one.at.removesuffix(AT_GEAR)), self._add_gear(one)
         _set_first(gear, "stiffness", one.values["stiffness"])
         loss = 2.0 * one.values["damping_ratio"] * math.sqrt(one.values["stiffness"] * motor.armature)
         _set_first(gear, "damping", loss)

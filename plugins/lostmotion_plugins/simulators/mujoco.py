@@ -13,7 +13,7 @@ import numpy as np
 
 from lostmotion.errors import CaseError, nearest
 from lostmotion.parts import Array
-from lostmotion.simulators import FoundFiles, FoundMechanism, Simulator
+from lostmotion.simulators import AT_GEAR, FoundFiles, FoundMechanism, Simulator
 from lostmotion_plugins.simulators.callback import calling
 from lostmotion_plugins.simulators.inertial import add_amount, add_payload, measure_sizes
 from lostmotion_plugins.simulators.mjcf import GEAR, write_findings
@@ -265,7 +265,7 @@ class MujocoSimulator(Simulator):
         spec = mujoco.MjSpec.from_string(files.model)
         if self.file:
             spec.modelfiledir = str(Path(self.file).parent)
-        gears = tuple(f"{joint}{GEAR}" for joint in self.joints if f"{joint}.gear" in {one.at for one in found})
+        gears = tuple(f"{joint}{GEAR}" for joint in self.joints if f"{joint}{AT_GEAR}" in {one.at for one in found})
         return FoundSimulator(self.file, (*self.joints, *gears), model=spec.compile(), callback=files.callback)
 
     def changed(self, values: Mapping[str, float]) -> MujocoSimulator:
