@@ -14,7 +14,7 @@ from lostmotion.contracts import Param, Term
 from lostmotion.diagnosis.stages import diagnose
 from lostmotion.inference import rounding
 from lostmotion.inference.candidates import compute_slopes, fit_term, run_score_test
-from lostmotion.inference.natural import compute_size
+from lostmotion.inference.natural import compute_range, compute_size, sort_slots
 from lostmotion.inference.shape_scan import BLOCKS, TOGETHER, SmoothedMotion, measure_steadiness, scan_shapes
 from lostmotion.likelihood.latent import smooth_expected_force
 from lostmotion.likelihood.observation import Observation
@@ -53,6 +53,20 @@ def with_ratchet(fit, *more):
     known = system.vector({q.name: fit.posterior.known[i] for i, q in enumerate(model.params)})
     dynamics = replace(fit.posterior.dynamics, system=system)
     return replace(fit, posterior=replace(fit.posterior, dynamics=dynamics, known=known))
+
+
+def test_a_level_of_the_drive_is_searched_up_to_its_largest_value():
+    """Impacts have twenty times the amplitude (sqrt(2) rms) of their drive: a limit lies between the two."""
+    fit = with_ratchet(fitted(RIPPLE), "drive_saturation", "drive_dead_zone")
+    observation = fit.posterior.observations[0]
+    hits = observation.inputs.copy()
+    hits[100, observation.lead] = largest = 20.0 * fit.posterior.scales.force
+    posterior = fit.posterior.on((replace(observation, inputs=hits),))
+    for key in ("drive_saturation", "drive_dead_zone"):
+        for used, high in ((fit.posterior, 2.8), (posterior, 20.0)):
+            level = sort_slots(used, key)[1][0].param
+            assert compute_range(level, used.scales)[1] <= 1.001 * high * used.scales.force
+        assert compute_range(level, used.scales)[1] == pytest.approx(largest)
 
 
 def test_a_pitch_far_shorter_than_the_travel_is_scouted():

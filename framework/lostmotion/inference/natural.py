@@ -96,17 +96,30 @@ SHOWN = {
 
 def _convert_dimension(posterior: Posterior, term: Term, slot: Slot) -> Slot:
     """Return a parameter of a sensor or drive term: a length stands for the channel, a force for the input."""
-    first = posterior.observations[0]
+    first, inputs = posterior.observations[0], posterior.system.model.inputs
+    column = inputs.index(term.at) if term.at in inputs else first.lead
     if term.acts == "sensor":
         stands, name = LENGTH, next((s.channel for s in first.sensors if s.place == term.at), "position")
     else:
-        inputs = posterior.system.model.inputs
-        stands, name = FORCE, term.at if term.at in inputs else inputs[first.lead]
-    dimension = SHOWN[quantity_of(name)]
-    if slot.param.dimension != stands or dimension == stands:
+        stands, name = FORCE, inputs[column]
+    if slot.param.dimension != stands:
         return slot
-    unit = dimension.unit(posterior.system.model.motion)
-    return replace(slot, param=replace(slot.param, dimension=dimension), unit=unit)
+    dimension = SHOWN[quantity_of(name)]
+    if dimension != stands:
+        unit = dimension.unit(posterior.system.model.motion)
+        slot = replace(slot, param=replace(slot.param, dimension=dimension), unit=unit)
+    return slot if term.acts == "sensor" else _reach_largest(posterior, column, slot)
+
+
+def _reach_largest(posterior: Posterior, column: int, slot: Slot) -> Slot:
+    """Return a parameter with a scan that reaches the largest recorded value of an input: impacts exceed their rms."""
+    prior = slot.param.prior
+    if not prior.scan:
+        return slot
+    largest = max((float(np.abs(o.inputs[:, column]).max()) for o in posterior.observations if o.samples), default=0.0)
+    low, high = prior.scan
+    wider = replace(prior, scan=(low, max(high, largest / compute_size(slot.param, posterior.scales))))
+    return replace(slot, param=replace(slot.param, prior=wider))
 
 
 def sort_slots(posterior: Posterior, key: str) -> tuple[list[Slot], list[Slot]]:
