@@ -15,7 +15,6 @@ from dataclasses import dataclass, field
 from typing import ClassVar, NamedTuple
 
 import numpy as np
-from scipy.linalg import block_diag
 
 from lostmotion.errors import CaseError, nearest
 from lostmotion.parts import Array, Values
@@ -84,10 +83,12 @@ class NoiseBlock:
         """Return the sum of independent noises."""
         if len(blocks) == 1:
             return blocks[0]
-        moving = [b for b in blocks if len(b.shown)] or [cls()]
-        square = [block_diag(*(getattr(b, name) for b in moving)) for name in ("transition", "driving", "first")]
-        shown = np.concatenate([b.shown for b in moving])
-        square = [matrix.reshape(len(shown), len(shown)) for matrix in square]
+        shown = np.concatenate([b.shown for b in blocks])
+        square = np.zeros((3, len(shown), len(shown)))
+        end = 0
+        for block in blocks:
+            begin, end = end, end + len(block.shown)
+            square[:, begin:end, begin:end] = block.transition, block.driving, block.first
         return cls(sum(b.white for b in blocks), sum(b.clock for b in blocks), shown, *square)
 
     def variance_after(self, samples: int) -> float:

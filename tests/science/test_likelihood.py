@@ -96,6 +96,15 @@ def test_filter_is_kalmans_for_a_linear_machine():
     assert seen.log_likelihood == pytest.approx(likelihood(errors, variances), rel=1e-8)
 
 
+def test_other_readings_have_the_same_input():
+    posterior = linear_posterior(4)
+    observation, theta = posterior.observations[0], np.array([0.0, 2.0 * math.log(NOISE_SD)])
+    readings = observation.readings + NOISE_SD
+    again, plain = observation.read_again(readings=readings), replace(observation, readings=readings)
+    assert again.drive is observation.drive
+    assert posterior.on((again,)).log_likelihood(theta) == posterior.on((plain,)).log_likelihood(theta)
+
+
 def test_likelihood_tends_to_the_exact_one():
     """Against matrix exponentials (Van Loan, IEEE TAC 23 (1978) 395-404), the error falls with the third power of the
     step, which is no longer than the motion allows however few are asked for at most. No chance.

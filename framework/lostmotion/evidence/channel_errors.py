@@ -37,7 +37,7 @@ class SensorError:
         begin = observation.begin - first
         readings = observation.readings.copy()
         readings[:, self.sensor] += size * shape[begin : begin + observation.samples]
-        return replace(observation, readings=readings)
+        return observation.read_again(readings=readings)
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ class ScaleError:
         """Return the recording of a sensor whose true values are larger than its readings by the fraction `size`."""
         gains = list(observation.gains or (1.0,) * len(observation.sensors))
         gains[self.sensor] /= 1.0 + size
-        return replace(observation, gains=tuple(gains))
+        return observation.read_again(gains=tuple(gains))
 
 
 @dataclass(frozen=True)

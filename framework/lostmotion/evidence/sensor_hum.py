@@ -48,7 +48,7 @@ class SensorHum:
             return observation
         readings = observation.readings.copy()
         readings[:, self.sensor] += size * self.noise * np.cos(self.pace * observation.time + self.turn)
-        return replace(observation, readings=readings)
+        return observation.read_again(readings=readings)
 
 
 def list_hums(fit: Fit) -> Iterator[SensorHum]:

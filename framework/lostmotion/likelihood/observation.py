@@ -133,6 +133,12 @@ class Observation:
     def _curve(self) -> InputCurve:
         return InputCurve(self.inputs, self.dt, self.held)
 
+    def read_again(self, **changes: Any) -> Observation:
+        """Return the recording with other readings, sensors or gains; the curves of its inputs are computed once."""
+        other = replace(self, **changes)
+        vars(other).update(drive=self.drive, _curve=self._curve)
+        return other
+
     def recorded(self, column: int, t: Array) -> Array:
         """Return a recorded input at times `t` (s, from the start of the recording), of any shape.
 
@@ -232,7 +238,7 @@ def shift_sensors(observation: Observation, late: Sequence[int], most: int) -> O
     for sensor, lag in enumerate(late):
         stop = observation.samples - lag
         readings[most - lag : stop, sensor] = observation.readings[most:, sensor]
-    return replace(observation, readings=readings)
+    return observation.read_again(readings=readings)
 
 
 def _estimate_start(z: Array, dt: float) -> tuple[float, float]:

@@ -32,7 +32,7 @@ class RecordingFilter:
         """
         late = late or (0,) * len(self.recording.sensors)
         if late not in self._views:
-            view, most = replace(self.recording.observation, sensors=self.recording.sensors), self.recording.latest
+            view, most = self.recording.observation.read_again(sensors=self.recording.sensors), self.recording.latest
             self._views[late] = shift_sensors(view, late, most) if most else view
         return self._views[late]
 

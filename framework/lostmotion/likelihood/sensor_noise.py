@@ -64,12 +64,14 @@ def has_clock_noise(noise: Noise) -> bool:
 
 
 def compute_blocks(sensor: Sensor, values: Iterable[Array], dt: float, points: int) -> list[NoiseBlock]:
-    """Return the noise of a sensor at each of some points; `values` are what `read_values` returns."""
+    """Return the noise of a sensor at each of some points, equal ones once; `values` are what `read_values` returns."""
     columns = [np.broadcast_to(array, (points, array.shape[-1])).tolist() for array in values]
-    return [
-        NoiseBlock.join([noise.covariance(tuple(p), dt) for noise, p in zip(sensor.noises, row, strict=True)])
-        for row in zip(*columns, strict=True)
-    ]
+    rows = [tuple(map(tuple, row)) for row in zip(*columns, strict=True)]
+    made = {
+        row: NoiseBlock.join([noise.covariance(p, dt) for noise, p in zip(sensor.noises, row, strict=True)])
+        for row in dict.fromkeys(rows)
+    }
+    return [made[row] for row in rows]
 
 
 def compute_variance(block: NoiseBlock, observation: Observation, sensor: int) -> float:
