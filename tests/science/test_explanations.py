@@ -8,15 +8,18 @@ import numpy as np
 import pytest
 from explained import VALUES, bend, explain_machine, made_of
 
+from lostmotion.diagnosis.compare import cut_heldout
 from lostmotion.diagnosis.gather_facts import _widen_vague, list_reaching
 from lostmotion.diagnosis.nested_laws import find_simpler_set
 from lostmotion.diagnosis.stages import diagnose, explain_by
 from lostmotion.diagnosis.unknowns import make_learned_entry
 from lostmotion.evidence.corrections import find_corrections
 from lostmotion.evidence.explanations import Explanations
+from lostmotion.evidence.heldout import score_heldout
 from lostmotion.evidence.hypothesis import UNKNOWN, list_vague
 from lostmotion.inference.candidates import compute_slopes, join_term, run_score_test
 from lostmotion.inference.random_force import has_usual_random_force
+from lostmotion.inference.setup import split_heldout
 from lostmotion.results import Interval
 
 FRICTIONS = {"coulomb_friction", "stribeck_friction", "dahl_friction", "lugre_friction", "directional_friction"}
@@ -80,6 +83,17 @@ def test_the_gain_of_a_term_is_its_evidence_beside_a_discrepancy(rubbing):
     assert rubbing.gain_beside("coulomb_friction") == pytest.approx(alone.score() - bare.score())
     unfitted = next(key for key in rubbing.promised if frozenset({key}) not in rubbing.found)
     assert rubbing.gain(unfitted) == rubbing.promised[unfitted]
+
+
+@pytest.mark.parametrize("terms", [NOTHING, FRICTION])
+def test_the_filter_forgets_what_lies_far_before_held_out_data(rubbing, tmp_path, monkeypatch, terms):
+    """Their density is the same whether it begins with the recording, or by a tenth of it before them."""
+    prepared, _ = made_of(tmp_path, rub)
+    pieces = cut_heldout(prepared.observations, split_heldout(prepared.observations)[1])
+    pairs = [(piece.observation, piece.begin) for piece in pieces]
+    short = score_heldout(rubbing.found[terms], pairs)
+    monkeypatch.setattr("lostmotion.evidence.heldout.LEAD", 1.0)
+    assert short == pytest.approx(score_heldout(rubbing.found[terms], pairs), abs=0.1)
 
 
 @pytest.mark.parametrize(("deviations", "vague"), [(1.0, ["force"]), (4.0, [])])
