@@ -11,10 +11,10 @@ from scipy.stats import norm, t
 
 from lostmotion.evidence import posterior_draws
 from lostmotion.evidence.discrepancy import Quadratic
-from lostmotion.evidence.effects import linearise_all
 from lostmotion.evidence.hypothesis import compute_step
 from lostmotion.evidence.posterior_draws import ALONG, draw_own, find_along, find_shares, sample_choices
 from lostmotion.inference.natural import find_term
+from lostmotion.likelihood.tangents import linearise_recordings
 
 DRAWS = 4000
 
@@ -103,7 +103,7 @@ def test_laws_take_over_what_is_along_them_of_a_smooth_force(pushed):
     """The slow twin evaluates force of spring, damper and curve along the filtered motion."""
     frame, found = pushed.frame, find_shares(pushed)
     posterior = frame.place(pushed.at)
-    one = linearise_all(posterior, pushed.at[: len(posterior.space.free)])[0]
+    one = linearise_recordings(posterior, pushed.at[: len(posterior.space.free)])[0]
     x, v = one.states.T
     c, k = (float(np.exp(pushed.theta[frame.names.index(name)])) for name in ("c", "k"))
     for force in frame.forces:

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 from truths import case_of
 
-from lostmotion.inference.curves import compute_band
+from lostmotion.inference.candidates import compute_slopes
+from lostmotion.inference.curves import add_all_curves, compute_band, difference_curve, join_curve
 from lostmotion.inference.fit import maximise
 from lostmotion.inference.proposal import Axis, propose_formula
 from lostmotion.inference.setup import make_posterior, search_maximum
@@ -103,3 +104,17 @@ def test_the_gain_of_a_curve_is_that_over_the_better_of_two_nominal_fits():
     ahead, behind = (CurveSearch(LIBRARY).unknown(nominal, fit) for nominal in (fit, worse))
     assert behind.keys == ahead.keys
     assert behind.gain == pytest.approx(ahead.gain, abs=3.0)
+
+
+@pytest.mark.parametrize("key", ["unknown_over_position", "unknown_over_velocity", "unknown_over_time"])
+def test_slopes_of_a_curve_are_those_of_runs_of_the_filter(key):
+    """The linearised filter beside its slow twin, differences of one run for each coefficient."""
+    wide = add_all_curves(fitted(CLEAN))
+    slopes = compute_slopes(wide)
+    joint = join_curve(wide, slopes, key)
+    here, errors, variances = difference_curve(wide.posterior, wide.theta, key)
+    found = joint.errors[len(wide.theta) :]
+    assert np.allclose(joint.here.errors, here.errors, rtol=1e-9)
+    assert np.sqrt(np.mean((found - errors) ** 2) / np.mean(errors**2)) < 0.03
+    of_errors, of_variances = errors**2 / here.variances, 0.5 * (variances / here.variances) ** 2
+    assert np.sum(of_variances) < 0.01 * np.sum(of_errors)

@@ -21,7 +21,6 @@ from lostmotion.evidence.effects import (
     TermEffect,
     differentiate_term,
     get_usual_shape,
-    linearise_all,
     set_amplitude,
 )
 from lostmotion.evidence.expansion import compute_cross_information, differentiate_density
@@ -32,7 +31,7 @@ from lostmotion.inference.scaled_equations import solve_scaled
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.system import Slot
-from lostmotion.likelihood.tangents import Tangents
+from lostmotion.likelihood.tangents import Tangents, linearise_recordings
 from lostmotion.quantities import FORCE
 
 LEVEL = 0.95
@@ -79,7 +78,7 @@ def bound_absent(found: Hypothesis, keys: Sequence[str]) -> list[SizeBound]:
     """Return the bounds of the amplitudes of terms that a hypothesis does not have; those of no effect are left out."""
     posterior = found.frame.bare(found.at, found.choice)
     theta = found.at[: len(posterior.space.free)]
-    filtered = linearise_all(posterior, theta)
+    filtered = linearise_recordings(posterior, theta)
     rows = each(lambda key: list(_bound_term(found, posterior, filtered, key)), list(keys), posterior.jobs)
     return [bound for row in rows for bound in row]
 

@@ -32,7 +32,7 @@ from lostmotion.inference.rounding import drop_rounding
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.system import Slot, onset_key
-from lostmotion.likelihood.tangents import Tangents, linearise_filter
+from lostmotion.likelihood.tangents import Tangents, linearise_recordings
 
 MOST_LATE = 8
 """The number of terms, best first, that are also tried from an onset on."""
@@ -91,7 +91,7 @@ def list_promises(
     """
     posterior = found.frame.bare(found.at, found.choice)
     theta = found.at[: len(posterior.space.free)]
-    filtered = linearise_all(posterior, theta)
+    filtered = linearise_recordings(posterior, theta)
     before = Quadratic.of(found.frame, found.expansion.curvature).evaluate(found.choice)
 
     def test(key: str) -> tuple[Promise, TermEffect] | None:
@@ -156,13 +156,6 @@ def _list_star_shapes(posterior: Posterior, shapes: Sequence[Slot]) -> list[dict
     """Return the values of shapes that are tried: each over its grid while the others are in their middle."""
     grids = [list_tried_values(s.param, posterior.scales) for s in shapes]
     return [dict(zip((s.key for s in shapes), values, strict=True)) for values in list_star_points(grids)]
-
-
-def linearise_all(posterior: Posterior, theta: Array) -> list[Tangents]:
-    """Return the linearised filter of each recording; none where that of one recording does not exist."""
-    made = [linearise_filter(posterior, theta[None], i) for i in range(len(posterior.observations))]
-    filtered = [one[0] for one in made if one is not None]
-    return filtered if len(filtered) == len(made) else []
 
 
 def differentiate_term(

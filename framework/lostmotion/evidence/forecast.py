@@ -27,7 +27,6 @@ from lostmotion.evidence.effects import (
     differentiate_term,
     get_usual_shape,
     join_effects,
-    linearise_all,
 )
 from lostmotion.evidence.expansion import Expansion
 from lostmotion.evidence.explanations import TIED
@@ -40,7 +39,7 @@ from lostmotion.kernels.threads import each
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.space import RANDOM
 from lostmotion.likelihood.system import Slot
-from lostmotion.likelihood.tangents import Tangents
+from lostmotion.likelihood.tangents import Tangents, linearise_recordings
 
 CHANCE, SURE = 0.9, 0.95
 """The chance of a name at the stated size, and the probability from which a term is named."""
@@ -348,7 +347,7 @@ def make_forecast(
     found = Hypothesis(frame, frame.expand(frame.start, steps, frame.none), frame.none, 0.0, 0.0, 0.0)
     bare = frame.bare(frame.start, frame.none)
     at = frame.start[: len(bare.space.free)]
-    filtered = linearise_all(bare, at)
+    filtered = linearise_recordings(bare, at)
 
     def differentiate(key: str) -> TermEffect | None:
         shape = get_usual_shape(bare, key)

@@ -23,10 +23,10 @@ from scipy.special import softmax
 
 from lostmotion.contracts import Array
 from lostmotion.evidence.discrepancy import Choice, JointFrame, Quadratic
-from lostmotion.evidence.effects import linearise_all
 from lostmotion.evidence.hypothesis import Hypothesis, compute_step
 from lostmotion.inference.mixture import compute_root
 from lostmotion.inference.natural import sort_slots
+from lostmotion.likelihood.tangents import linearise_recordings
 
 CHAIN = 100
 """The number of draws of smooth forces; with more draws of parameters each is used again."""
@@ -94,7 +94,7 @@ def find_shares(found: Hypothesis) -> Array:
     free = posterior.space.free[:own]
     laws = np.flatnonzero([f.physical and is_amplitude(found, f.key) for f in free])
     waves = np.concatenate([np.arange(force.columns.start, force.columns.stop) for force in frame.forces])
-    filtered = linearise_all(posterior, theta)
+    filtered = linearise_recordings(posterior, theta)
     if not filtered or not len(laws):
         return made
     steps = np.concatenate([SMALL * np.sqrt(np.diag(found.covariance)[laws]), np.ones(len(waves))])

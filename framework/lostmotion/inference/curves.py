@@ -19,9 +19,11 @@ from lostmotion.inference.learned import LearnedTerm, compute_spread
 from lostmotion.inference.natural import find_term
 from lostmotion.inference.scaled_equations import solve_scaled
 from lostmotion.inference.surfaces import RICHER, OverHistory, Surface, list_all_curves
+from lostmotion.likelihood.innovations import Innovations
 from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.space import FreeParameter
 from lostmotion.likelihood.system import System, key_of
+from lostmotion.likelihood.tangents import Tangents
 
 SIZES = (0.002, 0.006, 0.02, 0.06, 0.2)
 """Standard deviations of a curve that are tried, in units of the drive."""
@@ -212,18 +214,44 @@ def project_score(fit: Fit, slopes: Sensitivity, key: str) -> tuple[Array, Array
 
 
 def join_curve(fit: Fit, slopes: Sensitivity, key: str) -> Sensitivity:
-    """Return the sensitivities of a fit, followed by those of the coefficients of a curve at zero."""
+    """Return the sensitivities of a fit, followed by those of the coefficients of a curve at zero.
+
+    They are those of the linearised filter where there is one and the curve has no states.
+    """
     posterior, term = fit.posterior, _find_curve(fit.posterior, key)
     width = NUDGE * compute_coefficient_size(term, posterior)
-    wider = add_curve(posterior, key, np.full(term.count, math.inf), np.zeros(term.count))
     zero = np.concatenate([slopes.theta, np.zeros(term.count)])
-    seen = wider.innovations(np.vstack([zero[None], zero + width * np.eye(len(zero))[len(slopes.theta) :]]))
+    if fit.filtered and not term.states:
+        errors = np.concatenate([_respond(one, key, term.count, width) for one in fit.filtered], axis=1)
+        here, variances = slopes.here, np.zeros_like(errors)
+    else:
+        here, errors, variances = difference_curve(posterior, slopes.theta, key)
+    told = np.vstack([slopes.errors, errors]), np.vstack([slopes.variances, variances])
+    return Sensitivity(zero, here, *told, np.full(len(zero), width))
+
+
+def _respond(filtered: Tangents, key: str, count: int, width: float) -> Array:
+    """Return the derivatives (count, readings) of the errors in one recording over the coefficients of a curve."""
+    index, active = filtered.posterior.system.index, filtered.posterior.active | {key}
+    columns = [index[f"{key}.v{i}"] for i in range(count)]
+    fulls = np.tile(filtered.full, (1 + count, 1))
+    fulls[:, columns] = np.vstack([np.zeros(count), width * np.eye(count)])
+    rates, channels = filtered.compute_effects(fulls, active)
+    return filtered.respond_to_forces((rates[1:] - rates[0]) / width, (channels[1:] - channels[0]) / width)
+
+
+def difference_curve(posterior: Posterior, theta: Array, key: str) -> tuple[Innovations, Array, Array]:
+    """Return the innovations at coordinates (n,), and differences of errors and variances over a curve's coefficients.
+
+    Both are (count, readings). It is the slow twin of the linearised filter.
+    """
+    term = _find_curve(posterior, key)
+    width = NUDGE * compute_coefficient_size(term, posterior)
+    wider = add_curve(posterior, key, np.full(term.count, math.inf), np.zeros(term.count))
+    moved = np.vstack([np.zeros(term.count), width * np.eye(term.count)])
+    seen = wider.innovations(np.hstack([np.tile(theta, (1 + term.count, 1)), moved]))
     above = np.where(seen.finite[1:], np.arange(1, len(seen)), 0)
-    de = (seen.errors[above] - seen.errors[0]) / width
-    dv = (seen.variances[above] - seen.variances[0]) / width
-    return Sensitivity(
-        zero, seen[0], np.vstack([slopes.errors, de]), np.vstack([slopes.variances, dv]), np.full(len(zero), width)
-    )
+    return seen[0], (seen.errors[above] - seen.errors[0]) / width, (seen.variances[above] - seen.variances[0]) / width
 
 
 def project_from(fit: Fit, joint: Sensitivity, k: int) -> tuple[Array, Array, Array]:

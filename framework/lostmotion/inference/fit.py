@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from lostmotion.inference.scaled_equations import solve_scaled
 from lostmotion.likelihood.innovations import Innovations
 from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.space import RANDOM
+from lostmotion.likelihood.tangents import Tangents, linearise_recordings
 
 BLOCKS = 40
 STRIDE = 0.3
@@ -72,6 +74,11 @@ class Fit:
     def log_likelihood(self) -> float:
         """The log-likelihood at the maximum."""
         return self.local.log_likelihood
+
+    @cached_property
+    def filtered(self) -> list[Tangents]:
+        """The linearised filter of each recording at the maximum; none where that of one does not exist."""
+        return linearise_recordings(self.posterior, self.theta)
 
     @property
     def values(self) -> dict[str, float]:

@@ -121,6 +121,13 @@ class Tangents:
         return place.move(self.states[:, :n], self.observation.inputs, lever)
 
 
+def linearise_recordings(posterior: Posterior, theta: Array) -> list[Tangents]:
+    """Return the linearised filter of each recording; none where that of one recording does not exist."""
+    made = [linearise_filter(posterior, theta[None], i) for i in range(len(posterior.observations))]
+    filtered = [one[0] for one in made if one is not None]
+    return filtered if len(filtered) == len(made) else []
+
+
 def linearise_filter(
     posterior: Posterior, thetas: Array, index: int = 0, changed: Sequence[Observation] = ()
 ) -> tuple[Tangents, Innovations] | None:
