@@ -7,6 +7,9 @@ import sys
 import pytest
 
 from lostmotion.kernels.stored import compute_address
+from lostmotion.likelihood import compose
+from lostmotion.likelihood.system import System
+from lostmotion.registry import default
 
 INNER = "import numba\n@numba.njit\ndef twice(x):\n    return {factor} * x\n"
 OUTER = """
@@ -55,3 +58,15 @@ def test_the_address_is_that_of_the_sources_and_not_of_their_place(tmp_path):
     assert one == other
     (tmp_path / "other" / "kernels" / "loops.py").write_text("A = 2\n")
     assert compute_address.__wrapped__(tmp_path / "other", tmp_path / "other") != one
+
+
+def test_laws_are_compiled_anew_after_a_change_of_the_lanes(monkeypatch, tmp_path):
+    """Code for blocks with rows of 32 points is wrong for others: the name of the file changes with their source."""
+    monkeypatch.setenv("LOSTMOTION_CACHE", str(tmp_path))
+    registry = default()
+    friction = registry.load("term", "coulomb_friction")(at="ground")
+    law = System(registry.make("model", "linear_oscillator"), (friction,)).blueprint.laws[0]
+    kept = compose.compile_law.__wrapped__(law, 1)
+    monkeypatch.setattr(compose, "read_source", lambda *names: "STRIDE = 16")
+    other = compose.compile_law.__wrapped__(law, 1)
+    assert kept[1].fndesc.modname != other[1].fndesc.modname

@@ -19,6 +19,7 @@ from numba import types
 from lostmotion.kernels import plain, vector, windows
 from lostmotion.kernels.vector import BARE
 from lostmotion.likelihood.adopted import adopt_function, compute_fingerprint, define_module, explain_errors, store_text
+from lostmotion.likelihood.kernels import read_source
 from lostmotion.likelihood.plan import Blueprint, Law
 
 FIRST = 11
@@ -201,7 +202,7 @@ def _list_parts(law: Law) -> dict[str, Callable[..., Any]]:
 def _compile_text(text: str, parts: Mapping[str, Any], numbers: Mapping[str, Any], signature: Any) -> dict[str, Any]:
     """Return the kernels of a text by name, compiled or from the cache."""
     also = "".join(f"{name}{compute_fingerprint(part)}" for name, part in sorted(parts.items())) + repr(numbers)
-    path = store_text(text, also)
+    path = store_text(text, also + read_source("vector", "windows", "elementary"))
     given = {name: adopt_function(part, path.stem) for name, part in parts.items()}
     offered = {name: getattr(vector, name) for name in _OFFERED}
     offered |= {"column": windows.column, "offset_rows": windows.offset_rows, "invoke_law": windows.invoke_law}

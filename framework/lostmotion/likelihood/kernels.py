@@ -15,7 +15,8 @@ _FUTURE = "from __future__ import annotations\n"
 _COMPILED = {name: made for name, made in vars(vector).items() if not name.startswith("_")}
 
 
-def _read_source(*names: str) -> str:
+@lru_cache(maxsize=8)
+def read_source(*names: str) -> str:
     """Return the texts of kernel files as one, without their imports from each other."""
     texts = [resources.files("lostmotion.kernels").joinpath(f"{name}.py").read_text() for name in names]
     first, *others = (_IMPORTS.sub("", text) for text in texts)
@@ -25,13 +26,13 @@ def _read_source(*names: str) -> str:
 def _build_kernels(text: str, label: str, compiled: bool) -> dict[str, Any]:
     if not compiled:
         return define_module(text, f"<slow twin of {label}>", plain.SPACE)
-    return define_module(text, str(store_text(text, _read_source("vector"))), _COMPILED)
+    return define_module(text, str(store_text(text, read_source("vector"))), _COMPILED)
 
 
 @lru_cache(maxsize=32)
 def build_filter(states: int, compiled: bool = True) -> dict[str, Any]:
     """Return the functions of the filter for a number of states, compiled or as plain Python."""
-    text = _read_source("inputs", "crossing", "propagation", "noise_states", "filter")
+    text = read_source("inputs", "crossing", "propagation", "noise_states", "filter")
     text = text.replace("\nN = 2\n", f"\nN = {states}\n")
     return _build_kernels(text, f"a filter of {states} states", compiled)
 
@@ -39,4 +40,4 @@ def build_filter(states: int, compiled: bool = True) -> dict[str, Any]:
 @lru_cache(maxsize=2)
 def build_motion(compiled: bool = True) -> dict[str, Any]:
     """Return the functions of `kernels/motion.py`, compiled or as plain Python."""
-    return _build_kernels(_read_source("inputs", "motion"), "free motion", compiled)
+    return _build_kernels(read_source("inputs", "motion"), "free motion", compiled)
