@@ -45,9 +45,10 @@ class TermPrior:
 
     `typical` is the width of the prior in natural scales (drive force, rms position and velocity; time of the whole
     recording if `lasting`). `scan` is the smallest and largest multiple of `typical` between which a recording is
-    searched for the number, for an amplitude too if the response is far from linear in it. `choices` are values that
-    are tried in turn and not fitted, `words` what a sentence says in place of each of them; with `scale="log"` a
-    spectrum may find another value, which is then fitted. Example: `TermPrior(0.3, scan=(0.1, 10.0))`.
+    searched for the number, for an amplitude too if the response is far from linear in it; a level of the drive is
+    searched up to its largest recorded value at least. `choices` are values that are tried in turn and not fitted,
+    `words` what a sentence says in place of each of them; with `scale="log"` a spectrum may find another value, which
+    is then fitted. Example: `TermPrior(0.3, scan=(0.1, 10.0))`.
     """
 
     typical: float = 1.0
