@@ -58,9 +58,6 @@ MUTE = 1e-6
 """An amplitude of typical size with less information than this has no effect while the others are zero."""
 
 
-"""The values of shape parameters that are tried in addition to the usual ones, by key of the term."""
-
-
 @dataclass(frozen=True)
 class ScoreTest:
     """The result of a score test of a term: the predicted gain in log-likelihood, and the starting point of its fit.
