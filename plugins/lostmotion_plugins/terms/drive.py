@@ -100,7 +100,7 @@ class DriveSaturation(DriveTerm):
     )
     params = (
         Param("share", "share of the excess that is lost", NUMBER, low=0.0, high=1.0, null=0.0),
-        Param("limit", "largest drive", FORCE, low=0.0, scale="log", prior=TermPrior(0.7, scan=(0.15, 4.0))),
+        Param("limit", "largest drive", FORCE, low=0.0, scale="log", prior=TermPrior(0.7, scan=(0.03, 4.0))),
     )
 
     @staticmethod
