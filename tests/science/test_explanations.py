@@ -116,6 +116,12 @@ def test_an_amplitude_whose_stated_interval_reaches_zero_is_vague_as_well(rubbin
     assert list(list_reaching(rubbing.chosen.posterior, "coulomb_friction", told)) == vague
 
 
+@pytest.mark.parametrize(("low", "vague"), [(-0.1, ["cosine and sine"]), (0.1, [])])
+def test_a_wave_is_vague_where_the_intervals_of_both_amplitudes_reach_zero(rubbing, low, vague):
+    told = {"cogging.cosine": Interval(0.1, -0.2, 0.4, "N"), "cogging.sine": Interval(0.3, low, 0.6, "N")}
+    assert list(list_reaching(rubbing.chosen.posterior, "cogging", told)) == vague
+
+
 def test_a_law_gives_its_probability_to_a_simpler_one(rubbing):
     made = with_scores(rubbing, {NOTHING: 0.0, FRICTION: 500.0, STRIBECK: 505.0})
     assert made.terms == STRIBECK

@@ -255,12 +255,16 @@ def _make_support(d: SearchResult, key: str, intervals: Mapping[str, Interval]) 
 
 
 def list_reaching(posterior: Posterior, key: str, intervals: Mapping[str, Interval]) -> Iterator[str]:
-    """Yield the amplitudes whose interval, averaged over all explanations, contains the value that does nothing."""
+    """Yield the amplitudes whose interval, averaged over all explanations, contains the value that does nothing.
+
+    The two amplitudes of a wave count as one, whose intervals both contain it.
+    """
     slots = sort_slots(posterior, key)[0]
     for group in group_amplitudes(posterior, key, slots):
-        own, told = slots[group[0]].param, intervals.get(slots[group[0]].key)
-        if len(group) == 1 and told and told.low <= (own.null or 0.0) <= told.high:
-            yield own.name
+        own = [slots[k].param for k in group]
+        told = [intervals.get(slots[k].key) for k in group]
+        if all(i and i.low <= (p.null or 0.0) <= i.high for p, i in zip(own, told, strict=True)):
+            yield " and ".join(p.name for p in own)
 
 
 def _list_moved(d: SearchResult, key: str) -> Iterator[AmplitudeChange]:
