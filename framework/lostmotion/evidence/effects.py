@@ -203,11 +203,7 @@ def _respond(
         moved = [(acting.recordings[0].drive(full).inputs[: len(filtered.states)] - filtered.inputs) for full in fulls]
         found = np.concatenate([filtered.respond_to_input(m / s) for m, s in zip(moved, scale, strict=True)])
     else:
-        rates, channels = filtered.compute_effects(fulls, posterior.active | {key})
-        here = filtered.here
-        found = filtered.respond_to_forces(
-            (rates - here[0]) / scale[:, None, None], (channels - here[1]) / scale[:, None, None]
-        )
+        found = filtered.respond_to_laws(fulls, posterior.active | {key}, scale)
     return np.asarray(found.reshape(*sizes.shape, -1))
 
 

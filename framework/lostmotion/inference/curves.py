@@ -233,11 +233,9 @@ def join_curve(fit: Fit, slopes: Sensitivity, key: str) -> Sensitivity:
 def _respond(filtered: Tangents, key: str, count: int, width: float) -> Array:
     """Return the derivatives (count, readings) of the errors in one recording over the coefficients of a curve."""
     index, active = filtered.posterior.system.index, filtered.posterior.active | {key}
-    columns = [index[f"{key}.v{i}"] for i in range(count)]
-    fulls = np.tile(filtered.full, (1 + count, 1))
-    fulls[:, columns] = np.vstack([np.zeros(count), width * np.eye(count)])
-    rates, channels = filtered.compute_effects(fulls, active)
-    return filtered.respond_to_forces((rates[1:] - rates[0]) / width, (channels[1:] - channels[0]) / width)
+    fulls = np.tile(filtered.full, (count, 1))
+    fulls[:, [index[f"{key}.v{i}"] for i in range(count)]] = width * np.eye(count)
+    return filtered.respond_to_laws(fulls, active, np.full(count, width))
 
 
 def difference_curve(posterior: Posterior, theta: Array, key: str) -> tuple[Innovations, Array, Array]:

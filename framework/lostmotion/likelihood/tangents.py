@@ -89,6 +89,16 @@ class Tangents:
         found = respond(*told, wide, seen)
         return np.asarray((found if self.bent is None else found / self.bent.slopes).reshape(len(rates), -1))
 
+    def respond_to_laws(self, fulls: Array, active: frozenset[str], sizes: Array) -> Array:
+        """Return the derivatives (sets, samples * sensors) of errors over amplitudes of laws.
+
+        Each of the parameter vectors `fulls` (sets, parameters) has one amplitude at a distance `sizes` (sets,) from
+        where its law does nothing; `active` are the terms with these laws.
+        """
+        rates, channels = self.compute_effects(fulls, active)
+        scale = sizes[:, None, None]
+        return self.respond_to_forces((rates - self.here[0]) / scale, (channels - self.here[1]) / scale)
+
     def compute_effects(self, fulls: Array, active: frozenset[str]) -> tuple[Array, Array]:
         """Return derivatives of states (sets, samples, n) and channels along the states, for some parameter vectors."""
         system, observation = self.posterior.system, self.observation
