@@ -22,7 +22,8 @@ from scipy.interpolate import CubicSpline
 
 from lostmotion.case import CaseFile, Prior
 from lostmotion.diagnosis.experiment import compute_bayes_factor, propose
-from lostmotion.inference.candidates import compute_slopes, fit_term, run_score_test
+from lostmotion.evidence.effects import propose_start
+from lostmotion.inference.candidates import fit_term
 from lostmotion.inference.fit import maximise
 from lostmotion.inference.setup import make_posterior, search_maximum
 from lostmotion.likelihood.drive import DriveHarmonic
@@ -142,8 +143,7 @@ def fitted(machine, observation):
         make_posterior(System(registry.make("model", machine.model), terms), case, (observation,)),
         np.random.default_rng(0),
     )
-    slopes = compute_slopes(nominal)
-    fits = [fit_term(nominal, run_score_test(nominal, slopes, key_of(term))) for term in terms]
+    fits = [fit_term(nominal, key, propose_start(nominal, key)) for key in map(key_of, terms)]
     # A fit with one term may show the other where to begin.
     return [maximise(f.posterior, f.theta) for f in fits]
 

@@ -36,7 +36,7 @@ import numpy as np
 
 from lostmotion.diagnosis.stages import list_half_gaps, locate
 from lostmotion.errors import DataError
-from lostmotion.inference.candidates import compute_slopes, run_score_test
+from lostmotion.evidence.effects import list_bare_promises
 from lostmotion.inference.odds import LikelihoodRatio, compute_log_ratios, list_likely
 from lostmotion.inference.setup import choose_steps, make_posterior, search_maximum
 from lostmotion.likelihood.latent import smooth_latent_force
@@ -154,7 +154,7 @@ def run_machine(kind: str, seed: int, number: int) -> Row:
     missing, plays = smooth_latent_force(honest, fit.theta), list_half_gaps(honest, fit.theta)
     located = locate(made.model, made.observations[0], missing, plays=plays, rng=np.random.default_rng([seed, number]))
     shared = time.perf_counter()
-    odds = compute_log_ratios(fit)
+    odds, promises = compute_log_ratios(fit), list_bare_promises(fit, system.keys[:1], {})
     done = time.perf_counter()
     return {
         "kind": kind,
@@ -164,7 +164,7 @@ def run_machine(kind: str, seed: int, number: int) -> Row:
         "samples": rig.samples,
         "hidden": (effect.what or effect.mechanism) if effect else None,
         "at": effect.at if effect else None,
-        "gain": run_score_test(fit, compute_slopes(fit), system.keys[0]).gain if system.keys else None,
+        "gain": promises[0].gain if promises else None,
         "status": fit.status,
         "shares": {k: [s.value, s.error, s.p, s.excess] for k, s in located.explained.items()},
         "odds": odds,

@@ -9,7 +9,7 @@ from scipy.linalg import expm
 from scipy.signal import lfilter
 
 from lostmotion.case import CaseFile, Prior
-from lostmotion.inference.candidates import ScoreTest, add_term
+from lostmotion.inference.candidates import add_term
 from lostmotion.inference.fit import maximise, restart
 from lostmotion.inference.setup import make_posterior, polish_fit
 from lostmotion.inference.sharing import compare_recordings
@@ -77,8 +77,7 @@ def rubbed(name, seed, level, *, friction=0.0, c=C, samples=1000, noise=0.005, f
 def rubbing(observations):
     """Return the fit of an oscillator with dry friction."""
     bare = fitted(observations, default().load("term", "coulomb_friction")())
-    hint = ScoreTest("coulomb_friction", 0.0, {}, 1.0)
-    return polish_fit(maximise(add_term(restart(bare), hint, {"coulomb_friction.force": 0.5})))
+    return polish_fit(maximise(add_term(restart(bare), "coulomb_friction", {"coulomb_friction.force": 0.5})))
 
 
 def least(number, memory):

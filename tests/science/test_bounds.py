@@ -11,7 +11,7 @@ from lostmotion.diagnosis.stages import list_fitted_keys
 from lostmotion.evidence.bare import Budget
 from lostmotion.evidence.bounds import ALIKE, bound_absent, bound_absolute, bound_positive
 from lostmotion.evidence.search import ExplanationSearch
-from lostmotion.inference.candidates import ScoreTest, fit_term
+from lostmotion.inference.candidates import fit_term
 from lostmotion.inference.setup import make_posterior, search_maximum, split_heldout
 
 MACHINES = 12
@@ -58,7 +58,7 @@ def test_a_bound_is_that_of_a_fit_with_the_term(still, key):
     """The fit moves all parameters and the amplitude; its posterior is normal about the maximum."""
     search, bounds = still
     (bound,) = [one for (name, _), one in bounds.items() if name == key]
-    fit = fit_term(search.bare.fits[frozenset()], ScoreTest(key, 0.0, {bound.slots[0].key: 0.3 * bound.upper}, 1.0))
+    fit = fit_term(search.bare.fits[frozenset()], key, {bound.slots[0].key: 0.3 * bound.upper})
     search.weigh(fit)
     found = search.found[frozenset({key})]
     at = found.frame.names.index(bound.slots[0].key)

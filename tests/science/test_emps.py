@@ -10,7 +10,8 @@ from lostmotion.diagnosis.compare import compute_rates, cut_heldout, predict
 from lostmotion.diagnosis.diagnosis_run import check_heldout, draw_posteriors
 from lostmotion.diagnosis.outcome import compute_intervals, draw_parameters
 from lostmotion.diagnosis.stages import diagnose
-from lostmotion.inference.candidates import compute_slopes, fit_term, run_score_test
+from lostmotion.evidence.effects import propose_start
+from lostmotion.inference.candidates import fit_term
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import default
@@ -46,7 +47,7 @@ def published(outcome):
     """The fit of the published model: dry friction, and a constant force."""
     fit = outcome.diagnosis.explained.nominal
     for key in sorted(PUBLISHED_TERMS):
-        fit = fit_term(fit, run_score_test(fit, compute_slopes(fit), key))
+        fit = fit_term(fit, key, propose_start(fit, key))
     return fit
 
 

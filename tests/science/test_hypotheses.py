@@ -23,7 +23,7 @@ from lostmotion.evidence.hypothesis import fit_hypothesis
 from lostmotion.evidence.probabilities import compute_probabilities
 from lostmotion.evidence.search import ExplanationSearch
 from lostmotion.evidence.smooth_forces import LENGTHS, SIZES
-from lostmotion.inference.candidates import ScoreTest, add_term, join_term
+from lostmotion.inference.candidates import add_term, join_term
 from lostmotion.inference.curves import add_all_curves
 from lostmotion.inference.fit import ROUGHLY, begin_at, choose_first_steps, hold_free, maximise
 from lostmotion.inference.late import find_onset
@@ -143,7 +143,7 @@ def test_derivatives_of_the_linearised_filter_equal_differences(rubbing, monkeyp
     posterior, key = rubbing.bare.nominal.posterior, "position_ripple"
     begun = begin_at(posterior, rubbing.bare.nominal.theta)
     if bent:
-        begun = add_term(begun, ScoreTest(key, 0.0, {f"{key}.{name}": v for name, v in bent.items()}, 1.0), {})
+        begun = add_term(begun, key, {f"{key}.{name}": v for name, v in bent.items()})
     frame = make_frame(begun, begun.space.start, rubbing.errors, ODDS)
     steps = choose_first_steps(begun)
     fast = frame.expand(frame.start, steps, frame.none)

@@ -12,17 +12,9 @@ from explained import ODDS, explain, made_of
 from sensed import case_of, model_of, moved, multisine, noisy
 
 from lostmotion.evidence.discrepancy import make_frame
-from lostmotion.evidence.effects import list_promises
+from lostmotion.evidence.effects import list_bare_promises, list_promises
 from lostmotion.evidence.hypothesis import fit_hypothesis
-from lostmotion.inference.candidates import (
-    ScoreTest,
-    compute_slopes,
-    fit_term,
-    join_term,
-    make_term_parameters,
-    run_score_test,
-)
-from lostmotion.inference.far_values import hold_shape
+from lostmotion.inference.candidates import fit_term, join_term, make_term_parameters
 from lostmotion.inference.late import (
     TIMES,
     can_have_onset,
@@ -33,7 +25,7 @@ from lostmotion.inference.late import (
     refine_onset,
 )
 from lostmotion.inference.likeness import find_likeness
-from lostmotion.inference.natural import list_star_points, list_tried_values, sort_slots
+from lostmotion.inference.natural import hold_shape, list_star_points, list_tried_values, sort_slots
 from lostmotion.inference.random_force import has_usual_random_force
 from lostmotion.inference.setup import make_posterior, search_maximum, split_heldout
 from lostmotion.inference.shape_scan import scan_shapes
@@ -133,7 +125,7 @@ def test_friction_that_sets_in_late_is_named_with_its_onset(tmp_path):
 
 def begin_late(fit, key, amplitude, start, onset):
     """Return the fit with one more term, begun at an amplitude and at an onset (s)."""
-    return fit_term(fit, ScoreTest(key, 1.0, {f"{key}.{amplitude}": start, onset_key(key): onset}, 1.0))
+    return fit_term(fit, key, {f"{key}.{amplitude}": start, onset_key(key): onset})
 
 
 def test_an_onset_is_found_over_several_cycles(tmp_path):
@@ -208,7 +200,7 @@ def test_cut_sensitivities_are_those_of_a_term_that_sets_in(tmp_path):
     held = FreeParameter(key, "", 0.0, -math.inf, math.inf)
     wider = fit.posterior.extend((held,), {"linear_stiffness"})
     zero, one = np.append(fit.theta, 0.0), np.append(fit.theta, small)
-    slopes = compute_slopes(fit)
+    slopes = fit.slopes
     seen = wider.innovations(np.array([zero, one]))
     joint = type(slopes)(
         zero,
@@ -273,9 +265,8 @@ def test_lags_of_drive_and_sensor_promise_the_same_of_a_linear_machine(tmp_path)
     """What lags a linear machine on its way in lags it on its way out; both are found by their secants."""
     late = 0.02
     fit = nominal_of(tmp_path, [ActuatorLag(), SensorLag()], shown=lambda x: lagging(x, late))
-    slopes = compute_slopes(fit)
-    hints = [run_score_test(fit, slopes, key) for key in ("actuator_lag", "sensor_lag")]
-    assert min(h.gain for h in hints) > 30.0
+    promises = list_bare_promises(fit, ("actuator_lag", "sensor_lag"), {})
+    assert min(promise.gain for promise in promises) > 30.0
     explained = explain(fit, ("actuator_lag", "sensor_lag"))
     (key,) = explained.terms
     assert explained.chosen.values[f"{key}.time"] == pytest.approx(late, rel=0.05)
@@ -411,7 +402,7 @@ def test_every_name_of_the_contract_can_be_hidden():
 
 
 def test_shapes_have_no_effect_at_amplitude_zero(tmp_path):
-    """A score test computes the errors there once for all shapes of a term without states."""
+    """So their effects share one run of the filter there, for a term without states."""
     registry = Registry.discover()
     kinds = [registry.load("term", name) for name in ("cogging", "end_stop", "position_ripple", "stribeck_friction")]
     terms = [kind(at=kind.at) if hasattr(kind, "at") else kind() for kind in kinds]

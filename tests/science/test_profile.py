@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from truths import fit_oscillator
 
-from lostmotion.inference.candidates import compute_slopes, fit_term, run_score_test
+from lostmotion.evidence.effects import list_bare_promises, propose_start
+from lostmotion.inference.candidates import fit_term
 from lostmotion.inference.profile import END, WIDTH, _fall_at, measure_stretches, stretch_draws
 from lostmotion.likelihood.observation import Observation
 
@@ -37,18 +38,14 @@ def test_play_is_found_though_the_nominal_spring_is_far_too_soft():
     """A score test at the nominal fit predicts almost nothing: the secants there are those of a wrong stiffness."""
     fit = nominal()
     assert fit.values["k"] < 0.8 * K
-    hint = run_score_test(fit, compute_slopes(fit), "backlash")
-    found = fit_term(fit, hint)
-    assert hint.gain > 100.0
+    found = fit_term(fit, "backlash", propose_start(fit, "backlash"))
+    assert found.log_likelihood > fit.log_likelihood + 100.0
     assert found.values["backlash.gap"] == pytest.approx(GAP, rel=0.02)
     assert found.values["k"] == pytest.approx(K, rel=0.02)
 
 
-def test_a_spring_without_play_has_no_far_value():
-    fit = nominal(0.0)
-    hint = run_score_test(fit, compute_slopes(fit), "backlash")
-    assert hint.gain < 5.0
-    assert hint.base is None
+def test_a_spring_without_play_promises_none():
+    assert all(promise.gain < 5.0 for promise in list_bare_promises(nominal(0.0), ["backlash"], {}))
 
 
 def widened(fit, key, factor):

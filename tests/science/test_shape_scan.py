@@ -12,8 +12,9 @@ from truths import case_of, fit_oscillator
 
 from lostmotion.contracts import Param, Term
 from lostmotion.diagnosis.stages import diagnose
+from lostmotion.evidence.effects import list_bare_promises
 from lostmotion.inference import rounding
-from lostmotion.inference.candidates import compute_slopes, fit_term, run_score_test
+from lostmotion.inference.candidates import fit_term
 from lostmotion.inference.natural import compute_range, compute_size, sort_slots
 from lostmotion.inference.shape_scan import BLOCKS, TOGETHER, SmoothedMotion, measure_steadiness, scan_shapes
 from lostmotion.likelihood.latent import smooth_expected_force
@@ -75,8 +76,11 @@ def test_a_pitch_far_shorter_than_the_travel_is_scouted():
     assert found["ratchet"][0]["ratchet.pitch"] == pytest.approx(PITCH, rel=0.03)
 
 
-def test_where_nothing_is_missing_nothing_is_scouted():
-    assert scan_shapes(with_ratchet(fitted(CLEAN))) == {}
+def test_where_nothing_is_missing_a_scouted_shape_promises_nothing():
+    fit = with_ratchet(fitted(CLEAN))
+    assert not [promise for promise in list_bare_promises(fit, ["ratchet"], scan_shapes(fit)) if promise.gain > 0.0]
+    fit = with_ratchet(fitted(RIPPLE))
+    assert list_bare_promises(fit, ["ratchet"], scan_shapes(fit))[0].gain > 30.0
 
 
 def test_many_shapes_together_give_what_each_gives_alone():
@@ -146,10 +150,10 @@ def test_the_rounding_of_stored_values_is_no_wave_of_the_sensor(monkeypatch):
     """Its errors have the pitch of the step; a wave of that pitch was named beside the quantisation."""
     fit = clipped(9.0, "position_ripple", step=1e-3)
     assert scan_shapes(fit) == {}
-    slopes, third = compute_slopes(fit), {"position_ripple.pitch": 1e-3 / 3.0}
-    hint = run_score_test(fit, slopes, "position_ripple", [third])
-    assert hint.start["position_ripple.pitch"] > 1e-3
-    assert fit_term(fit, hint).values["position_ripple.pitch"] >= 1.5e-3 * (1.0 - 1e-9)
+    third = {"position_ripple": [{"position_ripple.pitch": 1e-3 / 3.0}]}
+    (promise,) = list_bare_promises(fit, ["position_ripple"], third)
+    assert promise.start["position_ripple.pitch"] > 1e-3
+    assert fit_term(fit, promise.key, promise.start).values["position_ripple.pitch"] >= 1.5e-3 * (1.0 - 1e-9)
     monkeypatch.setattr(rounding, "ROUNDED", 0.0)
     assert scan_shapes(fit)["position_ripple"][0]["position_ripple.pitch"] == pytest.approx(1e-3, rel=0.01)
-    assert run_score_test(fit, slopes, "position_ripple", [third]).gain > hint.gain + 10.0
+    assert list_bare_promises(fit, ["position_ripple"], third)[0].gain > promise.gain + 10.0

@@ -13,7 +13,7 @@ import pytest
 from swung_arm import NOISE, TRUE, swing
 
 import lostmotion as lm
-from lostmotion.inference.candidates import compute_slopes, run_score_test
+from lostmotion.evidence.effects import list_bare_promises
 from lostmotion.inference.fit import maximise
 from lostmotion.inference.setup import make_posterior
 from lostmotion.likelihood.predict import filter_recording, predict_freely
@@ -80,11 +80,10 @@ def test_a_free_run_stays_beside_the_recording(clean):
 
 
 def test_dry_friction_of_the_elbow_is_what_raises_the_likelihood(rubbing):
-    """Each of six terms at a joint alone: the true one has the largest score, and its fit finds 0.6 N m."""
-    slopes = compute_slopes(rubbing)
+    """Each of six terms at a joint alone: the true one promises most; one that promises nothing is not listed."""
     keys = [key for key in rubbing.posterior.system.keys if key.partition("@")[0] in TERMS]
-    gains = {key: run_score_test(rubbing, slopes, key).gain for key in keys}
-    assert len(gains) == 6
+    gains = {promise.key: promise.gain for promise in list_bare_promises(rubbing, keys, {})}
+    assert len(keys) == 6
     assert max(gains, key=gains.get) == "coulomb_friction@elbow"
 
 

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from truths import case_of
 
-from lostmotion.inference.candidates import compute_slopes
 from lostmotion.inference.curves import add_all_curves, compute_band, difference_curve, join_curve
 from lostmotion.inference.fit import maximise
 from lostmotion.inference.proposal import Axis, propose_formula
@@ -110,8 +109,7 @@ def test_the_gain_of_a_curve_is_that_over_the_better_of_two_nominal_fits():
 def test_slopes_of_a_curve_are_those_of_runs_of_the_filter(key):
     """The linearised filter beside its slow twin, differences of one run for each coefficient."""
     wide = add_all_curves(fitted(CLEAN))
-    slopes = compute_slopes(wide)
-    joint = join_curve(wide, slopes, key)
+    joint = join_curve(wide, wide.slopes, key)
     here, errors, variances = difference_curve(wide.posterior, wide.theta, key)
     found = joint.errors[len(wide.theta) :]
     assert np.allclose(joint.here.errors, here.errors, rtol=1e-9)

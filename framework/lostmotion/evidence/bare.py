@@ -8,12 +8,12 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from lostmotion.evidence.channel_errors import ChannelError
-from lostmotion.evidence.discrepancy import make_frame
-from lostmotion.evidence.effects import Promise, list_promises
+from lostmotion.evidence.effects import Promise, hold_bare, list_promises
 from lostmotion.evidence.hypothesis import Hypothesis
 from lostmotion.evidence.load_cell import fit_loads
+from lostmotion.evidence.resonances import scan_resonances
 from lostmotion.evidence.waves import scan_waves
-from lostmotion.inference.candidates import ScoreTest, fit_term, replace_term
+from lostmotion.inference.candidates import fit_term, replace_term
 from lostmotion.inference.commoner import rewrite_term
 from lostmotion.inference.curves import drop_all_curves
 from lostmotion.inference.fit import ROUGHLY, Fit, maximise, use_cores, use_one_core
@@ -139,12 +139,11 @@ class BareFits:
         self.extended.add(terms)
         bare = self.fits[terms]
         plain = drop_all_curves(bare, self.plain)
-        for found in (scan_shapes(plain), scan_waves(plain, self.whole)):
+        for found in (scan_shapes(plain), scan_resonances(plain), scan_waves(plain, self.whole)):
             for key, shapes in found.items():
                 self.shapes[key] = (*self.shapes.get(key, ()), *shapes)
         self.say(f"score tests beside {name_terms(terms)}")
-        frame = make_frame(bare.posterior, bare.theta, self.errors, self.odds)
-        alone = Hypothesis(frame, frame.expand(frame.start, bare.local.steps, frame.none), frame.none, 0.0, 0.0, 0.0)
+        alone = hold_bare(bare, self.errors, self.odds)
         promises = self.list_promises(alone, set(self.fits))[: MOST_FITTED if terms else MOST_SINGLE]
         self.say(f"fits beside {name_terms(terms)}: {', '.join(p.key for p in promises) or 'none'}")
         single = use_one_core(bare)
@@ -201,9 +200,9 @@ class BareFits:
 
     def _fit(self, bare: Fit, promise: Promise) -> Fit:
         """Return the fit with one more law, in place of the simpler one that it contains."""
-        test = ScoreTest(promise.key, promise.gain, promise.start, 1.0)
-        simpler = self.find_simpler(bare.posterior.active, promise.key)
-        return replace_term(bare, simpler, test) if simpler else fit_term(bare, test)
+        key, start = promise.key, promise.start
+        simpler = self.find_simpler(bare.posterior.active, key)
+        return replace_term(bare, simpler, key, start, promise.gain) if simpler else fit_term(bare, key, start)
 
     def refit(self, terms: Terms) -> None:
         """Fit other forms of a set: a rich law as a sum of simple ones, a complete law, other shapes."""

@@ -14,15 +14,18 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.evidence.discrepancy import Choice, Quadratic
+from lostmotion.evidence.channel_errors import ChannelError
+from lostmotion.evidence.discrepancy import Choice, Quadratic, make_frame
 from lostmotion.evidence.expansion import Curvature, Expansion, compute_cross_information, differentiate_density
 from lostmotion.evidence.hypothesis import Hypothesis, solve_posterior
+from lostmotion.inference.calls import require_finite
 from lostmotion.inference.candidates import make_term_parameters
-from lostmotion.inference.far_values import hold_shape
+from lostmotion.inference.fit import Fit
 from lostmotion.inference.late import can_have_onset
 from lostmotion.inference.natural import (
     compute_size,
     find_term,
+    hold_shape,
     is_scanned,
     list_star_points,
     list_tried_values,
@@ -34,6 +37,8 @@ from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.system import Slot, onset_key
 from lostmotion.likelihood.tangents import Tangents, linearise_recordings
 
+Shapes = Mapping[str, Sequence[Mapping[str, float]]]
+"""Shapes of terms that are tried beside their usual ones."""
 MOST_LATE = 8
 """The number of terms, best first, that are also tried from an onset on."""
 SMALL = 0.01
@@ -74,7 +79,21 @@ class Promise:
     choice: Choice
 
 
-Shapes = Mapping[str, Sequence[Mapping[str, float]]]
+def hold_bare(fit: Fit, errors: tuple[ChannelError, ...], odds: float) -> Hypothesis:
+    """Return a fit as a hypothesis without a discrepancy; `errors` are those of channels."""
+    frame = make_frame(fit.posterior, fit.theta, errors, odds)
+    return Hypothesis(frame, frame.expand(frame.start, fit.local.steps, frame.none), frame.none, 0.0, 0.0, 0.0)
+
+
+def list_bare_promises(fit: Fit, keys: Sequence[str], shapes: Shapes) -> list[Promise]:
+    """Return what each term promises beside a fit without a discrepancy, at no price, best first."""
+    return list_promises(hold_bare(fit, (), 0.0), keys, shapes, dict.fromkeys(keys, 0.0), (), 0.0)
+
+
+def propose_start(fit: Fit, key: str) -> Mapping[str, float]:
+    """Return the values of a term that promise most beside a fit, from which the fit with it begins."""
+    promises = list_bare_promises(fit, [key], {})
+    return promises[0].start if promises else get_usual_shape(fit.posterior, key) or {}
 
 
 def list_promises(
@@ -166,7 +185,7 @@ def differentiate_term(
     tried: Sequence[Mapping[str, float]],
     sizes: Array | None = None,
 ) -> Iterator[TermEffect]:
-    """Yield the effect of a term at each of some shapes, where it is finite.
+    """Yield the effect of a term at each of some shapes, where it is finite; `ContractError` if the term itself is not.
 
     Derivatives are secants over `sizes`, (amplitudes,) or (shapes, amplitudes), by default a small share of the typical
     ones. `filtered` has the linearised filter of each recording; without it, and for terms with states, the filter runs
@@ -187,6 +206,8 @@ def differentiate_term(
     for shape, size, e, v in zip(tried, sizes, errors, variances, strict=True):
         if np.all(np.isfinite(e)) and np.all(np.isfinite(v)):
             yield TermEffect(key, shape, tuple(amplitudes), size, widths, e, v)
+        else:
+            require_finite(posterior, key)
 
 
 def _respond(

@@ -15,7 +15,7 @@ from lostmotion.evidence.effects import Promise
 from lostmotion.evidence.hypothesis import Hypothesis
 from lostmotion.evidence.sensor_hum import renew_hums
 from lostmotion.evidence.weighing import REACH, WeighedSets
-from lostmotion.inference.candidates import ScoreTest, add_term
+from lostmotion.inference.candidates import add_term
 from lostmotion.inference.fit import ROUGHLY, maximise, restart
 from lostmotion.inference.natural import find_term
 
@@ -200,8 +200,7 @@ class ExplanationSearch(WeighedSets):
         simpler = self.bare.find_simpler(target.terms, promise.key)
         bare = restart(self.bare.fits[target.terms])
         posterior = bare.remove_term(simpler, self.get_own_values(target)) if simpler else bare
-        test = ScoreTest(promise.key, promise.gain, promise.start, 1.0)
-        posterior = add_term(posterior, test, dict(promise.start))
+        posterior = add_term(posterior, promise.key, promise.start)
         moved = dict(zip(target.frame.names, (target.at + promise.step).tolist(), strict=True))
         begin = {f.key: f.start for f in posterior.space.free} | moved
         begin |= {f.key: f.start for f in posterior.space.free if f.key.startswith(f"{promise.key}.")}
@@ -225,7 +224,7 @@ class ExplanationSearch(WeighedSets):
         posterior = self.bare.fits[target.terms].posterior.remove_term(key, own)
         for simpler in less - target.terms:
             shared = {simpler + name.removeprefix(key): v for name, v in own.items() if name.startswith(f"{key}.")}
-            posterior = add_term(posterior, ScoreTest(simpler, 0.0, shared, 1.0), {})
+            posterior = add_term(posterior, simpler, shared)
         known = self.bare.fits.get(less)
         if known and self.is_far(less) and not posterior.log_likelihood(posterior.space.start) > known.log_likelihood:
             return

@@ -11,8 +11,9 @@ import numpy as np
 from lostmotion.case import CaseFile
 from lostmotion.contracts import Term
 from lostmotion.errors import CaseError, nearest
+from lostmotion.evidence.effects import propose_start
 from lostmotion.identification.sampling import SampledPosterior, SamplingPlan, Task, identify, make_task
-from lostmotion.inference.candidates import compute_slopes, fit_term, run_score_test
+from lostmotion.inference.candidates import fit_term
 from lostmotion.inference.fit import Fit, maximise, restart
 from lostmotion.inference.random_force import compute_random_force_gain
 from lostmotion.inference.setup import (
@@ -95,8 +96,8 @@ def find_best_fits(
 
 def _add_terms(fit: Fit, terms: tuple[Term, ...], case: CaseFile) -> Fit:
     """Return the fit with the terms, and with the priors and the sensor of the case."""
-    for term in terms:
-        fit = fit_term(fit, run_score_test(fit, compute_slopes(fit), key_of(term)))
+    for key in map(key_of, terms):
+        fit = fit_term(fit, key, propose_start(fit, key))
     if any("." in key for key in (*case.known, *case.estimate)):
         fit = _apply_case_priors(fit, case)
     return separate_levels(fit, case.sensor)

@@ -80,6 +80,11 @@ class Fit:
         """The linearised filter of each recording at the maximum; none where that of one does not exist."""
         return linearise_recordings(self.posterior, self.theta)
 
+    @cached_property
+    def slopes(self) -> Sensitivity:
+        """The derivatives of the one-step errors at the maximum."""
+        return compute_sensitivity(self.posterior, self.theta, self.local.steps)
+
     @property
     def values(self) -> dict[str, float]:
         """The free parameters by key."""

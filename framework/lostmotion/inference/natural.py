@@ -15,7 +15,7 @@ from lostmotion.likelihood.system import Slot
 from lostmotion.quantities import CURRENT, FORCE, FREQUENCY, LENGTH, SPEED, VOLTAGE, Dimension, quantity_of
 
 SCANNED = 8
-"""The number of values of a parameter with a scan that score tests try, evenly over the logarithm of its range."""
+"""The number of values of a parameter with a scan that are tried, evenly over the logarithm of its range."""
 REACH = 4.0
 """The bounds of a shape without a scan, as a logarithm from its typical value."""
 BEYOND = math.log(1.5)
@@ -75,6 +75,11 @@ def _make_free(slot: Slot, scales: Scales, start: float | None) -> FreeParameter
     low = max(slot.param.low, -30.0 * size)
     high = min(slot.param.high, 30.0 * size)
     return FreeParameter(slot.key, slot.unit, start or 0.0, low, high, mean=0.0, sd=size, tail=TAIL)
+
+
+def hold_shape(slot: Slot) -> FreeParameter:
+    """Return a shape parameter as a coordinate without bounds."""
+    return FreeParameter(slot.key, slot.unit, 0.0, -math.inf, math.inf)
 
 
 def find_term(posterior: Posterior, key: str) -> tuple[Term, list[Slot]]:

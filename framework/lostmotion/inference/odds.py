@@ -23,7 +23,6 @@ from typing import NamedTuple
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.inference.candidates import compute_slopes
 from lostmotion.inference.curves import (
     LENGTHS,
     SIZES,
@@ -88,7 +87,7 @@ def compute_log_ratios(fit: Fit) -> dict[str, LikelihoodRatio]:
     fit are left out. The time steps are those of a search: finer steps cost four times as much and do not change it.
     """
     wider = _prepare_fit(fit)
-    slopes = compute_slopes(wider)
+    slopes = wider.slopes
     found: dict[str, list[LikelihoodRatio]] = {}
     for key, term in zip(wider.posterior.system.keys, wider.posterior.system.terms, strict=True):
         if isinstance(term, LearnedTerm) and type(term) in NAMES and key not in wider.posterior.active:

@@ -15,10 +15,8 @@ from functools import cached_property
 import numpy as np
 
 from lostmotion.contracts import Array, SensorTerm, place_of
-from lostmotion.inference.candidates import compute_slopes, predict_gain
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.natural import compute_size, find_term, list_tried_values, sort_slots
-from lostmotion.inference.resonance_scan import scan_resonances
 from lostmotion.inference.rounding import drop_rounding
 from lostmotion.inference.setup import choose_steps
 from lostmotion.likelihood.latent import smooth_expected_force
@@ -176,21 +174,19 @@ def _combine_steadiness(laws: Array, gradient: Array) -> Array:
 
 
 def scan_shapes(fit: Fit) -> dict[str, list[dict[str, float]]]:
-    """Return for each law the shape that correlates clearly with the gradient, or the resonance, where there is one.
+    """Return for each law the shape that correlates clearly with the gradient, where there is one.
 
     A stop that is hit rarely leaves no random force, so all laws are scanned for any fit.
     """
-    keys, whole, found = list_scannable(fit.posterior), fit.posterior.observations[0], scan_resonances(fit)
+    keys, whole = list_scannable(fit.posterior), fit.posterior.observations[0]
     if not keys:
-        return found
+        return {}
     posterior = choose_steps(fit.posterior, fit.theta).on((whole.part(0, min(whole.samples, MOST_SAMPLES)),))
-    motion = SmoothedMotion.of(posterior, fit.theta)
-    slopes = None
+    motion, found = SmoothedMotion.of(posterior, fit.theta), {}
     for key in keys:
         of_sensor = find_term(posterior, key)[0].acts == "sensor"
         if best := _select_best_shape(_make_sensor_errors(posterior, fit.theta, key) if of_sensor else motion, key):
-            slopes, least = slopes or compute_slopes(fit), fit.posterior.settings.select.shape_gain
-            found |= {key: [best]} if predict_gain(fit, slopes, key, best) > least else {}
+            found[key] = [best]
     return found
 
 

@@ -10,7 +10,6 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from lostmotion.inference.candidates import compute_slopes
 from lostmotion.inference.curves import CHOICES, ROUNDS, add_all_curves, fit_curve, run_curve_test
 from lostmotion.inference.fit import Fit, maximise
 from lostmotion.inference.learned import LearnedTerm
@@ -87,7 +86,7 @@ class Search:
         if (fit.posterior.active, richer) in self.learned:
             return
         self.learned.add((fit.posterior.active, richer))
-        slopes = compute_slopes(fit)
+        slopes = fit.slopes
         shapes = []
         for key, term in zip(fit.posterior.system.keys, fit.posterior.system.terms, strict=True):
             own = isinstance(term, LearnedTerm) and isinstance(term, RICHER) == richer

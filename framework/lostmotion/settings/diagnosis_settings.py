@@ -79,8 +79,6 @@ class SelectSettings:
         unit="nat",
     )
 
-    far: ClassVar[float] = 8.0
-    """A value of an amplitude beyond the reach of a score test is tried when it gains this much in log-likelihood."""
     onset_first: ClassVar[float] = 0.04
     """An onset before this share of a recording is not considered: the term acts from the beginning."""
     onset_last: ClassVar[float] = 0.9
@@ -88,8 +86,6 @@ class SelectSettings:
     shape_steady: ClassVar[float] = 2.0
     """A shape of a law is tested when its correlation with the gradient is this many standard errors from zero. A stop
     that is hit in a few places of a sweep has 2.3."""
-    shape_gain: ClassVar[float] = 8.0
-    """A shape that a scan finds is tried when its score test predicts this gain in log-likelihood."""
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from lostmotion.inference.candidates import compute_slopes, run_score_test
+from lostmotion.evidence.effects import list_bare_promises
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.natural import compute_range, compute_size, find_term, sort_slots
 from lostmotion.likelihood.posterior import Posterior
@@ -26,20 +26,16 @@ MOST_SAMPLES = 3000
 
 
 def scan_resonances(fit: Fit) -> dict[str, list[dict[str, float]]]:
-    """Return for each idle law with a resonance the shape with the largest gain by score tests, if that is large."""
+    """Return for each idle law with a resonance the shape that promises most on the beginning of a recording."""
     idle = [key for key in fit.posterior.system.keys if key not in fit.posterior.active]
     keys = [key for key in idle if find_term(fit.posterior, key)[0].states and _list_resonances(fit.posterior, key)]
     if not keys:
         return {}
     first = fit.posterior.observations[0]
     part = replace(fit, posterior=fit.posterior.on((first.part(0, min(first.samples, MOST_SAMPLES)),)))
-    slopes, found = compute_slopes(part), {}
-    for key in keys:
-        shapes = _list_shapes(part.posterior, key)
-        hint = run_score_test(part, slopes, key, shapes)
-        if hint.gain > fit.posterior.settings.select.shape_gain:
-            found[key] = [{name: hint.start[name] for name in shapes[0]}]
-    return found
+    shapes = {key: _list_shapes(part.posterior, key) for key in keys}
+    promises = list_bare_promises(part, keys, shapes)
+    return {p.key: [{name: p.start[name] for name in shapes[p.key][0]}] for p in promises if p.gain > 0.0}
 
 
 def _list_resonances(posterior: Posterior, key: str) -> list[Slot]:
