@@ -13,7 +13,7 @@ from scipy.integrate import solve_ivp
 from test_units import CASE
 
 from lostmotion.cli import main
-from lostmotion.inference.fit import compute_sensitivity
+from lostmotion.inference.sensitivity import compute_sensitivity
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.innovations import Innovations
 from lostmotion.likelihood.lanes import Lanes

@@ -10,9 +10,18 @@ import numpy as np
 import pytest
 from truths import case_of
 
-from lostmotion.inference.curves import add_all_curves, compute_band, difference_curve, join_curve
-from lostmotion.inference.fit import maximise
+from lostmotion.inference import sensitivity
+from lostmotion.inference.curves import (
+    add_all_curves,
+    compute_band,
+    difference_curve,
+    fit_curve,
+    join_curve,
+    run_curve_test,
+)
+from lostmotion.inference.fit import choose_first_steps, maximise, restart
 from lostmotion.inference.proposal import Axis, propose_formula
+from lostmotion.inference.sensitivity import compute_sensitivity
 from lostmotion.inference.setup import make_posterior, search_maximum
 from lostmotion.inference.unexplained import CurveSearch
 from lostmotion.likelihood.drive import DriveHarmonic
@@ -116,3 +125,20 @@ def test_slopes_of_a_curve_are_those_of_runs_of_the_filter(key):
     assert np.sqrt(np.mean((found - errors) ** 2) / np.mean(errors**2)) < 0.03
     of_errors, of_variances = errors**2 / here.variances, 0.5 * (variances / here.variances) ** 2
     assert np.sum(of_variances) < 0.01 * np.sum(of_errors)
+
+
+def test_slopes_over_an_active_curve_are_those_of_runs_of_the_filter(monkeypatch):
+    """With many parameters, those over its coefficients come from the linearised filter; differences are the twin."""
+    ripple = add_all_curves(fitted(RIPPLE))
+    test = run_curve_test(ripple, ripple.slopes, "unknown_over_position")
+    posterior = restart(fit_curve(ripple, test))
+    theta, steps = posterior.space.start, choose_first_steps(posterior)
+    fast = compute_sensitivity(posterior, theta, steps)
+    monkeypatch.setattr(sensitivity, "linearise_recordings", lambda *_: [])
+    slow = compute_sensitivity(posterior, theta, steps)
+    curve = np.array([f.linear for f in posterior.space.free])
+    assert curve.sum() > 10
+    assert np.array_equal(fast.errors[~curve], slow.errors[~curve])
+    told = slow.errors[curve]
+    assert np.sqrt(np.mean((fast.errors[curve] - told) ** 2) / np.mean(told**2)) < 0.03
+    assert np.allclose(fast.gradient(), slow.gradient(), rtol=0.0, atol=0.1 * np.sqrt(np.diag(slow.information())))

@@ -9,8 +9,9 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.diagnosis.excitations import Excitation
-from lostmotion.inference.fit import Fit, compute_sensitivity
+from lostmotion.inference.fit import Fit
 from lostmotion.inference.scaled_equations import solve_scaled
+from lostmotion.inference.sensitivity import compute_sensitivity
 from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.predict import observe_states, simulate_kicked
 from lostmotion.likelihood.space import RANDOM

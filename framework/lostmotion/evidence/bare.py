@@ -224,9 +224,14 @@ class BareFits:
         return is_simpler(other, one)
 
     def _overlaps(self, law: str, key: str) -> bool:
-        """Return whether two laws share a simpler one, and the second law does not contain the first."""
+        """Return whether two forces share a simpler law, and the second one does not contain the first."""
         one, other = (find_term(self.nominal.posterior, name)[0] for name in (law, key))
-        return one.at == other.at and not is_simpler(one, other) and not set(one.extends).isdisjoint(other.extends)
+        return (
+            one.acts == "motion"
+            and one.at == other.at
+            and not is_simpler(one, other)
+            and not set(one.extends).isdisjoint(other.extends)
+        )
 
     def _price(self, fit: Fit, key: str) -> float:
         """Return the log prior odds against one more term."""

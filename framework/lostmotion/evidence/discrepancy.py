@@ -26,9 +26,10 @@ from lostmotion.evidence.expansion import Curvature, Expansion, compute_log_evid
 from lostmotion.evidence.slopes import list_force_slopes
 from lostmotion.evidence.smooth_forces import SIZES, SMOOTH, SmoothForce, make_smooth_force
 from lostmotion.inference.curves import compute_coefficient_size
-from lostmotion.inference.fit import choose_first_steps, list_stencil_points, make_stencil
+from lostmotion.inference.fit import choose_first_steps
 from lostmotion.inference.learned import OverPosition
 from lostmotion.inference.natural import find_term
+from lostmotion.inference.sensitivity import compute_differences, list_stencil_points, make_stencil
 from lostmotion.likelihood.innovations import Innovations, join_innovations, join_recordings
 from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.space import FreeParameter
@@ -189,8 +190,9 @@ class JointFrame:
         needs differences. A change of unit of mass, length or force leaves the errors as they are: steps over what it
         scales are so small that differences show this, or a recording would seem to tell the scales of its channels.
         """
-        posterior, n = self.bare(at, choice), len(self.posterior.space.free)
-        points, ends = self._make_stencil(at, steps, self.known.stop)
+        posterior, width = self.bare(at, choice), self.known.stop
+        own, ends = at[: len(self.posterior.space.free)], self._make_stencil(at, steps, width)
+        points = list_stencil_points(own, *ends)
         made = [
             linearise_filter(posterior, points, i, [error.correct(o, EXACT) for error in self.errors])
             for i, o in enumerate(posterior.observations)
@@ -198,17 +200,19 @@ class JointFrame:
         linear = [one for one in made if one is not None]
         if len(linear) == len(made):
             seen = join_recordings([innovations for _, innovations in linear])
-            errors, variances = _compute_differences(*ends, seen[: len(points)])
+            found = compute_differences(own, ends, seen[: len(points)], steps)
             rows = np.concatenate([self._list_slopes(one) for one, _ in linear], axis=1)
-            errors, variances = np.vstack([errors, rows]), np.vstack([variances, np.zeros_like(rows)])
+            errors = np.vstack([found.errors[:width], rows])
+            variances = np.vstack([found.variances[:width], np.zeros_like(rows)])
             errors, variances = _add_channels(errors, variances, seen[0], seen[len(points) :])
         else:
             posterior = self.place(at)
-            points, ends = self._make_stencil(at, steps, n)
-            seen = posterior.innovations(points)
+            ends = self._make_stencil(at, steps, len(own))
+            seen = posterior.innovations(list_stencil_points(own, *ends))
             moved = [posterior.on(tuple(e.correct(o, EXACT) for o in posterior.observations)) for e in self.errors]
-            changed = join_innovations([other.innovations(at[None, :n]) for other in moved]) if moved else seen[:0]
-            errors, variances = _add_channels(*_compute_differences(*ends, seen), seen[0], changed)
+            changed = join_innovations([other.innovations(own[None]) for other in moved]) if moved else seen[:0]
+            found = compute_differences(own, ends, seen, steps)
+            errors, variances = _add_channels(found.errors, found.variances, seen[0], changed)
         middle, precision = np.zeros(self.count), np.zeros(self.count)
         for i, f in enumerate(posterior.space.free):
             middle[i] = f.mean if math.isfinite(f.sd) else at[i]
@@ -217,8 +221,8 @@ class JointFrame:
         blocks |= {force.key: force.columns for force in self.forces}
         return Expansion(seen[0], at, errors, variances, middle, precision, blocks)
 
-    def _make_stencil(self, at: Array, steps: Array, width: int) -> tuple[Array, tuple[Array, Array, Array]]:
-        """Return points at which the first `width` coordinates are changed, and these coordinates: at, up and down.
+    def _make_stencil(self, at: Array, steps: Array, width: int) -> tuple[Array, Array]:
+        """Return coordinates above and below those of the posterior, where the first `width` are changed.
 
         Differences over own coordinates that are none of the model are central.
         """
@@ -228,9 +232,8 @@ class JointFrame:
         central = np.arange(n) < self.own
         central[: self.own] &= (self._exact == 0.0) | (up[: self.own] == at[: self.own])
         down = np.where(central, down, at[:n])
-        points = list_stencil_points(at[:n], up, down)
-        ends = (at[:width], up[:width], down[:width])
-        return np.vstack([points[: 1 + width], points[1 + n :]]), ends
+        up[width:] = down[width:] = at[width:n]
+        return up, down
 
     def bare(self, at: Array, choice: Choice) -> Posterior:
         """Return the posterior at coordinates (count,): corrected recordings, and the smooth forces that act."""
@@ -373,19 +376,3 @@ class Quadratic:
         """Return the best of the searches from `begin` and from no smooth force."""
         found = [self.choose(one) for one in dict.fromkeys((begin, self.frame.none))]
         return max(found, key=lambda pair: pair[1])
-
-
-def _compute_differences(theta: Array, up: Array, down: Array, seen: Innovations) -> tuple[Array, Array]:
-    """Return the derivatives (n, readings) of errors and variances from the points of a stencil.
-
-    Where the filter diverges on one side, the difference is one-sided.
-    """
-    count = len(theta)
-    below = np.zeros(count, dtype=np.intp)
-    below[down != theta] = np.arange(1 + count, len(seen))
-    above = np.arange(1, 1 + count)
-    above, below = (np.where(seen.finite[rows], rows, 0) for rows in (above, below))
-    widths = np.where(above > 0, up, theta) - np.where(below > 0, down, theta)
-    safe = np.where(widths > 0, widths, 1.0)[:, None]
-    errors = (seen.errors[above] - seen.errors[below]) / safe
-    return errors, (seen.variances[above] - seen.variances[below]) / safe

@@ -14,10 +14,11 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from lostmotion.contracts import Array, Place, place_of
-from lostmotion.inference.fit import Fit, Sensitivity, compute_robust_covariance, maximise, restart
+from lostmotion.inference.fit import Fit, compute_robust_covariance, maximise, restart
 from lostmotion.inference.learned import LearnedTerm, compute_spread
 from lostmotion.inference.natural import find_term
 from lostmotion.inference.scaled_equations import solve_scaled
+from lostmotion.inference.sensitivity import Sensitivity
 from lostmotion.inference.surfaces import RICHER, OverHistory, Surface, list_all_curves
 from lostmotion.likelihood.innovations import Innovations
 from lostmotion.likelihood.posterior import Posterior

@@ -16,7 +16,14 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.inference.scaled_equations import solve_scaled
-from lostmotion.likelihood.innovations import Innovations
+from lostmotion.inference.sensitivity import (
+    MANY,
+    Sensitivity,
+    compute_differences,
+    compute_sensitivity,
+    list_stencil_points,
+    make_stencil,
+)
 from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.space import RANDOM
 from lostmotion.likelihood.tangents import Tangents, linearise_recordings
@@ -24,8 +31,6 @@ from lostmotion.likelihood.tangents import Tangents, linearise_recordings
 BLOCKS = 40
 STRIDE = 0.3
 """Finite-difference step in conditional standard deviations: small against the posterior, large against roughness."""
-MANY = 20
-"""Beyond this number of parameters derivatives dominate the cost, and are reused while steps along them gain."""
 REUSES = 8
 STEEPEST = 4.0
 """The largest correction of the expected curvature along a step that gained less than half of the prediction."""
@@ -111,72 +116,6 @@ def choose_first_steps(posterior: Posterior) -> Array:
     return np.array(
         [1e-3 if f.log or f.key.startswith("log_") else 1e-3 * min(f.sd, f.high - f.low) for f in posterior.space.free]
     )
-
-
-@dataclass(frozen=True)
-class Sensitivity:
-    """The innovations at a point, and the derivatives (parameters, samples) of errors and variances there."""
-
-    theta: Array
-    here: Innovations
-    errors: Array
-    variances: Array
-    steps: Array
-
-    def gradient(self) -> Array:
-        """Return the gradient of the log-likelihood."""
-        e, v = self.here.errors, self.here.variances
-        return np.asarray(self.errors @ (-e / v) + self.variances @ (0.5 * (e * e / v - 1.0) / v))
-
-    def scores(self) -> Array:
-        """Return the score of each sample: its contribution to the gradient, (parameters, samples)."""
-        e, v = self.here.errors, self.here.variances
-        return np.asarray(self.errors * (-e / v) + self.variances * (0.5 * (e * e / v - 1.0) / v))
-
-    def information(self) -> Array:
-        """Return the expected information of the log-likelihood."""
-        v = self.here.variances
-        return np.asarray((self.errors / v) @ self.errors.T + 0.5 * (self.variances / v**2) @ self.variances.T)
-
-
-def make_stencil(posterior: Posterior, theta: Array, steps: Array) -> tuple[Array, Array]:
-    """Return coordinates above and below `theta`, (n,) each: equal to it where one side is enough or a bound is met.
-
-    Differences are central, except for coordinates in which the innovations are linear.
-    """
-    space = posterior.space
-    straight = np.array([f.linear for f in posterior.space.free], dtype=bool)
-    return np.minimum(theta + steps, space.high), np.where(straight, theta, np.maximum(theta - steps, space.low))
-
-
-def list_stencil_points(theta: Array, up: Array, down: Array) -> Array:
-    """Return the points (count, n) of a stencil: the centre, those above, and those below that differ from it."""
-    above = theta + np.diag(up - theta)
-    below = theta + np.diag(down - theta)
-    return np.vstack([theta[None], above, below[down != theta]])
-
-
-def compute_sensitivity(posterior: Posterior, theta: Array, steps: Array) -> Sensitivity:
-    """Return innovations and their derivatives at `theta`, by differences within the bounds."""
-    up, down = make_stencil(posterior, theta, steps)
-    return compute_differences(theta, (up, down), posterior.innovations(list_stencil_points(theta, up, down)), steps)
-
-
-def compute_differences(theta: Array, ends: tuple[Array, Array], seen: Innovations, steps: Array) -> Sensitivity:
-    """Return the derivatives from the innovations `seen` at the points of a stencil.
-
-    Where the filter diverges on one side, the difference is one-sided.
-    """
-    (up, down), count = ends, len(theta)
-    below = np.zeros(count, dtype=np.intp)
-    below[down != theta] = np.arange(1 + count, len(seen))
-    above = np.arange(1, 1 + count)
-    above, below = (np.where(seen.finite[rows], rows, 0) for rows in (above, below))
-    widths = np.where(above > 0, up, theta) - np.where(below > 0, down, theta)
-    safe = np.where(widths > 0, widths, 1.0)[:, None]
-    de = (seen.errors[above] - seen.errors[below]) / safe
-    dv = (seen.variances[above] - seen.variances[below]) / safe
-    return Sensitivity(theta, seen[0], de, dv, steps)
 
 
 def expand(posterior: Posterior, theta: Array, steps: Array) -> LocalExpansion:
@@ -379,7 +318,7 @@ def compute_robust_covariance(fit: Fit, held: Sequence[int] = ()) -> Array:
     that correlated residuals reduce the information. Never smaller than the usual covariance. It is zero for
     coordinates that are `held`.
     """
-    scores = compute_sensitivity(fit.posterior, fit.theta, fit.local.steps).scores()
+    scores = fit.slopes.scores()
     edges = np.linspace(0, scores.shape[1], BLOCKS + 1).astype(int)[:-1]
     sums = np.add.reduceat(scores, edges, axis=1)
     sums -= sums.mean(axis=1, keepdims=True)

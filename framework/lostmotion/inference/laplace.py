@@ -8,7 +8,8 @@ import numpy as np
 from scipy.special import gammaln, logsumexp
 
 from lostmotion.contracts import Array
-from lostmotion.inference.fit import MANY, Fit
+from lostmotion.inference.fit import Fit
+from lostmotion.inference.sensitivity import MANY
 from lostmotion.results.diagnosis import SampledEvidence
 
 HEAVY = 5.0

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.inference.fit import Fit, maximise, restart
+from lostmotion.inference.fit import ROUGHLY, Fit, maximise, restart
 from lostmotion.inference.natural import find_term
 from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.space import FreeParameter
@@ -67,9 +67,10 @@ def refine_onset(fit: Fit, key: str) -> Fit:
         return fit
     onset = find_onset(fit.posterior, key)
     wider = restart(fit).extend((make_onset_parameter(fit.posterior, key, onset),), ())
-    found = maximise(wider, _scan_time(wider, np.append(fit.theta, onset), len(fit.theta)))
+    found = maximise(wider, _scan_time(wider, np.append(fit.theta, onset), len(fit.theta)), tolerance=ROUGHLY)
     late, ever = (
-        maximise(restart(fit).hold_values({onset_key(key): at}), found.theta[:-1]) for at in (found.theta[-1], ALWAYS)
+        maximise(restart(fit).hold_values({onset_key(key): at}), found.theta[:-1], tolerance=ROUGHLY)
+        for at in (found.theta[-1], ALWAYS)
     )
     if ever.log_evidence > max(late.log_evidence, fit.log_evidence) - price_onset(fit.posterior):
         return ever
@@ -90,7 +91,7 @@ def refine_change(fit: Fit, key: str) -> Fit:
     """Return the fit with the time of a change at the highest maximum; unchanged for a term without one."""
     if fit.status == "diverged" or (at := find_change_time(fit.posterior, key)) is None:
         return fit
-    found = maximise(fit.posterior, _scan_time(fit.posterior, fit.theta, at))
+    found = maximise(fit.posterior, _scan_time(fit.posterior, fit.theta, at), tolerance=ROUGHLY)
     return found if found.local.log_posterior > fit.local.log_posterior else fit
 
 

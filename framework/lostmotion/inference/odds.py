@@ -31,7 +31,7 @@ from lostmotion.inference.curves import (
     join_curve,
     project_from,
 )
-from lostmotion.inference.fit import BLOCKS, Fit, Sensitivity
+from lostmotion.inference.fit import BLOCKS, Fit
 from lostmotion.inference.learned import (
     DragOverPosition,
     FrictionOverPosition,
@@ -42,6 +42,7 @@ from lostmotion.inference.learned import (
     OverVelocity,
     compute_spread,
 )
+from lostmotion.inference.sensitivity import Sensitivity
 from lostmotion.inference.setup import choose_steps
 from lostmotion.inference.stretches import list_stretches
 from lostmotion.likelihood.posterior import Posterior

@@ -15,7 +15,6 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit, hold_free, maximise, use_one_core
-from lostmotion.inference.mixture import MANY
 from lostmotion.kernels.threads import each
 
 FIRST, NARROW, STEEP = 2.0, 1.0, 4.0
@@ -28,25 +27,33 @@ END = 0.5 * WIDTH**2
 DOUBLINGS, REFINEMENTS = 6, 3
 """How often the distance is doubled, and the end then interpolated."""
 ROUNDS = 6
+MOST_WORK = 2e8
+"""The steps of filters that one refit at each end may take, about 20 s: three laws that the recording hardly shows, on
+stiff machines, took four minutes for profiles that made no interval wider."""
 
 
 def measure_stretches(fit: Fit) -> Array:
     """Return by what factor the lower and the upper half of each interval is wider than a normal one, (n, 2).
 
     It is 1 for noise levels, for coefficients of curves, in which the errors are linear, for parameters of one of
-    several recordings, and for fits with so many parameters that a refit takes seconds.
+    several recordings, and where refits take more than `MOST_WORK`.
     """
-    factors = np.ones((len(fit.theta), 2))
-    if len(fit.theta) > MANY:
-        return factors
-    single = use_one_core(fit)
+    factors, single = np.ones((len(fit.theta), 2)), use_one_core(fit)
     shared = [i for i, f in enumerate(fit.posterior.space.free) if f.physical and not f.linear and f.recording is None]
     asked = [one for one in ((i, side) for i in shared for side in (0, 1)) if _has_room(fit, *one)]
     asked = [one for one, fall in zip(asked, _predict_falls(fit, asked), strict=True) if not NARROW < fall < STEEP]
+    if len(asked) * _count_refit(fit) > MOST_WORK:
+        return factors
     found = each(lambda one: _measure_half(single, *one), asked, fit.posterior.jobs)
     for (i, side), factor in zip(asked, found, strict=True):
         factors[i, side] = factor
     return factors
+
+
+def _count_refit(fit: Fit) -> int:
+    """Return the steps of filters of one refit, as `count_work` counts them."""
+    running = fit.posterior.dynamics
+    return ROUNDS * (2 * len(fit.theta) + 1) * fit.posterior.samples * running.nsub * running.states
 
 
 def stretch_draws(fit: Fit, draws: Array, stretches: Array) -> Array:

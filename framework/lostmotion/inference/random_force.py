@@ -7,7 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from lostmotion.inference.fit import MANY, ROUGHLY, Fit, maximise
+from lostmotion.inference.fit import ROUGHLY, Fit, maximise
+from lostmotion.inference.sensitivity import MANY
 from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.space import RANDOM
 

@@ -20,8 +20,9 @@ from scipy.special import chdtrc
 
 from lostmotion.case import SensorSpec
 from lostmotion.contracts import Array
-from lostmotion.inference.fit import MANY, Fit, compute_sensitivity, maximise, raise_random_force, restart
+from lostmotion.inference.fit import Fit, maximise, raise_random_force, restart
 from lostmotion.inference.learned import LearnedTerm
+from lostmotion.inference.sensitivity import MANY, compute_sensitivity
 from lostmotion.inference.setup import separate_levels
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.observation import Observation

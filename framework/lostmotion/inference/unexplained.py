@@ -15,7 +15,7 @@ from lostmotion.inference.fit import Fit, maximise
 from lostmotion.inference.learned import LearnedTerm
 from lostmotion.inference.natural import find_term
 from lostmotion.inference.penalties import compute_penalty, compute_unknown_price
-from lostmotion.inference.random_force import compute_random_force_gain, reduces_random_force
+from lostmotion.inference.random_force import has_usual_random_force, reduces_random_force
 from lostmotion.inference.surfaces import RICHER
 from lostmotion.likelihood.posterior import Posterior
 from lostmotion.likelihood.space import RANDOM
@@ -148,7 +148,7 @@ class CurveSearch:
         if chosen.posterior.active:
             search.learn(before, 1)
         plain = _select_best(search)
-        if plain is None or compute_random_force_gain(plain) > 0.0:
+        if plain is None or not has_usual_random_force(plain):
             search.learn(after, richer=True)
             search.learn(before, 1, richer=True)
         best = _select_best(search)
@@ -156,7 +156,7 @@ class CurveSearch:
             best = search.bare(best)
         if best is None or _changes_named_law(best, after):
             return None
-        while len(_list_curves(best.posterior)) < int(limits.most_curves) and compute_random_force_gain(best) > 0.0:
+        while len(_list_curves(best.posterior)) < int(limits.most_curves) and not has_usual_random_force(best):
             search.learn(best, 1)
             further = _select_best(search, best.posterior.active) or best
             if further.posterior.active == best.posterior.active:

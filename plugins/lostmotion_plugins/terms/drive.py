@@ -102,6 +102,7 @@ class DriveSaturation(DriveTerm):
         Param("share", "share of the excess that is lost", NUMBER, low=0.0, high=1.0, null=0.0),
         Param("limit", "largest drive", FORCE, low=0.0, scale="log", prior=TermPrior(0.7, scan=(0.03, 4.0))),
     )
+    extends = ("excitation_gain",)
 
     @staticmethod
     def true(u: Input, t: Array, p: Values, order: int) -> Array:
@@ -129,6 +130,7 @@ class DriveDeadZone(DriveTerm):
         Param("share", "share of the drive in the zone that is lost", NUMBER, low=0.0, high=1.0, null=0.0),
         Param("width", "half width of the zone", FORCE, low=0.0, scale="log", prior=TermPrior(0.2, scan=(0.1, 10.0))),
     )
+    extends = ("excitation_gain",)
 
     @staticmethod
     def true(u: Input, t: Array, p: Values, order: int) -> Array:
