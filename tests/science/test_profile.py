@@ -9,6 +9,7 @@ import pytest
 from truths import fit_oscillator
 
 from lostmotion.evidence.effects import list_bare_promises, propose_start
+from lostmotion.inference import profile
 from lostmotion.inference.candidates import fit_term
 from lostmotion.inference.profile import END, WIDTH, _fall_at, measure_stretches, stretch_draws
 from lostmotion.likelihood.observation import Observation
@@ -55,6 +56,12 @@ def widened(fit, key, factor):
     scale[at, at] = factor
     information = scale @ fit.local.information @ scale
     return replace(fit, local=replace(fit.local, information=information)), at
+
+
+def test_a_profile_that_takes_too_much_work_is_left_out(monkeypatch):
+    narrow, _ = widened(nominal(0.0), "k", 4.0)
+    monkeypatch.setattr(profile, "MOST_WORK", 0.0)
+    assert np.all(measure_stretches(narrow) == 1.0)
 
 
 def test_an_interval_is_as_wide_as_the_profile():
