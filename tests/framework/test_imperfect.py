@@ -29,6 +29,7 @@ from lostmotion_trials.blind.imperfect import (
     draw_effect,
     draw_machine,
     draw_world,
+    follow_motion,
     record_imperfect,
 )
 from lostmotion_trials.blind.mechanisms import NAMES, Pilot
@@ -144,6 +145,24 @@ def test_smooth_forces_over_the_motion_have_their_size_and_no_straight_line(kind
                 assert np.abs(line).max() < 0.05 * blemish.rms
                 found += 1
     assert found >= 5
+
+
+def test_smooth_forces_have_no_straight_line_over_the_motion_with_what_is_hidden():
+    """A drive of which a fifth acts moves the machine five times less; its curves then had a constant of 5 % of it."""
+    found = 0
+    for seed in range(8):
+        pilot, world, rng = machine(KINDS[0], seed)
+        small = Pilot(pilot.rig, simulate_machine(pilot.rig, Hidden(), Disturbances(excitation_gain=-0.8), rng))
+        told = follow_motion(world, small, rng)
+        for blemish in (b for b in world.smooth if b.over == "position"):
+            places = np.linspace(-REACH, REACH, CELLS + 1)
+            before, after = (
+                np.interp(small.q / w.flaws["position"], places, w.curves["position"]) for w in (world, told)
+            )
+            assert abs(np.mean(after)) < 0.05 * blemish.rms
+            assert np.std(after) == pytest.approx(blemish.rms, rel=0.05)
+            found += abs(np.mean(before)) > 0.5 * blemish.rms
+    assert found >= 2
 
 
 @pytest.mark.parametrize("kind", [KINDS[0], *(pytest.param(kind, marks=pytest.mark.slow) for kind in KINDS[1:])])

@@ -23,6 +23,7 @@ from lostmotion_trials.blind.imperfect import (
     draw_effect,
     draw_machine,
     draw_world,
+    follow_motion,
     record_imperfect,
     simulate_imperfect,
 )
@@ -170,9 +171,14 @@ def _fill_perfect(names: Sequence[str], rng: np.random.Generator, pilot: Pilot) 
 
 
 def _fill_imperfect(names: Sequence[str], kind: str, rng: np.random.Generator, pilot: Pilot) -> Filled:
-    world = draw_world(kind, pilot, rng)
+    rig, world = pilot.rig, draw_world(kind, pilot, rng)
     effects = tuple(draw_effect(name, pilot, rng) for name in names)
-    return effects, simulate_imperfect(pilot.rig, convert_effects(pilot.rig, effects), world, rng), world
+    inside, disturbances = hidden = convert_effects(rig, effects)
+    moved = Pilot(rig, simulate_machine(rig, inside, disturbances.leave_out_sensor(), rng))
+    if not 0.0 < float(np.std(moved.q)) < RUNAWAY * float(np.std(pilot.q)):
+        raise DataError("the machine hardly moves, or runs away, with what is hidden in it")
+    world = follow_motion(world, moved, rng)
+    return effects, simulate_imperfect(rig, hidden, world, rng), world
 
 
 def _is_possible(name: str, kind: str) -> bool:

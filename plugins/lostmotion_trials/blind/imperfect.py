@@ -173,6 +173,17 @@ def draw_world(kind: str, pilot: Pilot, rng: np.random.Generator) -> World:
     return replace(made, curves=_tabulate_curves(made, pilot, rng))
 
 
+def follow_motion(world: World, pilot: Pilot, rng: np.random.Generator) -> World:
+    """Return a world with its curves over another motion of the rig, the one with what is hidden in it.
+
+    Where a hidden gain or a limit of the drive makes the motion several times smaller, curves over the motion without
+    it have a constant and a slope there, which are true forces that the truth does not tell.
+    """
+    flaws = {**world.flaws, "position": _measure_scale(pilot.q), "velocity": _measure_scale(pilot.v)}
+    made = replace(world, flaws=flaws)
+    return replace(made, curves=_tabulate_curves(made, pilot, rng))
+
+
 def _measure_scale(moved: Array) -> float:
     """Return the scale of a motion: its standard deviation, or 0.4 of the largest value if more (after a hit)."""
     return max(float(np.std(moved)), 0.4 * float(np.max(np.abs(moved))))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -132,6 +132,10 @@ class Disturbances:
         acts = (np.abs(value) < self.limit) & (np.abs(value) > self.dead)
         value = np.clip(value, -self.limit, self.limit) - np.clip(value, -self.dead, self.dead)
         return value, slope * acts
+
+    def leave_out_sensor(self) -> Disturbances:
+        """Return the errors of the drive and the random force alone: a sensor with them shows the motion as it is."""
+        return replace(self, sensor_delay=0.0, sensor_gain=0.0, sensor_time=0.0, step=0.0, ripple=(0.0, 1.0, 0.0))
 
     def apply_sensor(self, seen: Array, rate: float) -> Array:
         """Return the reading (samples,) of a sensor with a lag and a ripple over its reading."""
