@@ -13,7 +13,7 @@ from scipy.special import logsumexp
 
 from lostmotion.diagnosis.compare import cut_heldout
 from lostmotion.diagnosis.stages import list_fitted_keys
-from lostmotion.evidence import discrepancy
+from lostmotion.evidence import discrepancy, weighing
 from lostmotion.evidence.bare import BareFits, Budget
 from lostmotion.evidence.channel_errors import DriveError, ScaleError, SensorError, list_channel_errors
 from lostmotion.evidence.discrepancy import list_known_values, make_frame
@@ -135,6 +135,19 @@ def test_the_linear_response_equals_its_plain_twin():
 def rubbing(tmp_path_factory):
     """Return the search for a machine with dry friction, after its run."""
     return start_search(tmp_path_factory.mktemp("rub"), rub).run()
+
+
+def test_a_fit_begins_at_the_hypothesis_of_another_noise_where_that_is_more_likely(rubbing, monkeypatch):
+    begun, seed = [], rubbing.best
+    monkeypatch.setattr(weighing, "fit_hypothesis", lambda *told: begun.append(told) or fit_hypothesis(*told))
+    again = ExplanationSearch(
+        rubbing.nominal, rubbing.keys, rubbing.pieces, Budget(seconds=600.0), errors=rubbing.errors, seeds=rubbing.found
+    )
+    again.weigh(rubbing.bare.fits[seed.terms])
+    (_, at, _, choice), *_ = begun
+    assert choice == seed.choice
+    assert at == pytest.approx(seed.at)
+    assert again.best.score() == pytest.approx(seed.score(), abs=0.5)
 
 
 @pytest.mark.parametrize("bent", [{}, {"cosine": 1e-3, "sine": -7e-4, "pitch": 0.03}])

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from lostmotion.evidence.bare import HALF, Budget, Say
+from lostmotion.evidence.bare import HALF, Budget, Say, Terms
 from lostmotion.evidence.explanations import Explanations
 from lostmotion.evidence.hypothesis import Hypothesis
 from lostmotion.evidence.search import ExplanationSearch
@@ -33,17 +33,17 @@ class Course:
 
     def find_explanations(self, nominal: Fit) -> Explanations:
         """Return the explanations of the data that a nominal model leaves something out of, or nothing."""
-        search = self._search(nominal)
+        search = self._search(nominal, {})
         if not self.budget.part(HALF).spent and (coloured := self._find_memory(search)) is not None:
-            again = self._search(coloured)
+            again = self._search(coloured, search.found)
             if again.best.score() > search.best.score():
                 search = again
         return Explanations.of(search)
 
-    def _search(self, nominal: Fit) -> ExplanationSearch:
-        """Return the search beside a nominal fit."""
+    def _search(self, nominal: Fit, seeds: Mapping[Terms, Hypothesis]) -> ExplanationSearch:
+        """Return the search beside a nominal fit; `seeds` are hypotheses of the same data with another noise."""
         until = max((float(o.time[-1]) for o, _ in self.pieces), default=0.0)
-        whole = ExplanationSearch(nominal, self.keys, self.pieces, self.budget, until=until, say=self.say)
+        whole = ExplanationSearch(nominal, self.keys, self.pieces, self.budget, until=until, say=self.say, seeds=seeds)
         short = cut_stretches(nominal.posterior)
         bare = nominal if short is nominal.posterior else maximise(short, nominal.theta)
         if bare is nominal or bare.status == "diverged":

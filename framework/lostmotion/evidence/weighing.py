@@ -36,7 +36,8 @@ class WeighedSets:
     """Hypotheses beside a `nominal` fit among terms `keys`; `pieces` are held-out data with their first samples.
 
     `found` has the hypothesis of each set that was weighed. Smooth forces over the time reach to `until` (s). On a part
-    of the samples, `temper` is its share of all: scores then predict those of all samples.
+    of the samples, `temper` is its share of all: scores then predict those of all samples. `seeds` are hypotheses of
+    the same data with another noise, from which fits may begin.
     """
 
     nominal: Fit
@@ -48,6 +49,7 @@ class WeighedSets:
     say: Say = lambda _: None
     errors: tuple[ChannelError, ...] = ()
     recordings: Sequence[Observation] = ()
+    seeds: Mapping[Terms, Hypothesis] = field(default_factory=dict)
     found: dict[Terms, Hypothesis] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -79,10 +81,14 @@ class WeighedSets:
         bare = settle_steps(bare)
         self.bare.fits.setdefault(bare.posterior.active, bare)
         frame = make_frame(bare.posterior, bare.theta, self.errors, self.bare.odds)
-        at, price = frame.start, compute_price(bare.posterior, len(self.keys))
+        price, starts = compute_price(bare.posterior, len(self.keys)), [(frame.start, choice)]
         if begin is not None:
-            at = max(frame.transfer(begin), at, key=lambda one: frame.log_likelihood(one, choice or frame.none))
-        self._keep(fit_hypothesis(frame, at, price, choice), bare)
+            starts.append((frame.transfer(begin), choice))
+        if (seed := self.seeds.get(bare.posterior.active)) is not None:
+            starts.append((frame.transfer(seed.values), seed.choice))
+        if len(starts) > 1:
+            starts.sort(key=lambda one: -frame.log_likelihood(one[0], one[1] or frame.none))
+        self._keep(fit_hypothesis(frame, starts[0][0], price, starts[0][1]), bare)
         if bare.posterior.active in self.found:
             self._lift(self.found[bare.posterior.active])
         if late := {onset_key(key) for key in bare.posterior.active if find_onset(bare.posterior, key) > ALWAYS}:
