@@ -84,6 +84,7 @@ def lostmotion_noises() -> dict[str, str]:
         "quantised": "lostmotion.noises:Quantised",
         "white": "lostmotion.noises:White",
         "drift": f"{at}.drift:DriftingZero",
+        "flicker": f"{at}.flicker:Flicker",
         "hum": f"{at}.hum:Hum",
         "hum60": f"{at}.hum:Hum60",
         "jitter": f"{at}.jitter:Jitter",

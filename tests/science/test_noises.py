@@ -22,6 +22,7 @@ from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import Registry
 from lostmotion_plugins.models.basic import LinearOscillator
 from lostmotion_plugins.noises.drift import DriftingZero
+from lostmotion_plugins.noises.flicker import Flicker
 from lostmotion_plugins.noises.hum import Hum
 from lostmotion_plugins.noises.jitter import Jitter
 
@@ -32,17 +33,22 @@ T = DT * np.arange(COUNT)
 PHASOR = 20.0 / complex(K - M * OMEGA**2, C * OMEGA)
 X, V = ((factor * PHASOR * np.exp(1j * OMEGA * T)).real for factor in (1.0, 1j * OMEGA))
 
-NOISES = {"jitter": (Jitter(), 1.5e-3), "drift": (DriftingZero(), 5e-3), "hum": (Hum(), 3e-3)}
-"""Each with its true size: 1.5 ms, 5 mm within a second (root), 3 mm."""
+NOISES = {
+    "jitter": (Jitter(), 1.5e-3), "drift": (DriftingZero(), 5e-3), "hum": (Hum(), 3e-3), "flicker": (Flicker(), 1e-3),
+}  # fmt: skip
+"""Each with its true size: 1.5 ms, 5 mm within a second (root), 3 mm, 1 mm in each decade."""
 
 
 def add_noise(kind, size, rng):
-    """Return noise (samples,) written without the blocks: moved stamps, a sum of steps, a sine that wanders."""
+    """Return noise (samples,) written without the blocks: moved stamps, a sum of steps, 1/f lines, a wandering sine."""
     if kind == "jitter":
         late = size * rng.standard_normal(COUNT)
         return (PHASOR * np.exp(1j * OMEGA * (T + late))).real - X
     if kind == "drift":
         return np.cumsum(size * math.sqrt(DT) * rng.standard_normal(COUNT))
+    if kind == "flicker":
+        lines = np.array([1.0, 1j]) @ rng.standard_normal((2, 8 * COUNT)) / np.sqrt(np.arange(1, 8 * COUNT + 1))
+        return size / math.sqrt(math.log(10.0)) * np.fft.fft(lines, 16 * COUNT).real[:COUNT]
     steps = math.sqrt(DT / 100.0) * (rng.standard_normal(COUNT) + 1j * rng.standard_normal(COUNT))
     return size * ((1.0 + 1j + np.cumsum(steps)) * np.exp(2j * np.pi * 50.0 * T)).real
 
@@ -163,6 +169,15 @@ def test_an_unknown_noise_is_refused_with_the_known_ones(tmp_path):
     (tmp_path / "case.toml").write_text(OWN_CASE.replace("NAME", "pink"))
     with pytest.raises(LostMotionError, match=r"(?s)noise.*'pink'.*ar1.*echo.*jitter"):
         prepare(tmp_path / "case.toml", Registry.discover())
+
+
+def test_a_sum_of_five_autoregressive_noises_has_the_spectrum_of_flicker():
+    """Within 10 % of S = a / f, with a the variance in a decade over log(10), for f from 0.0002 to 0.05 of the rate."""
+    block, f = Flicker().covariance((2.0,), 0.01), np.geomspace(2e-4, 0.05, 60)
+    kept, variance = np.diag(block.transition), np.diag(block.first)
+    rows = variance * (1.0 - kept**2) / (1.0 + kept**2 - 2.0 * kept * np.cos(2.0 * np.pi * f[:, None]))
+    told = 2.0 * rows.sum(axis=1)
+    assert told == pytest.approx(4.0 / math.log(10.0) / f, rel=0.1)
 
 
 def test_variance_of_a_walk_grows_evenly():

@@ -52,9 +52,9 @@ the model: `force`, `second_force`, `base_position`, `base_acceleration`), `colu
 - `name`: its name in results, and the place of its terms, as in `sensor_delay@load encoder`. The default is the name
   of its channel. Names differ within a recording and contain none of `[ ] : / @ .`;
 - `noise`: "white" (the default); "quantised", in whole steps that are found from the stored values; "ar1", with a part
-  that is correlated in time; "jitter", of stamps whose clock jitters; "drift", of a zero that drifts; "hum" or "hum60",
-  of the mains; or the name of a noise of a plugin. Several are written with plus signs, `"jitter + drift"`. A diagnosis
-  tries correlated noise itself where the recording shows it;
+  that is correlated in time; "jitter", of stamps whose clock jitters; "drift", of a zero that drifts; "flicker", 1/f
+  noise; "hum" or "hum60", of the mains; or the name of a noise of a plugin. Several are written with plus signs,
+  `"jitter + drift"`. A diagnosis tries correlated noise itself where the recording shows it;
 - `differences = true`: each value of a position is the change since the row before, as from a counter of an encoder
   that is read and reset. The values are summed. With `unit = "turn"` and `factor = 0.000244140625` they are counts of
   an encoder with 4096 counts a turn;
