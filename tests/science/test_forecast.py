@@ -1,5 +1,7 @@
 """What a recording can tell before the fit: intervals as found, and sizes at which terms are named."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from explained import explain, made_of
@@ -7,8 +9,9 @@ from explained import explain, made_of
 from lostmotion.diagnosis.compare import cut_heldout
 from lostmotion.diagnosis.expected_findings import describe_expectation, forecast_recordings
 from lostmotion.diagnosis.stages import list_fitted_keys
+from lostmotion.evidence import forecast as module
 from lostmotion.evidence.bare import Budget
-from lostmotion.evidence.forecast import _Rival, _solve_size
+from lostmotion.evidence.forecast import RAISED, Forecast, _Rival, _solve_size, measure_levels
 from lostmotion.evidence.search import ExplanationSearch
 from lostmotion.inference.setup import make_posterior, search_maximum, split_heldout
 
@@ -77,3 +80,21 @@ def test_friction_of_the_stated_size_is_found_and_a_quarter_of_it_is_not(tmp_pat
         found.append(explain(nominal, list_fitted_keys(nominal.posterior.system), pieces).inclusion("coulomb_friction"))
     assert found[0] > 0.95
     assert found[1] < 0.5
+
+
+def test_what_a_random_force_hides_is_told_of_the_same_term(monkeypatch):
+    """A term without a finite effect in one forecast moves the places of the others there: a diagnosis ended so."""
+
+    def forecast(effects, information):
+        blocks = {key: slice(i, i + 1) for i, key in enumerate(effects)}
+        made = object.__new__(Forecast)
+        here = SimpleNamespace(expansion=SimpleNamespace(here=SimpleNamespace(log_likelihood=0.0)))
+        made.__dict__.update(effects=dict.fromkeys(effects), joined=SimpleNamespace(blocks=blocks), found=here)
+        made.__dict__["information"] = np.diag(information)
+        return made
+
+    told = iter([forecast("ab", [4.0, 9.0]), *(forecast("b", [3.0]) for _ in RAISED)])
+    monkeypatch.setattr(module, "make_forecast", lambda *_, **__: next(told))
+    simulated = SimpleNamespace(posterior=SimpleNamespace(observations=(None,), samples=1))
+    levels = measure_levels(simulated, ("a", "b"), 1)
+    assert [level.left for level in levels] == [{"b": pytest.approx(3.0 / 9.0)}] * len(RAISED)

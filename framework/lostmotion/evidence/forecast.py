@@ -140,6 +140,11 @@ class Forecast:
     many: int
     levels: Sequence[RandomLevel] = ()
 
+    def tell(self, key: str) -> float:
+        """Return the information on the first amplitude of a term."""
+        place = self.joined.blocks[key].start
+        return float(self.information[place, place])
+
     @cached_property
     def information(self) -> Array:
         """The information (n, n) of all samples on smooth forces and effects, the rest integrated; zero elsewhere."""
@@ -370,9 +375,8 @@ def measure_levels(simulated: Fit, keys: Sequence[str], samples: int) -> list[Ra
     for forecast in others:
         left = {}
         for key in first.effects.keys() & forecast.effects.keys():
-            place = first.joined.blocks[key].start
-            before = first.information[place, place]
-            left[key] = float(np.clip(forecast.information[place, place] / before, 0.0, 1.0)) if before > 0.0 else 1.0
+            before, after = first.tell(key), forecast.tell(key)
+            left[key] = float(np.clip(after / before, 0.0, 1.0)) if before > 0.0 else 1.0
         cost = first.found.expansion.here.log_likelihood - forecast.found.expansion.here.log_likelihood
         levels.append(RandomLevel(max(share * float(cost), 0.0), left, float(np.median(list(left.values()) or [1.0]))))
     return levels
