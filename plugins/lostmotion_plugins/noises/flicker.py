@@ -11,8 +11,8 @@ from lostmotion.contracts import Noise, NoiseBlock, NoiseParameter, SensorScales
 from lostmotion.results import rounded
 
 APART = 8.0
-"""The ratio of neighbouring time constants, of which the shortest is one sample: five cover three and a half decades,
-in which the spectrum is that of 1/f noise within 10 %."""
+"""The ratio of neighbouring time constants, of which the shortest is one sample: with five, the spectrum is that of 1/f
+noise within 10 % from 0.0002 to 0.05 of the sampling rate."""
 
 
 @dataclass(frozen=True)

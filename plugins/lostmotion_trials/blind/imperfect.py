@@ -147,8 +147,6 @@ def draw_world(kind: str, pilot: Pilot, rng: np.random.Generator) -> World:
     pace = math.sqrt(stiff / body.m)
     foot = stiff * draw_log_uniform(rng, 50.0, 500.0)
     flaws = {
-        "position": _measure_scale(pilot.q),
-        "velocity": _measure_scale(pilot.v),
         "foot": foot,
         "foot_drag": foot * float(rng.uniform(0.03, 0.1)) / pace,
         "far_pace": float(rng.uniform(6.0, 15.0)) * pace,
@@ -170,7 +168,7 @@ def draw_world(kind: str, pilot: Pilot, rng: np.random.Generator) -> World:
         hum_pace=float(rng.uniform(0.1, 2.5)) * rig.rate,
         step=draw_log_uniform(rng, 0.1, 2.0),
     )
-    return replace(made, curves=_tabulate_curves(made, pilot, rng))
+    return follow_motion(made, pilot, rng)
 
 
 def follow_motion(world: World, pilot: Pilot, rng: np.random.Generator) -> World:
